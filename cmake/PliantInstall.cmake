@@ -1,0 +1,19 @@
+# The library as a package: find_package(pliant), target pliant::pliant; and the program.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pliant)
+
+install(TARGETS pliant EXPORT pliant_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT pliant_targets NAMESPACE pliant:: DESTINATION ${package_dir})
+if(TARGET pliant_app)
+  install(TARGETS pliant_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+# Headers include each other from src/ and from shaders/compute/.
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "app" EXCLUDE)
+install(DIRECTORY shaders/compute/physics DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders)
+
+configure_package_config_file(cmake/pliantConfig.cmake.in ${CMAKE_BINARY_DIR}/pliantConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/pliantConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/pliantConfig.cmake ${CMAKE_BINARY_DIR}/pliantConfigVersion.cmake DESTINATION ${package_dir})
