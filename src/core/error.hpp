@@ -1,0 +1,24 @@
+// The one exception type: what is wrong, where, and how to mend it.
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace pliant {
+
+/// What kind of thing went wrong; the values are the program's exit codes.
+enum class ErrorKind { command_line = 2, input = 3, device = 4 };
+
+/// Thrown only while loading and building, never while stepping.
+class Error : public std::runtime_error {
+ public:
+  /// `where` names a file, line, field or element and may be empty; `remedy` says what to do about it.
+  Error(ErrorKind kind, const std::string& where, const std::string& what, const std::string& remedy)
+      : std::runtime_error((where.empty() ? "" : where + ": ") + what + (remedy.empty() ? "" : "; " + remedy)), kind_(kind) {}
+
+  [[nodiscard]] ErrorKind kind() const { return kind_; }
+
+ private:
+  ErrorKind kind_;
+};
+
+}  // namespace pliant
