@@ -1,0 +1,106 @@
+#include "mesh/generators.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace pliant {
+namespace {
+
+// Adds the midpoints of edges, each once, pushed out to the unit sphere.
+class MidpointTable {
+ public:
+  explicit MidpointTable(std::vector<glm::dvec3>& positions) : positions_(positions) {}
+
+  std::uint32_t midpoint(std::uint32_t a, std::uint32_t b) {
+    const auto [entry, is_new] = midpoints_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(positions_.size()));
+    if (is_new) positions_.push_back(glm::normalize(positions_[a] + positions_[b]));
+    return entry->second;
+  }
+
+ private:
+  std::vector<glm::dvec3>& positions_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> midpoints_;
+};
+
+TriangleMesh icosahedron() {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {  // the cyclic permutations of (0, +-1, +-golden ratio)
+    for (int signs = 0; signs < 4; ++signs) {
+      glm::dvec3 corner(0.0);
+      corner[(axis + 1) % 3] = (signs & 1) != 0 ? -1.0 : 1.0;
+      corner[(axis + 2) % 3] = (signs & 2) != 0 ? -std::numbers::phi : std::numbers::phi;
+      mesh.positions.push_back(glm::normalize(corner));
+    }
+  }
+  mesh.triangles = {{0, 1, 4},   {0, 6, 1},   {0, 4, 8}, {0, 9, 6},  {0, 8, 9}, {1, 10, 4}, {1, 6, 11},
+                    {1, 11, 10}, {2, 5, 3},   {2, 3, 7}, {2, 8, 5},  {2, 7, 9}, {2, 9, 8},  {3, 5, 10},
+                    {3, 11, 7},  {3, 10, 11}, {4, 5, 8}, {4, 10, 5}, {6, 9, 7}, {6, 7, 11}};
+  return mesh;
+}
+
+TriangleMesh subdivide(const TriangleMesh& coarse) {
+  TriangleMesh fine{coarse.positions, {}};
+  MidpointTable midpoints(fine.positions);
+  for (const auto& [a, b, c] : coarse.triangles) {
+    const std::uint32_t ab = midpoints.midpoint(a, b), bc = midpoints.midpoint(b, c), ca = midpoints.midpoint(c, a);
+    fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  return fine;
+}
+
+constexpr int max_subdivisions = 7;
+
+TriangleMesh icosphere(std::string_view description, std::string_view argument) {
+  int subdivisions = -1;
+  const auto [end, status] = std::from_chars(argument.data(), argument.data() + argument.size(), subdivisions);
+  const bool whole = status == std::errc() && end == argument.data() + argument.size();
+  if (!whole || subdivisions < 0 || subdivisions > max_subdivisions)
+    throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description),
+                fmt::format("\"{}\" is no number of subdivisions", argument),
+                fmt::format("write icosphere:n with a whole number n from 0 to {}", max_subdivisions));
+  TriangleMesh mesh = icosahedron();
+  for (int i = 0; i < subdivisions; ++i) mesh = subdivide(mesh);
+  return mesh;
+}
+
+struct Generator {
+  std::string_view name, form;
+  TriangleMesh (*generate)(std::string_view description, std::string_view argument);
+};
+
+constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere}};
+
+std::string list_forms() {
+  std::string forms;
+  for (const Generator& generator : generators) forms += fmt::format("{}{}", forms.empty() ? "" : ", ", generator.form);
+  return forms;
+}
+
+}  // namespace
+
+bool is_generator(std::string_view description) {
+  const std::size_t colon = description.find(':');
+  if (colon == std::string_view::npos || colon < 2 || description.ends_with(".obj")) return false;  // a drive has one letter
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return std::ranges::all_of(description.substr(0, colon), is_letter);
+}
+
+TriangleMesh generate_mesh(std::string_view description) {
+  const std::string_view name = description.substr(0, description.find(':'));
+  const auto found = std::ranges::find(generators, name, &Generator::name);
+  if (found == std::end(generators))
+    throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description), fmt::format("there is no generator \"{}\"", name),
+                fmt::format("what exists: {}", list_forms()));
+  const bool has_argument = name.size() < description.size();
+  return found->generate(description, has_argument ? description.substr(name.size() + 1) : std::string_view());
+}
+
+}  // namespace pliant

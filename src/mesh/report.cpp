@@ -1,0 +1,216 @@
+#include "mesh/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+#include <tuple>
+
+namespace pliant {
+namespace {
+
+// Sets of indices that grow by joining (union-find).
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) {
+    parent_.reserve(count);
+    for (std::size_t index = 0; index < count; ++index) parent_.push_back(index);
+  }
+  std::size_t find(std::size_t index) {
+    while (parent_[index] != index) index = parent_[index] = parent_[parent_[index]];
+    return index;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// One side of a triangle. Corner 3 t + k is corner k of triangle t.
+struct Side {
+  std::uint32_t low, high;              // its vertices
+  std::size_t low_corner, high_corner;  // its triangle's corners at them
+  bool forward;                         // runs from low to high
+};
+
+std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(mesh.triangles.size() * 3);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t from = 3 * t + k, to = 3 * t + (k + 1) % 3;
+      const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      if (a != b) sides.push_back(a < b ? Side{a, b, from, to, true} : Side{b, a, to, from, false});
+    }
+  }
+  std::ranges::stable_sort(sides, {}, [](const Side& side) { return std::tuple(side.low, side.high); });
+  return sides;
+}
+
+/// Calls visit(sides of one edge) for every edge.
+template <typename Visit>
+void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
+  for (auto first = sides.begin(); first != sides.end();) {
+    const auto end =
+        std::find_if(first, sides.end(), [&](const Side& s) { return s.low != first->low || s.high != first->high; });
+    visit(std::span(first, end));
+    first = end;
+  }
+}
+
+void count_edges(const std::vector<Side>& sides, MeshReport& report) {
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    ++report.edge_count;
+    if (edge.size() == 1) ++report.boundary_edge_count;
+    if (edge.size() > 2) ++report.non_manifold_edge_count;
+    if (edge.size() == 2 && edge[0].forward == edge[1].forward) ++report.inconsistent_edge_count;
+  });
+}
+
+std::size_t count_components(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.positions.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    sets.join(a, b);
+    sets.join(b, c);
+  }
+  std::size_t count = 0;
+  for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) count += sets.find(vertex) == vertex ? 1 : 0;
+  return count;
+}
+
+/// A fan is the corners at one vertex that are joined through shared edges.
+std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const std::vector<Side>& sides) {
+  DisjointSets fans(mesh.triangles.size() * 3);
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    for (const Side& side : edge) {
+      fans.join(edge[0].low_corner, side.low_corner);
+      fans.join(edge[0].high_corner, side.high_corner);
+    }
+  });
+  std::vector<std::size_t> fan_count(mesh.positions.size(), 0);
+  for (std::size_t corner = 0; corner < mesh.triangles.size() * 3; ++corner)
+    if (fans.find(corner) == corner) ++fan_count[mesh.triangles[corner / 3][corner % 3]];
+  return static_cast<std::size_t>(std::ranges::count_if(fan_count, [](std::size_t count) { return count > 1; }));
+}
+
+std::size_t count_duplicate_positions(const TriangleMesh& mesh) {
+  std::set<std::tuple<double, double, double>> distinct;
+  for (const glm::dvec3& p : mesh.positions) distinct.emplace(p.x, p.y, p.z);
+  return mesh.positions.size() - distinct.size();
+}
+
+struct Corners {
+  glm::dvec3 a, b, c;
+};
+
+Corners corners(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  return {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
+}
+
+double largest_component(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+bool has_zero_area(const Corners& t) {
+  const double size = std::max(largest_component(t.b - t.a), largest_component(t.c - t.a));
+  if (size == 0) return true;
+  const glm::dvec3 ab = (t.b - t.a) / size, ac = (t.c - t.a) / size;  // squares of tiny edges would underflow
+  const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
+  return 0.5 * glm::length(glm::cross(ab, ac)) < 1e-12 * longest * longest;
+}
+
+void measure(const TriangleMesh& mesh, MeshReport& report) {
+  if (mesh.positions.empty()) return;
+  report.lowest = report.highest = mesh.positions[0];
+  for (const glm::dvec3& p : mesh.positions) {
+    report.lowest = glm::min(report.lowest, p);
+    report.highest = glm::max(report.highest, p);
+  }
+  const glm::dvec3 centre = 0.5 * (report.lowest + report.highest);  // volumes about it lose fewer digits
+  double volume = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const auto [a, b, c] = corners(mesh, triangle);
+    report.area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    volume += glm::dot(a - centre, glm::cross(b - centre, c - centre)) / 6;
+  }
+  if (report.closed && report.inconsistent_edge_count == 0) report.volume = volume;
+}
+
+const char* yes_no(bool value) { return value ? "yes" : "no"; }
+
+}  // namespace
+
+std::size_t count_zero_area_triangles(const TriangleMesh& mesh) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(mesh.triangles, [&](const auto& triangle) { return has_zero_area(corners(mesh, triangle)); }));
+}
+
+MeshReport report_mesh(const TriangleMesh& mesh) {
+  MeshReport report;
+  report.vertex_count = mesh.positions.size();
+  report.triangle_count = mesh.triangles.size();
+  const std::vector<Side> sides = sorted_sides(mesh);
+  count_edges(sides, report);
+  report.component_count = count_components(mesh);
+  report.non_manifold_vertex_count = count_non_manifold_vertices(mesh, sides);
+  report.duplicate_position_count = count_duplicate_positions(mesh);
+  report.zero_area_triangle_count = count_zero_area_triangles(mesh);
+  report.closed = report.boundary_edge_count == 0 && report.triangle_count > 0;
+  report.manifold = report.non_manifold_edge_count == 0 && report.non_manifold_vertex_count == 0;
+  report.euler_characteristic =
+      static_cast<long>(report.vertex_count) - static_cast<long>(report.edge_count) + static_cast<long>(report.triangle_count);
+  if (report.closed && report.manifold && report.inconsistent_edge_count == 0)
+    report.genus = static_cast<long>(report.component_count) - report.euler_characteristic / 2;
+  measure(mesh, report);
+  return report;
+}
+
+std::string to_text(const MeshReport& r) {
+  std::string text = fmt::format("vertices              {}\ntriangles             {}\nedges                 {}\n", r.vertex_count,
+                                 r.triangle_count, r.edge_count);
+  text += fmt::format("components            {}\n", r.component_count);
+  text += fmt::format("closed                {} ({} boundary edges)\n", yes_no(r.closed), r.boundary_edge_count);
+  text += fmt::format("manifold              {} ({} edges and {} vertices are not)\n", yes_no(r.manifold),
+                      r.non_manifold_edge_count, r.non_manifold_vertex_count);
+  text += fmt::format("consistent winding    {} ({} edges are not)\n", yes_no(r.inconsistent_edge_count == 0),
+                      r.inconsistent_edge_count);
+  text += fmt::format("duplicate positions   {}\n", r.duplicate_position_count);
+  text += fmt::format("zero-area triangles   {}\n", r.zero_area_triangle_count);
+  text += fmt::format("Euler characteristic  {}\n", r.euler_characteristic);
+  text += r.genus ? fmt::format("genus                 {}\n", *r.genus) : "";
+  text += fmt::format("bounding box          {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", r.lowest.x, r.lowest.y, r.lowest.z,
+                      r.highest.x, r.highest.y, r.highest.z);
+  text += fmt::format("area                  {:.6g}\n", r.area);
+  text += r.volume ? fmt::format("enclosed volume       {:.6g}\n", *r.volume) : "";
+  return text;
+}
+
+std::string to_json(const MeshReport& r) {
+  using nlohmann::ordered_json;
+  const ordered_json json = {
+      {"vertices", r.vertex_count},
+      {"triangles", r.triangle_count},
+      {"edges", r.edge_count},
+      {"components", r.component_count},
+      {"closed", r.closed},
+      {"manifold", r.manifold},
+      {"boundary_edges", r.boundary_edge_count},
+      {"non_manifold_edges", r.non_manifold_edge_count},
+      {"non_manifold_vertices", r.non_manifold_vertex_count},
+      {"inconsistent_edges", r.inconsistent_edge_count},
+      {"duplicate_positions", r.duplicate_position_count},
+      {"zero_area_triangles", r.zero_area_triangle_count},
+      {"euler_characteristic", r.euler_characteristic},
+      {"genus", r.genus ? ordered_json(*r.genus) : ordered_json()},
+      {"lowest", {r.lowest.x, r.lowest.y, r.lowest.z}},
+      {"highest", {r.highest.x, r.highest.y, r.highest.z}},
+      {"area", r.area},
+      {"volume", r.volume ? ordered_json(*r.volume) : ordered_json()},
+  };
+  return json.dump(2) + "\n";
+}
+
+}  // namespace pliant

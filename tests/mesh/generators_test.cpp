@@ -1,0 +1,73 @@
+#include "mesh/generators.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "mesh/report.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+
+TEST_CASE("an icosphere has 10 * 4^n + 2 vertices on the unit sphere and no defect") {
+  for (int n = 0; n <= 5; ++n) {
+    CAPTURE(n);
+    const TriangleMesh mesh = generate_mesh("icosphere:" + std::to_string(n));
+    const MeshReport report = report_mesh(mesh);
+    CHECK(report.vertex_count == 10u * (1u << (2 * n)) + 2);
+    CHECK(report.triangle_count == 20u * (1u << (2 * n)));
+    CHECK((report.closed && report.manifold && report.genus == 0 && report.component_count == 1));
+    CHECK((report.inconsistent_edge_count == 0 && report.duplicate_position_count == 0 && report.zero_area_triangle_count == 0));
+    double largest_error = 0;
+    for (const glm::dvec3& p : mesh.positions) largest_error = std::max(largest_error, std::abs(glm::length(p) - 1));
+    CHECK(largest_error < 4e-16);
+  }
+}
+
+TEST_CASE("an icosphere's triangles wind counter-clockwise seen from outside") {
+  const TriangleMesh mesh = generate_mesh("icosphere:3");
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const glm::dvec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    REQUIRE(glm::dot(normal, mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) > 0);
+  }
+}
+
+TEST_CASE("an icosphere's volume and area approach the sphere's with the square of the edge") {
+  const auto missing = [](const char* description) {
+    const MeshReport report = report_mesh(generate_mesh(description));
+    return std::array{4 * std::numbers::pi / 3 - *report.volume, 4 * std::numbers::pi - report.area};
+  };
+  const auto coarse = missing("icosphere:3"), fine = missing("icosphere:4");
+  CHECK(coarse[0] / fine[0] == Approx(4).epsilon(0.02));
+  CHECK(coarse[1] / fine[1] == Approx(4).epsilon(0.02));
+}
+
+TEST_CASE("the icosahedron's corners are the cyclic permutations of (0, +-1, +-golden ratio)") {
+  for (const glm::dvec3& p : generate_mesh("icosphere:0").positions) {
+    int zero = 0;
+    while (zero < 2 && p[zero] != 0) ++zero;
+    REQUIRE(p[zero] == 0);
+    CHECK(std::abs(p[(zero + 2) % 3] / p[(zero + 1) % 3]) == Approx(std::numbers::phi));
+  }
+}
+
+TEST_CASE("an unknown generator or a bad argument is an input error that lists what exists") {
+  for (const char* description : {"cube:3", "icosphere:", "icosphere:8", "icosphere:-1", "icosphere:2.5", "icosphere:two",
+                                  "icosphere:3 ", "icosphere:99999999999", "icosphere"}) {
+    CAPTURE(description);
+    const Error error = error_of([&] { return generate_mesh(description); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {description, "icosphere:n"});
+  }
+}
+
+TEST_CASE("a generator's description is told from a path") {
+  CHECK(is_generator("icosphere:3"));
+  CHECK(is_generator("cube:1"));
+  for (const char* path : {"bunny.obj", "../meshes/bunny.obj", "C:\\meshes\\bunny.obj", "./icosphere:3", "a:b.obj", ""}) {
+    CAPTURE(path);
+    CHECK_FALSE(is_generator(path));
+  }
+}
+
+}  // namespace pliant
