@@ -1,0 +1,47 @@
+#include "model/load_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "mesh/load.hpp"
+#include "mesh/weld.hpp"
+
+namespace pliant {
+namespace {
+
+/// The scene gives the distance in metres; welding comes before scaling.
+void weld_as_described(const BodyDescription& body, LoadedMesh& loaded) {
+  if (!body.weld || *body.weld == 0) return;
+  WeldedMesh welded = weld(loaded.mesh, *body.weld / body.scale);
+  if (welded.mesh.triangles.empty())
+    throw Error(ErrorKind::input, "", fmt::format("welding at {} m leaves no triangles", *body.weld),
+                "weld at a smaller distance");
+  if (welded.dropped_triangle_count > 0)
+    loaded.warnings.push_back(fmt::format("{} triangles collapsed in welding and were left out", welded.dropped_triangle_count));
+  loaded.mesh = std::move(welded.mesh);
+}
+
+LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder) {
+  try {
+    LoadedMesh loaded = load_mesh(body.mesh, folder);
+    weld_as_described(body, loaded);
+    return loaded;
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: body.{}.mesh", body.where, body.name), error.what(), "");
+  }
+}
+
+}  // namespace
+
+std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings) {
+  std::vector<BodySetup> setups;
+  for (const BodyDescription& body : scene.bodies) {
+    LoadedMesh loaded = load_one(body, scene.file.parent_path());
+    if (warnings != nullptr)
+      for (const std::string& warning : loaded.warnings) warnings->push_back(fmt::format("{}: {}", body.name, warning));
+    setups.push_back({std::move(loaded.mesh), body});
+  }
+  return setups;
+}
+
+}  // namespace pliant

@@ -1,0 +1,14 @@
+// Loads and welds the meshes that a scene names.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace pliant {
+
+/// One setup a body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings, each beginning
+/// with its body's name, unless `warnings` is null. Throws Error (input) naming the body's place in the scene file.
+[[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr);
+
+}  // namespace pliant

@@ -1,0 +1,171 @@
+// Bodies from meshes. World position of mesh vertex v: position + R (centroid + stretch * (scale v - centroid)).
+#include "model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "core/error.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double largest_coordinate = 1e9;  // [m]
+
+glm::dvec3 load(const std::vector<double>& array, std::size_t first) {
+  return {array[first], array[first + 1], array[first + 2]};
+}
+
+glm::dvec3 mean(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+std::vector<glm::dvec3> scaled_positions(const BodySetup& setup) {
+  std::vector<glm::dvec3> positions = setup.mesh.positions;
+  for (glm::dvec3& position : positions) position *= setup.description.scale;
+  return positions;
+}
+
+/// Rz Ry Rx for angles in degrees about fixed axes.
+glm::dquat rotation_of(const glm::dvec3& degrees) {
+  const glm::dvec3 angle = glm::radians(degrees);
+  const glm::dquat about_x = glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
+  const glm::dquat about_y = glm::angleAxis(angle.y, glm::dvec3(0, 1, 0));
+  const glm::dquat about_z = glm::angleAxis(angle.z, glm::dvec3(0, 0, 1));
+  return glm::normalize(about_z * about_y * about_x);
+}
+
+physics::Frame make_frame(const glm::dvec3& origin, const glm::dquat& q, const glm::dvec3& gravity) {
+  physics::Frame frame{};
+  const glm::dmat3 rotation = glm::mat3_cast(q);  // columns first
+  const glm::dvec3 local_gravity = glm::transpose(rotation) * gravity;
+  STORE3(frame.origin, 0, origin);
+  STORE3(frame.gravity, 0, local_gravity);
+  for (int i = 0; i < 4; ++i) frame.quaternion[i] = glm::dvec4(q.x, q.y, q.z, q.w)[i];
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) frame.rotation[3 * row + column] = rotation[column][row];
+  for (int i = 0; i < 3; ++i) frame.turn[4 * i] = 1.0;
+  frame.force_stale = 1;
+  return frame;
+}
+
+ModelBody describe_body(const BodySetup& setup, const Model& model) {
+  const BodyDescription& description = setup.description;
+  const double n = static_cast<double>(setup.mesh.positions.size());
+  ModelBody body;
+  body.name = description.name;
+  body.first_vertex = model.vertex_count();
+  body.vertex_count = static_cast<std::uint32_t>(setup.mesh.positions.size());
+  body.first_triangle = static_cast<std::uint32_t>(model.triangles.size());
+  body.triangle_count = static_cast<std::uint32_t>(setup.mesh.triangles.size());
+  body.stiffness = description.total_stiffness ? *description.total_stiffness / (n * n) : description.stiffness;
+  body.vertex_mass = description.total_mass ? *description.total_mass / n : description.vertex_mass;
+  body.damping = description.damping;
+  body.color = description.color;
+  return body;
+}
+
+glm::dvec3 rest_position(const Model& model, std::size_t vertex) { return glm::dvec3(model.rest_positions[vertex]); }
+
+/// Appends the body's rest shape, centred on `centroid`.
+void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positions, const glm::dvec3& centroid, Model& model) {
+  ModelBody body = describe_body(setup, model);
+  const auto index = static_cast<float>(model.bodies.size());
+  for (const glm::dvec3& position : positions) {
+    model.rest_positions.emplace_back(glm::vec3(position - centroid), index);
+    body.radius = std::max(body.radius, glm::length(rest_position(model, model.rest_positions.size() - 1)));
+  }
+  for (const auto& [a, b, c] : setup.mesh.triangles)
+    model.triangles.push_back({body.first_vertex + a, body.first_vertex + b, body.first_vertex + c});
+  model.bodies.push_back(std::move(body));
+}
+
+/// Appends the motion of the body that was added last: stretched, moving and spinning about its world centroid.
+void append_motion(const BodyDescription& description, const Model& model, State& state) {
+  const ModelBody& body = model.bodies.back();
+  const physics::Frame& frame = state.frames.back();
+  std::vector<glm::dvec3> displacements, world;
+  for (std::size_t i = 0; i < body.vertex_count; ++i) {
+    const glm::dvec3 rest = rest_position(model, body.first_vertex + i);
+    displacements.push_back((description.stretch - 1.0) * rest);
+    world.push_back(physics::to_world(frame, rest + displacements.back()));
+  }
+  const glm::dvec3 centroid = mean(world);
+  const glm::dquat q(frame.quaternion[3], frame.quaternion[0], frame.quaternion[1], frame.quaternion[2]);
+  const glm::dmat3 to_frame = glm::transpose(glm::mat3_cast(q));
+  for (std::size_t i = 0; i < body.vertex_count; ++i) {
+    const glm::dvec3 velocity = description.velocity + glm::cross(description.spin, world[i] - centroid);
+    const glm::dvec3 u = displacements[i], w = to_frame * velocity;
+    state.motion.insert(state.motion.end(), {u.x, u.y, u.z, w.x, w.y, w.z});
+  }
+}
+
+[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
+  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
+}
+
+/// NaN counts as out of reach too.
+bool out_of_reach(const glm::dvec3& value) {
+  const glm::dvec3 size = glm::abs(value);
+  return !(size.x <= largest_coordinate && size.y <= largest_coordinate && size.z <= largest_coordinate);
+}
+
+void check_start(std::span<const BodySetup> setups, const ModelAndState& built) {
+  const std::vector<glm::dvec3> positions = built.state.world_positions(built.model);
+  const std::vector<glm::dvec3> velocities = built.state.world_velocities(built.model);
+  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
+    const BodyDescription& body = setups[static_cast<std::size_t>(built.model.rest_positions[vertex].w)].description;
+    if (out_of_reach(positions[vertex]))
+      fail(body, fmt::format("vertices stand beyond {} m", largest_coordinate), "use a smaller scale, stretch or position");
+    if (out_of_reach(velocities[vertex]))
+      fail(body, fmt::format("vertices move faster than {} m/s", largest_coordinate), "use a smaller velocity or spin");
+  }
+}
+
+void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
+  const BodyDescription& description = setup.description;
+  if (setup.mesh.positions.empty()) fail(description, "the mesh has no vertices", "use a mesh with a surface");
+  const std::vector<glm::dvec3> positions = scaled_positions(setup);
+  const glm::dvec3 centroid = mean(positions);
+  const glm::dquat rotation = rotation_of(description.rotation);
+  append_shape(setup, positions, centroid, built.model);
+  built.state.frames.push_back(make_frame(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
+  append_motion(description, built.model, built.state);
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> State::world_positions(const Model& model) const {
+  std::vector<glm::dvec3> positions;
+  for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
+    const physics::Frame& frame = frames[static_cast<std::size_t>(model.rest_positions[vertex].w)];
+    positions.push_back(physics::to_world(frame, rest_position(model, vertex) + load(motion, 6 * vertex)));
+  }
+  return positions;
+}
+
+std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
+  std::vector<glm::dvec3> velocities;
+  for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
+    const physics::Frame& frame = frames[static_cast<std::size_t>(model.rest_positions[vertex].w)];
+    velocities.push_back(physics::rotate(frame, load(motion, 6 * vertex + 3)));
+  }
+  return velocities;
+}
+
+ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity) {
+  ModelAndState built;
+  for (const BodySetup& setup : setups) append_body(setup, gravity, built);
+  check_start(setups, built);
+  return built;
+}
+
+}  // namespace pliant

@@ -1,0 +1,61 @@
+// The simulated bodies: what never changes (Model) and what does (State). Flat arrays over all bodies; a body is a range.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/triangle_mesh.hpp"
+#include "physics/body.glsl"
+#include "scene/scene_description.hpp"
+
+namespace pliant {
+
+struct ModelBody {
+  std::string name;
+  std::uint32_t first_vertex = 0, vertex_count = 0;
+  std::uint32_t first_triangle = 0, triangle_count = 0;
+  double stiffness = 0;    // k of every pair's spring [N/m]
+  double vertex_mass = 1;  // [kg]
+  double damping = 0;      // c [kg/s]
+  double radius = 0;       // largest distance of a rest position from the centroid [m]
+  glm::dvec3 color{1.0};   // linear RGB
+};
+
+struct Model {
+  std::vector<ModelBody> bodies;
+  std::vector<glm::vec4> rest_positions;  // xyz: centred on the body's centroid, in its frame, rounded once [m]; w: body index
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into rest_positions
+
+  [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_positions.size()); }
+};
+
+/// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.
+struct State {
+  std::vector<physics::Frame> frames;  // one a body
+  std::vector<double> motion;          // 6 a vertex: u [m], w [m/s]
+
+  /// World position [m] and velocity [m/s] of every vertex, in fp64.
+  [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;
+  [[nodiscard]] std::vector<glm::dvec3> world_velocities(const Model& model) const;
+};
+
+/// One body's mesh with its place and material.
+struct BodySetup {
+  TriangleMesh mesh;  // before scaling; may have no triangles
+  BodyDescription description;
+};
+
+struct ModelAndState {
+  Model model;
+  State state;
+};
+
+/// Builds bodies from meshes: scale, stretch about the centroid, rotate about the mesh's origin, translate.
+/// Throws Error when a mesh has no vertices or a number comes out non-finite.
+[[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity);
+
+}  // namespace pliant

@@ -1,0 +1,453 @@
+// One table reader that checks types and ranges and remembers which keys it was asked for, and below it one line a key.
+#include "scene/load_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/read_text.hpp"
+
+namespace pliant {
+struct TomlAssertion {};
+[[noreturn]] static void fail_toml_assertion() { throw TomlAssertion(); }
+}  // namespace pliant
+
+// toml++ 3.3 takes some malformed keys, such as [.a], for bugs of its own: an assertion, or undefined behaviour under NDEBUG.
+#undef NDEBUG
+#define TOML_ASSERT(condition) ((condition) ? void() : pliant::fail_toml_assertion())
+#include <toml++/toml.h>
+
+namespace pliant {
+namespace {
+
+// ---- Errors ----
+
+const std::string override_prefix = "--set ";
+
+bool is_override(const toml::node& node) { return node.source().path && node.source().path->starts_with(override_prefix); }
+
+/// "file:line", or the override that made the node.
+std::string place_of(const toml::node& node) {
+  const toml::source_region& source = node.source();
+  if (!source.path) return "scene";
+  return is_override(node) ? *source.path : fmt::format("{}:{}", *source.path, source.begin.line);
+}
+
+[[noreturn]] void fail(const toml::node& node, const std::string& path, const std::string& what, const std::string& remedy) {
+  throw Error(is_override(node) ? ErrorKind::command_line : ErrorKind::input,
+              path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path), what, remedy);
+}
+
+std::string type_name(const toml::node& node) {
+  if (node.is_string()) return "a string";
+  if (node.is_integer()) return "a whole number";
+  if (node.is_floating_point()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  if (node.is_array()) return "an array";
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+/// Levenshtein's distance: how many letters to insert, drop or change.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The nearest name, unless nothing is near; then all of them.
+std::string suggest(std::string_view word, const std::vector<std::string>& names) {
+  const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(word, name); });
+  if (nearest != names.end() && edit_distance(word, *nearest) <= std::max<std::size_t>(2, word.size() / 3))
+    return fmt::format("did you mean \"{}\"?", *nearest);
+  return "known here: " + list(names);
+}
+
+// ---- Values ----
+
+struct Range {
+  double lowest, highest;
+  const char* text;  // what to write
+};
+
+constexpr Range positive{1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
+constexpr Range positive_or_auto{1e-30, 1e30, "a number above 0 (1e-30 to 1e30), or \"auto\""};
+constexpr Range not_negative{0, 1e30, "a number from 0 to 1e30"};
+constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
+constexpr Range fraction{0, 1, "a number from 0 to 1"};
+constexpr Range view_angle{1, 179, "a number from 1 to 179"};
+constexpr Range depth{1, 64, "a whole number from 1 to 64"};
+constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
+constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
+
+template <typename Enum>
+struct Choice {
+  const char* name;
+  Enum value;
+};
+
+void convert(const toml::node& node, const std::string& path, double& value, const Range& range) {
+  const std::optional<double> number = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!number) fail(node, path, fmt::format("is {}", type_name(node)), fmt::format("write {}", range.text));
+  if (!(*number >= range.lowest && *number <= range.highest))
+    fail(node, path, fmt::format("{} is out of range", *number), fmt::format("write {}", range.text));
+  value = *number;
+}
+
+void convert(const toml::node& node, const std::string& path, unsigned& value, const Range& range) {
+  double number = 0;
+  convert(node, path, number, range);
+  if (!node.is_integer()) fail(node, path, "is no whole number", fmt::format("write {}", range.text));
+  value = static_cast<unsigned>(number);
+}
+
+template <typename T, typename... How>
+void convert(const toml::node& node, const std::string& path, std::optional<T>& value, const How&... how) {
+  convert(node, path, value.emplace(), how...);
+}
+
+template <int length, typename T, glm::qualifier precision>
+void convert(const toml::node& node, const std::string& path, glm::vec<length, T, precision>& value, const Range& range) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != length)
+    fail(node, path, array ? fmt::format("has {} elements", array->size()) : fmt::format("is {}", type_name(node)),
+         fmt::format("write an array of {}, each {}", length, range.text));
+  for (int i = 0; i < length; ++i)
+    convert((*array)[static_cast<std::size_t>(i)], fmt::format("{}[{}]", path, i), value[i], range);
+}
+
+void convert(const toml::node& node, const std::string& path, std::string& value) {
+  const auto* text = node.as_string();
+  if (text == nullptr) fail(node, path, fmt::format("is {}", type_name(node)), "write a string in quotation marks");
+  const bool has_control = std::ranges::any_of(text->get(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  if (text->get().empty() || has_control) fail(node, path, "is empty or holds a control character", "write a plain line of text");
+  value = text->get();
+}
+
+void convert(const toml::node& node, const std::string& path, Named& named) {
+  convert(node, path, named.value);
+  named.where = fmt::format("{}: {}", place_of(node), path);
+}
+
+template <typename Enum>
+void convert(const toml::node& node, const std::string& path, Enum& value, const std::vector<Choice<Enum>>& choices) {
+  std::string name;
+  convert(node, path, name);
+  const auto found = std::ranges::find(choices, name, &Choice<Enum>::name);
+  std::vector<std::string> names;
+  for (const Choice<Enum>& choice : choices) names.emplace_back(choice.name);
+  if (found == choices.end()) fail(node, path, fmt::format("\"{}\" is no choice", name), "write one of " + list(names));
+  value = found->value;
+}
+
+// ---- Tables ----
+
+// Reads keys of one table. Whatever the table holds beyond them is an error in finish().
+class TableReader {
+ public:
+  TableReader(const toml::table& table, std::string path) : table_(table), path_(std::move(path)) {}
+
+  /// Leaves `value` as it is when the key is absent; `how` is a range or a list of choices.
+  template <typename T, typename... How>
+  void read(const char* key, T& value, const How&... how) {
+    if (const toml::node* node = find(key)) convert(*node, path_of(key), value, how...);
+  }
+
+  /// Reads the table below `key` by read_table(TableReader&, T&).
+  template <typename T>
+  void section(const char* key, T& value) {
+    if (const toml::node* node = find(key)) section(*node, path_of(key), value);
+  }
+
+  template <typename T>
+  void section(const char* key, std::optional<T>& value) {
+    if (const toml::node* node = find(key)) section(*node, path_of(key), value.emplace());
+  }
+
+  template <typename T>
+  static void section(const toml::node& node, const std::string& path, T& value) {
+    if (!node.is_table()) fail(node, path, fmt::format("is {}", type_name(node)), fmt::format("write a table, as in [{}]", path));
+    TableReader reader(*node.as_table(), path);
+    read_table(reader, value);
+    reader.finish();
+  }
+
+  void require(const char* key) const {
+    if (table_.get(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
+  }
+
+  void allow_one_of(const char* first, const char* second) const {
+    const toml::node* node = table_.get(second);
+    if (table_.get(first) != nullptr && node != nullptr)
+      fail(*node, path_of(second), fmt::format("can't stand beside {}", first), "keep one of them");
+  }
+
+  const toml::node* find(const char* key) {
+    known_.emplace_back(key);
+    return table_.get(key);
+  }
+
+  void finish() const {
+    for (const auto& [key, node] : table_)
+      if (std::ranges::find(known_, key.str()) == known_.end())
+        fail(node, path_of(key.str()), "unknown key", suggest(key.str(), known_));
+  }
+
+ private:
+  [[nodiscard]] std::string path_of(std::string_view key) const {
+    return fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key);
+  }
+
+  const toml::table& table_;
+  std::string path_;  // such as "collision.tree"
+  std::vector<std::string> known_;
+};
+
+// ---- The scene's keys ----
+
+const std::vector<Choice<DampingLaw>> damping_laws = {
+    {"none", DampingLaw::none}, {"constant", DampingLaw::constant}, {"adaptive", DampingLaw::adaptive}};
+const std::vector<Choice<ContactResponse>> responses = {{"none", ContactResponse::none}, {"reflect", ContactResponse::reflect}};
+const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
+const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
+                                                          {"moller", TriangleTest::moller}};
+const std::vector<Choice<TreeSplit>> splits = {{"centre", TreeSplit::centre}};
+const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
+
+void read_table(TableReader& table, SimulationDescription& simulation) {
+  table.read("integrator", simulation.integrator);
+  const toml::node* step = table.find("time_step");
+  const bool is_auto = step != nullptr && step->is_string() && step->as_string()->get() == "auto";
+  if (!is_auto) table.read("time_step", simulation.time_step, positive_or_auto);
+  table.read("duration", simulation.duration, not_negative);
+  table.read("damping_law", simulation.damping_law, damping_laws);
+  table.read("gravity", simulation.gravity, coordinate);
+}
+
+void read_table(TableReader& table, TreeDescription& tree) {
+  table.read("split", tree.split, splits);
+  table.read("max_depth", tree.max_depth, depth);
+  table.read("leaf_size", tree.leaf_size, triangle_count);
+}
+
+void read_table(TableReader& table, CollisionDescription& collision) {
+  table.read("response", collision.response, responses);
+  table.read("elasticity", collision.elasticity, fraction);
+  table.read("search", collision.search, searches);
+  table.read("triangle_test", collision.triangle_test, triangle_tests);
+  table.section("tree", collision.tree);
+}
+
+void read_table(TableReader& table, CameraDescription& camera) {
+  table.require("eye");
+  table.read("eye", camera.eye, coordinate);
+  table.read("target", camera.target, coordinate);
+  table.read("field_of_view", camera.field_of_view, view_angle);
+}
+
+void read_table(TableReader& table, OutputDescription& output) {
+  table.read("frame_rate", output.frame_rate, positive);
+  table.read("size", output.size, pixel_count);
+  table.section("camera", output.camera);
+  table.read("coloring", output.coloring, colorings);
+}
+
+void read_table(TableReader& table, BodyDescription& body) {
+  table.require("mesh");
+  table.read("name", body.name);
+  table.read("mesh", body.mesh);
+  table.read("weld", body.weld, not_negative);
+  table.read("scale", body.scale, positive);
+  table.read("position", body.position, coordinate);
+  table.read("rotation", body.rotation, coordinate);
+  table.read("velocity", body.velocity, coordinate);
+  table.read("spin", body.spin, coordinate);
+  table.read("stretch", body.stretch, coordinate);
+  table.allow_one_of("stiffness", "total_stiffness");
+  table.read("stiffness", body.stiffness, not_negative);
+  table.read("total_stiffness", body.total_stiffness, not_negative);
+  table.allow_one_of("vertex_mass", "total_mass");
+  table.read("vertex_mass", body.vertex_mass, positive);
+  table.read("total_mass", body.total_mass, positive);
+  table.read("damping", body.damping, not_negative);
+  table.read("color", body.color, fraction);
+}
+
+/// What a body's table calls itself, or "body0", "body1", ...
+std::string name_of(const toml::node& body, std::size_t index) {
+  const toml::table* table = body.as_table();
+  const toml::node* name = table != nullptr ? table->get("name") : nullptr;
+  return name != nullptr && name->is_string() ? name->as_string()->get() : fmt::format("body{}", index);
+}
+
+void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
+  if (!node.is_array()) fail(node, "body", fmt::format("is {}", type_name(node)), "begin each body with [[body]]");
+  for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
+    const toml::node& table = (*node.as_array())[i];
+    BodyDescription body;
+    body.name = name_of(table, i);
+    body.where = place_of(table);
+    TableReader::section(table, "body." + body.name, body);
+    if (std::ranges::find(bodies, body.name, &BodyDescription::name) != bodies.end())
+      fail(table, "body." + body.name, "the name is taken", "give each body a name of its own");
+    bodies.push_back(std::move(body));
+  }
+}
+
+void read_table(TableReader& table, SceneDescription& scene) {
+  table.read("title", scene.title);
+  table.section("simulation", scene.simulation);
+  table.section("collision", scene.collision);
+  table.section("output", scene.output);
+  if (const toml::node* bodies = table.find("body")) read_bodies(*bodies, scene.bodies);
+}
+
+// ---- Overrides ----
+
+[[noreturn]] void fail_override(const std::string& place, const std::string& what, const std::string& remedy) {
+  throw Error(ErrorKind::command_line, place, what, remedy);
+}
+
+const char* const override_form = "write section.key=value or body.NAME.key=value";
+
+bool is_bare_word(std::string_view text) {
+  return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=#") == std::string_view::npos;
+}
+
+/// A table whose only entry is "value"; `place` becomes every node's source.
+std::optional<toml::table> parse_value(const std::string& text, const std::string& place) {
+  try {
+    toml::table parsed = toml::parse("value = " + text, place);
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {  // the caller says what is wrong
+  } catch (const TomlAssertion&) {
+  }
+  return std::nullopt;
+}
+
+toml::table parse_value_or_word(const std::string& text, const std::string& place) {
+  std::optional<toml::table> parsed = parse_value(text, place);
+  if (!parsed && is_bare_word(text)) parsed = parse_value("'" + text + "'", place);
+  if (!parsed)
+    fail_override(place, "the value is no TOML", "put text with spaces in quotation marks, for the shell and for TOML");
+  return std::move(*parsed);
+}
+
+/// The table below `key`, made if it is absent.
+toml::table& table_below(toml::table& table, const std::string& key, const std::string& place) {
+  if (table.get(key) == nullptr) table.insert(key, toml::parse("", place));
+  toml::table* below = table.get(key)->as_table();
+  if (below == nullptr) fail_override(place, fmt::format("\"{}\" is no section", key), override_form);
+  return *below;
+}
+
+toml::table& find_body(toml::table& root, const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  if (toml::array* bodies = root.get_as<toml::array>("body")) {
+    for (std::size_t i = 0; i < bodies->size(); ++i) {
+      names.push_back(name_of((*bodies)[i], i));
+      if (names.back() == name && (*bodies)[i].is_table()) return *(*bodies)[i].as_table();
+    }
+  }
+  fail_override(place, fmt::format("there is no body \"{}\"", name), suggest(name, names));
+}
+
+std::vector<std::string> split_at_dots(std::string_view text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// The table that `key` (such as "collision.tree.max_depth") stands in. A body's name may contain dots.
+toml::table& table_of(toml::table& root, const std::string& key, const std::string& place) {
+  const std::size_t last_dot = key.rfind('.');
+  if (last_dot == std::string::npos) return root;
+  if (key.starts_with("body.")) {
+    if (last_dot < 5) fail_override(place, "names no body", override_form);
+    return find_body(root, key.substr(5, last_dot - 5), place);
+  }
+  toml::table* table = &root;
+  for (const std::string& part : split_at_dots(key.substr(0, last_dot))) table = &table_below(*table, part, place);
+  return *table;
+}
+
+std::string trim(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+void apply_override(toml::table& root, const std::string& text) {
+  const std::string place = override_prefix + text;
+  const std::size_t equals = text.find('=');
+  const std::string key = trim(text.substr(0, equals));
+  if (equals == std::string::npos || key.empty()) fail_override(place, "has no key or no \"=\"", override_form);
+  toml::table parsed = parse_value_or_word(trim(text.substr(equals + 1)), place);
+  toml::table& table = table_of(root, key, place);
+  parsed.get("value")->visit([&](auto& value) { table.insert_or_assign(key.substr(key.rfind('.') + 1), std::move(value)); });
+}
+
+/// The first line with which toml++'s assertion fails.
+std::size_t line_of_assertion(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1), ++line) {
+    try {
+      static_cast<void>(toml::parse(std::string_view(text).substr(0, end)));
+    } catch (const TomlAssertion&) {
+      break;
+    } catch (const toml::parse_error&) {  // a value that goes on in the next line
+    }
+  }
+  return line;
+}
+
+toml::table parse_file(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  const auto fail_at = [&](std::size_t line, const std::string& what) {
+    return Error(ErrorKind::input, fmt::format("{}:{}", file.string(), line), what, "correct the TOML");
+  };
+  try {
+    return toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw fail_at(error.source().begin.line, std::string(error.description()));
+  } catch (const TomlAssertion&) {
+    throw fail_at(line_of_assertion(text), "a malformed key");
+  }
+}
+
+}  // namespace
+
+SceneDescription load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  toml::table root = parse_file(file);
+  for (const std::string& text : overrides) apply_override(root, text);
+  SceneDescription scene;
+  scene.file = file;
+  TableReader::section(root, "", scene);
+  if (scene.bodies.empty()) throw Error(ErrorKind::input, file.string(), "has no body", "add a [[body]] with a mesh");
+  return scene;
+}
+
+}  // namespace pliant

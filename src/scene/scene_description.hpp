@@ -1,0 +1,89 @@
+// What a scene file says, checked for form and range, with every default filled in; nothing is loaded or built.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pliant {
+
+/// A value that a later layer resolves, with the place to name when it cannot.
+struct Named {
+  std::string value;
+  std::string where;  // "file:line: field"
+};
+
+enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
+enum class ContactResponse { none, reflect };
+enum class ContactSearch { tree, brute_force };
+enum class TriangleTest : unsigned { certified = 0, moller = 1 };
+enum class TreeSplit { centre };
+enum class Coloring { body, deformation };
+
+struct SimulationDescription {
+  Named integrator{"dop853", "simulation.integrator"};
+  std::optional<double> time_step;  // [s]; empty: automatic
+  double duration = 2.0;            // [s]
+  DampingLaw damping_law = DampingLaw::adaptive;
+  glm::dvec3 gravity{0.0};  // [m/s^2]
+};
+
+struct TreeDescription {
+  TreeSplit split = TreeSplit::centre;
+  std::optional<unsigned> max_depth;  // root is 0; empty: grows with the triangle count
+  unsigned leaf_size = 4;             // triangles
+};
+
+struct CollisionDescription {
+  ContactResponse response = ContactResponse::reflect;
+  double elasticity = 0.9;
+  ContactSearch search = ContactSearch::tree;
+  TriangleTest triangle_test = TriangleTest::certified;
+  TreeDescription tree;
+};
+
+struct CameraDescription {
+  glm::dvec3 eye{0.0};          // [m]
+  glm::dvec3 target{0.0};       // [m]
+  double field_of_view = 40.0;  // vertical [degrees]
+};
+
+struct OutputDescription {
+  double frame_rate = 60.0;                 // frames per simulated second
+  glm::uvec2 size{1280, 720};               // [pixels]
+  std::optional<CameraDescription> camera;  // empty: frames the scene
+  Coloring coloring = Coloring::body;
+};
+
+struct BodyDescription {
+  std::string name;
+  std::string mesh;                       // "generator:argument", or a path
+  std::string where;                      // "file:line", for errors about this body
+  std::optional<double> weld;             // [m]; empty: off
+  double scale = 1.0;                     // [m per mesh unit]
+  glm::dvec3 position{0.0};               // [m]
+  glm::dvec3 rotation{0.0};               // [degrees] about the fixed world axes: R = Rz Ry Rx
+  glm::dvec3 velocity{0.0};               // [m/s]
+  glm::dvec3 spin{0.0};                   // [rad/s] about the centroid
+  glm::dvec3 stretch{1.0};                // factors along the body's axes about its centroid
+  double stiffness = 40.0;                // k of every pair's spring [N/m]
+  std::optional<double> total_stiffness;  // [N/m]; k = total / N^2
+  double vertex_mass = 1.0;               // [kg]
+  std::optional<double> total_mass;       // [kg]; m = total / N
+  double damping = 1.0;                   // c [kg/s]
+  glm::dvec3 color{0.8, 0.4, 0.2};        // linear RGB, 0 to 1
+};
+
+struct SceneDescription {
+  std::string title;
+  std::filesystem::path file;  // mesh paths are relative to its folder
+  SimulationDescription simulation;
+  CollisionDescription collision;
+  OutputDescription output;
+  std::vector<BodyDescription> bodies;
+};
+
+}  // namespace pliant

@@ -1,0 +1,64 @@
+#include "model/load_bodies.hpp"
+
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+SceneDescription scene_with(const char* mesh) {
+  SceneDescription scene;
+  scene.file = PLIANT_SOURCE_DIR "/scenes/none.toml";
+  scene.bodies.resize(1);
+  scene.bodies[0].name = "pot";
+  scene.bodies[0].where = "none.toml:3";
+  scene.bodies[0].mesh = mesh;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh's path is relative to the scene file's folder") {
+  CHECK(load_bodies(scene_with("../meshes/bunny.obj"))[0].mesh.positions.size() == 1839);
+}
+
+TEST_CASE("the welding distance is in metres, whatever the scale") {
+  SceneDescription scene = scene_with("../meshes/teapot.obj");
+  scene.bodies[0].weld = 1e-6;
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    scene.bodies[0].scale = scale;
+    CHECK(load_bodies(scene)[0].mesh.positions.size() == 529);
+  }
+  scene.bodies[0].weld = 1.0;
+  const auto count = [&](double scale) {
+    scene.bodies[0].scale = scale;
+    return load_bodies(scene)[0].mesh.positions.size();
+  };
+  CHECK(count(1.0) < count(2.0));
+}
+
+TEST_CASE("a warning begins with its body's name") {
+  SceneDescription scene = scene_with("../meshes/teapot.obj");
+  scene.bodies[0].weld = 1.0;
+  std::vector<std::string> warnings;
+  static_cast<void>(load_bodies(scene, &warnings));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Catch::StartsWith("pot: "));
+  CHECK_THAT(warnings[0], Catch::Contains("collapsed"));
+}
+
+TEST_CASE("a mesh that can't be had is an input error that names the body's place in the scene") {
+  for (const char* mesh : {"no/such.obj", "cube:3", "icosphere:9"}) {
+    CAPTURE(mesh);
+    const Error error = error_of([&] { return load_bodies(scene_with(mesh)); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {"none.toml:3: body.pot.mesh: ", mesh});
+  }
+}
+
+TEST_CASE("welding everything into one vertex is an input error") {
+  SceneDescription scene = scene_with("icosphere:1");
+  scene.bodies[0].weld = 100;
+  check_says(error_of([&] { return load_bodies(scene); }), {"none.toml:3: body.pot.mesh: ", "leaves no triangles"});
+}
+
+}  // namespace pliant

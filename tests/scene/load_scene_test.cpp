@@ -1,0 +1,279 @@
+#include "scene/load_scene.hpp"
+
+#include <fstream>
+
+#include "output/scratch.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+const std::string smallest = "[[body]]\nmesh = \"icosphere:1\"\n";
+
+SceneDescription load_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder.path / "scene.toml";
+  std::ofstream(file, std::ios::binary) << text;
+  return load_scene(file, overrides);
+}
+
+void check_input_error(const std::string& text, int line, std::initializer_list<const char*> parts) {
+  CAPTURE(text);
+  const Error error = error_of([&] { return load_text(text); });
+  CHECK(error.kind() == ErrorKind::input);
+  CHECK_THAT(std::string(error.what()), Catch::Contains("scene.toml:" + std::to_string(line) + ":"));
+  check_says(error, parts);
+  check_says(error, {"; "});
+}
+
+void check_override_error(const std::string& text, const char* override_text, std::initializer_list<const char*> parts) {
+  CAPTURE(override_text);
+  const Error error = error_of([&] { return load_text(text, {override_text}); });
+  CHECK(error.kind() == ErrorKind::command_line);
+  check_says(error, {"--set ", override_text, "; "});
+  check_says(error, parts);
+}
+
+const std::string two_named =
+    "[[body]]\nname = \"left\"\nmesh = \"icosphere:1\"\nstiffness = 40\n[[body]]\nmesh = \"icosphere:2\"\n";
+
+}  // namespace
+
+TEST_CASE("a body with a mesh is a scene, and all else has the documented default") {
+  const SceneDescription scene = load_text(smallest);
+  CHECK(scene.title.empty());
+  CHECK(scene.file.filename() == "scene.toml");
+  CHECK(scene.simulation.integrator.value == "dop853");
+  CHECK_FALSE(scene.simulation.time_step);
+  CHECK(scene.simulation.duration == 2.0);
+  CHECK(scene.simulation.damping_law == DampingLaw::adaptive);
+  CHECK(scene.simulation.gravity == glm::dvec3(0.0));
+  CHECK(scene.collision.response == ContactResponse::reflect);
+  CHECK(scene.collision.elasticity == 0.9);
+  CHECK(scene.collision.search == ContactSearch::tree);
+  CHECK(scene.collision.triangle_test == TriangleTest::certified);
+  CHECK_FALSE(scene.collision.tree.max_depth);
+  CHECK(scene.collision.tree.leaf_size == 4);
+  CHECK(scene.output.frame_rate == 60.0);
+  CHECK(scene.output.size == glm::uvec2(1280, 720));
+  CHECK_FALSE(scene.output.camera);
+  CHECK(scene.output.coloring == Coloring::body);
+  REQUIRE(scene.bodies.size() == 1);
+  const BodyDescription& body = scene.bodies[0];
+  CHECK((body.name == "body0" && body.mesh == "icosphere:1" && !body.weld && body.scale == 1.0));
+  CHECK((body.stiffness == 40.0 && !body.total_stiffness && body.vertex_mass == 1.0 && !body.total_mass && body.damping == 1.0));
+  CHECK(body.stretch == glm::dvec3(1.0));
+  CHECK_THAT(body.where, Catch::EndsWith("scene.toml:1"));
+}
+
+TEST_CASE("every key is read into its place") {
+  const SceneDescription scene = load_text(R"(
+title = "All keys"
+[simulation]
+integrator = "cv8"
+time_step = 0.25
+duration = 3
+damping_law = "constant"
+gravity = [1, -9.81, 2]
+[collision]
+response = "none"
+elasticity = 1
+search = "brute_force"
+triangle_test = "moller"
+[collision.tree]
+split = "centre"
+max_depth = 12
+leaf_size = 7
+[output]
+frame_rate = 24
+size = [640, 480]
+camera = { eye = [0, 2, 6], target = [1, 0, 0], field_of_view = 50 }
+coloring = "deformation"
+[[body]]
+name = "thing"
+mesh = "thing.obj"
+weld = 1e-6
+scale = 2
+position = [1, 2, 3]
+rotation = [4, 5, 6]
+velocity = [7, 8, 9]
+spin = [1.5, 2.5, 3.5]
+stretch = [0.5, 1, 2]
+total_stiffness = 1000
+total_mass = 10
+damping = 0
+color = [0.1, 0.2, 0.3]
+)");
+  CHECK(scene.title == "All keys");
+  CHECK(scene.simulation.integrator.value == "cv8");
+  CHECK_THAT(scene.simulation.integrator.where, Catch::EndsWith("scene.toml:4: simulation.integrator"));
+  CHECK(scene.simulation.time_step == 0.25);
+  CHECK(scene.simulation.duration == 3);
+  CHECK(scene.simulation.damping_law == DampingLaw::constant);
+  CHECK(scene.simulation.gravity == glm::dvec3(1, -9.81, 2));
+  CHECK(scene.collision.response == ContactResponse::none);
+  CHECK(scene.collision.elasticity == 1);
+  CHECK(scene.collision.search == ContactSearch::brute_force);
+  CHECK(scene.collision.triangle_test == TriangleTest::moller);
+  CHECK(scene.collision.tree.max_depth == 12);
+  CHECK(scene.collision.tree.leaf_size == 7);
+  CHECK(scene.output.frame_rate == 24);
+  CHECK(scene.output.size == glm::uvec2(640, 480));
+  REQUIRE(scene.output.camera);
+  CHECK(scene.output.camera->eye == glm::dvec3(0, 2, 6));
+  CHECK(scene.output.camera->target == glm::dvec3(1, 0, 0));
+  CHECK(scene.output.camera->field_of_view == 50);
+  CHECK(scene.output.coloring == Coloring::deformation);
+  const BodyDescription& body = scene.bodies.at(0);
+  CHECK((body.name == "thing" && body.mesh == "thing.obj" && body.weld == 1e-6 && body.scale == 2));
+  CHECK((body.position == glm::dvec3(1, 2, 3) && body.rotation == glm::dvec3(4, 5, 6) && body.velocity == glm::dvec3(7, 8, 9)));
+  CHECK((body.spin == glm::dvec3(1.5, 2.5, 3.5) && body.stretch == glm::dvec3(0.5, 1, 2) &&
+         body.color == glm::dvec3(0.1, 0.2, 0.3)));
+  CHECK((body.total_stiffness == 1000 && body.total_mass == 10 && body.damping == 0));
+}
+
+TEST_CASE("time_step = \"auto\" leaves the step to be chosen") {
+  CHECK_FALSE(load_text("[simulation]\ntime_step = \"auto\"\n" + smallest).simulation.time_step);
+}
+
+TEST_CASE("an unknown key is an error that suggests the nearest known one") {
+  check_input_error("[simulation]\ntime_stp = 0.1\n" + smallest, 2,
+                    {"simulation.time_stp", "unknown key", "did you mean \"time_step\"?"});
+  check_input_error("[[body]]\nmesh = \"icosphere:1\"\nstifness = 4\n", 3,
+                    {"body.body0.stifness", "did you mean \"stiffness\"?"});
+  check_input_error("[[body]]\nmesh = \"icosphere:1\"\ncolour = [1, 1, 1]\n", 3, {"did you mean \"color\"?"});
+  check_input_error("titel = \"x\"\n" + smallest, 1, {"titel", "did you mean \"title\"?"});
+  check_input_error("[colision]\n" + smallest, 1, {"colision", "did you mean \"collision\"?"});
+  check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2, {"collision.tree.whatever", "split, max_depth, leaf_size"});
+}
+
+TEST_CASE("a value of the wrong type is an error that says what to write") {
+  check_input_error("title = 3\n" + smallest, 1, {"title: is a whole number", "string"});
+  check_input_error("[simulation]\nduration = \"long\"\n" + smallest, 2, {"simulation.duration: is a string", "number"});
+  check_input_error("[simulation]\ntime_step = \"fast\"\n" + smallest, 2, {"simulation.time_step: is a string", "\"auto\""});
+  check_input_error("[simulation]\ntime_step = true\n" + smallest, 2, {"is true or false"});
+  check_input_error("[simulation]\ngravity = -9.81\n" + smallest, 2, {"simulation.gravity: is a number", "array of 3"});
+  check_input_error("[simulation]\ngravity = [0, -9.81]\n" + smallest, 2, {"has 2 elements"});
+  check_input_error("[simulation]\ngravity = [0, \"down\", 0]\n" + smallest, 2, {"simulation.gravity[1]: is a string"});
+  check_input_error("[simulation]\nduration = 1979-05-27\n" + smallest, 2, {"a date"});
+  check_input_error("[collision.tree]\nmax_depth = 3.5\n" + smallest, 2, {"collision.tree.max_depth: is no whole number"});
+  check_input_error("[output]\ncamera = 3\n" + smallest, 2, {"output.camera: is a whole number", "table"});
+  check_input_error("simulation = 3\n" + smallest, 1, {"simulation: is a whole number", "[simulation]"});
+  check_input_error("[[simulation]]\n" + smallest, 1, {"simulation: is an array"});
+  check_input_error("[body]\nmesh = \"icosphere:1\"\n", 1, {"body: is a table", "[[body]]"});
+  check_input_error("body = [1]\n", 1, {"body.body0: is a whole number"});
+  check_input_error("[[body]]\nmesh = 3\n", 2, {"body.body0.mesh: is a whole number"});
+}
+
+TEST_CASE("a value out of range is an error that gives the range") {
+  for (const char* line :
+       {"simulation.time_step = 0", "simulation.time_step = -1", "simulation.time_step = nan", "simulation.time_step = inf",
+        "simulation.duration = -1e-9", "simulation.duration = inf", "simulation.gravity = [0, nan, 0]",
+        "collision.elasticity = -0.1", "collision.elasticity = 1.1", "collision.tree.max_depth = 0",
+        "collision.tree.max_depth = 65", "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4", "output.frame_rate = 0",
+        "output.size = [0, 720]", "output.size = [1280, 99999]", "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
+    check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
+  }
+  for (const char* line :
+       {"weld = -1", "scale = 0", "scale = -1", "position = [2e9, 0, 0]", "velocity = [0, inf, 0]", "spin = [nan, 0, 0]",
+        "rotation = [0, 0, -inf]", "stretch = [1, 1, nan]", "stiffness = -1", "total_stiffness = -1", "vertex_mass = 0",
+        "total_mass = 0", "damping = -1", "damping = nan", "color = [0, 0, 1.5]"}) {
+    check_input_error("[[body]]\nmesh = \"icosphere:1\"\n" + std::string(line) + "\n", 3,
+                      {"body.body0.", "out of range", "write a"});
+  }
+}
+
+TEST_CASE("a word that is no choice is an error that lists the choices") {
+  check_input_error("[simulation]\ndamping_law = \"strong\"\n" + smallest, 2,
+                    {"\"strong\" is no choice", "none, constant, adaptive"});
+  check_input_error("[collision]\nresponse = \"bounce\"\n" + smallest, 2, {"none, reflect"});
+  check_input_error("[collision]\nsearch = \"grid\"\n" + smallest, 2, {"tree, brute_force"});
+  check_input_error("[collision]\ntriangle_test = \"exact\"\n" + smallest, 2, {"certified, moller"});
+  check_input_error("[collision.tree]\nsplit = \"median\"\n" + smallest, 2, {"centre"});
+  check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
+}
+
+TEST_CASE("keys that contradict each other are an error") {
+  check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4, {"body.body0.total_stiffness", "beside stiffness"});
+  check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "beside vertex_mass"});
+}
+
+TEST_CASE("a scene needs bodies, each with a mesh and a name of its own") {
+  check_says(error_of([] { return load_text("title = \"empty\"\n"); }), {"scene.toml", "no body", "[[body]]"});
+  check_says(error_of([] { return load_text(""); }), {"scene.toml", "no body"});
+  check_says(error_of([] { return load_text("body = []\n"); }), {"scene.toml", "no body"});
+  check_input_error(smallest + "[[body]]\nname = \"b\"\n", 3, {"body.b", "has no mesh"});
+  check_input_error("[[body]]\nmesh = \"\"\n", 2, {"body.body0.mesh", "empty"});
+  check_input_error("[[body]]\nmesh = \"a.obj\"\nname = \"\"\n", 3, {"name", "empty"});
+  check_input_error("[[body]]\nmesh = \"a.obj\"\nname = \"a\\nb\"\n", 3, {"control character"});
+  check_input_error("[[body]]\nmesh = \"a.obj\"\nname = \"body1\"\n[[body]]\nmesh = \"a.obj\"\n", 4, {"body.body1", "taken"});
+  CHECK(load_text(two_named).bodies.at(1).name == "body1");
+}
+
+TEST_CASE("text that is no TOML is an error that names its line") {
+  check_input_error("title = \"x\"\n[simulation\n", 2, {"TOML"});
+  check_input_error("title = \"x\"\ntitle = \"y\"\n", 2, {"TOML"});
+  check_input_error("title = \"\xff\xfe\"\n", 1, {"TOML"});
+  check_input_error("title = \n", 1, {"TOML"});
+}
+
+TEST_CASE("a missing scene and a folder are input errors that name the path") {
+  const Error missing = error_of([] { return load_scene("no/such.toml"); });
+  CHECK(missing.kind() == ErrorKind::input);
+  check_says(missing, {"no/such.toml", "can't be opened"});
+  const Error folder = error_of([] { return load_scene(PLIANT_SOURCE_DIR); });
+  CHECK(folder.kind() == ErrorKind::input);
+  check_says(folder, {"is a folder"});
+}
+
+TEST_CASE("overrides replace, add and reach into sections that the file lacks") {
+  const SceneDescription scene =
+      load_text("[simulation]\ntime_step = 0.5\n" + two_named,
+                {"simulation.time_step=0.25", "simulation.integrator=rk4", "collision.tree.max_depth = 9",
+                 "output.camera.eye=[1, 2, 3]", "title=\"with spaces\"", "body.left.stiffness=80",
+                 "body.body1.mesh=../meshes/bunny.obj", "body.left.name=port", "body.port.damping=7"});
+  CHECK(scene.simulation.time_step == 0.25);
+  CHECK(scene.simulation.integrator.value == "rk4");
+  CHECK(scene.simulation.integrator.where == "--set simulation.integrator=rk4: simulation.integrator");
+  CHECK(scene.collision.tree.max_depth == 9);
+  CHECK(scene.output.camera->eye == glm::dvec3(1, 2, 3));
+  CHECK(scene.title == "with spaces");
+  CHECK((scene.bodies[0].name == "port" && scene.bodies[0].stiffness == 80 && scene.bodies[0].damping == 7));
+  CHECK(scene.bodies[1].mesh == "../meshes/bunny.obj");
+}
+
+TEST_CASE("a later override wins, and auto replaces a step") {
+  const std::string text = "[simulation]\ntime_step = 0.5\n" + smallest;
+  CHECK(load_text(text, {"simulation.time_step=1", "simulation.time_step=2"}).simulation.time_step == 2);
+  CHECK_FALSE(load_text(text, {"simulation.time_step=auto"}).simulation.time_step);
+}
+
+TEST_CASE("a body's name may contain dots") {
+  const std::string text = "[[body]]\nname = \"a.b\"\nmesh = \"icosphere:1\"\n";
+  CHECK(load_text(text, {"body.a.b.stiffness=3"}).bodies[0].stiffness == 3);
+}
+
+TEST_CASE("a faulty override is a command line error that repeats it") {
+  check_override_error(two_named, "simulation.time_step", {"no \"=\""});
+  check_override_error(two_named, "=3", {"no key"});
+  check_override_error(two_named, "", {"no key"});
+  check_override_error(two_named, "simulation.time_step=", {"no TOML"});
+  check_override_error(two_named, "title=two words", {"no TOML"});
+  check_override_error(two_named, "title=\xff\xfe", {"no TOML"});
+  check_override_error(two_named, "simulation.gravity=[1,2", {"no TOML"});
+  check_override_error(two_named, "simulation.duration=1\nextra = 2", {"no TOML"});
+  check_override_error(two_named, "simulation.time_step=-1", {"simulation.time_step", "out of range"});
+  check_override_error(two_named, "simulation.time_step=fast", {"is a string"});
+  check_override_error(two_named, "simulation.time_stp=1", {"did you mean \"time_step\"?"});
+  check_override_error(two_named, "simulatio.time_step=1", {"did you mean \"simulation\"?"});
+  check_override_error(two_named, "collision.tree={max_deth = 3}", {"did you mean \"max_depth\"?"});
+  check_override_error(two_named, "body.lefd.stiffness=1", {"no body \"lefd\"", "did you mean \"left\"?"});
+  check_override_error(two_named, "body.stiffness=1", {"names no body"});
+  check_override_error(two_named, "body.left.stifness=1", {"did you mean \"stiffness\"?"});
+  check_override_error(two_named, "body.left.total_stiffness=1", {"beside stiffness"});
+  check_override_error(two_named, "body.left.stiffness=many", {"is a string"});
+  check_override_error("title = \"t\"\n" + two_named, "title.sub=1", {"\"title\" is no section"});
+  check_override_error(two_named, "simulation..x=1", {"simulation"});
+}
+
+}  // namespace pliant

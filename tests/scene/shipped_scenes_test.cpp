@@ -1,0 +1,81 @@
+// The scenes that come with the project hold what the paper says of them.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <glm/vector_relational.hpp>
+
+#include "mesh/report.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+
+namespace pliant {
+namespace {
+
+std::vector<std::filesystem::path> scene_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+SceneDescription shipped(const std::string& name) {
+  return load_scene(std::filesystem::path(PLIANT_SOURCE_DIR "/scenes") / (name + ".toml"));
+}
+
+std::vector<double> stiffnesses(const SceneDescription& scene) {
+  std::vector<double> values;
+  for (const BodyDescription& body : scene.bodies) values.push_back(body.stiffness);
+  return values;
+}
+
+/// World bounding box of one body at the start.
+std::pair<glm::dvec3, glm::dvec3> box(const ModelAndState& built, const ModelBody& body) {
+  const std::vector<glm::dvec3> world = built.state.world_positions(built.model);
+  TriangleMesh mesh;
+  mesh.positions.assign(world.begin() + body.first_vertex, world.begin() + body.first_vertex + body.vertex_count);
+  const MeshReport report = report_mesh(mesh);
+  return {report.lowest, report.highest};
+}
+
+}  // namespace
+
+TEST_CASE("every shipped scene builds without a warning, with bodies clear of each other") {
+  const std::vector<std::filesystem::path> files = scene_files();
+  REQUIRE(files.size() >= 7);
+  for (const std::filesystem::path& file : files) {
+    CAPTURE(file.string());
+    const SceneDescription scene = load_scene(file);
+    std::vector<std::string> warnings;
+    const ModelAndState built = build_model(load_bodies(scene, &warnings), scene.simulation.gravity);
+    CHECK(warnings == std::vector<std::string>{});
+    for (std::size_t i = 0; i < built.model.bodies.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto [low_i, high_i] = box(built, built.model.bodies[i]);
+        const auto [low_j, high_j] = box(built, built.model.bodies[j]);
+        CHECK((glm::any(glm::lessThan(high_i, low_j)) || glm::any(glm::lessThan(high_j, low_i))));
+      }
+    }
+  }
+}
+
+TEST_CASE("the paper's scenes have its stiffness, damping, elasticity, depth and integrator") {
+  const std::pair<const char*, std::vector<double>> expected[] = {{"two_spheres", {40, 40}},       {"soft_and_hard", {5, 100}},
+                                                                  {"sphere_bunny", {40, 40}},      {"bunny_teapot", {10, 40}},
+                                                                  {"three_spheres", {40, 40, 40}}, {"bunnies_undamped", {40, 40}},
+                                                                  {"bunnies_overdamped", {40, 40}}};
+  for (const auto& [name, values] : expected) {
+    CAPTURE(name);
+    const SceneDescription scene = shipped(name);
+    CHECK(stiffnesses(scene) == values);
+    CHECK(scene.simulation.integrator.value == "cv8");
+    CHECK(scene.collision.elasticity == 0.9);
+    CHECK(scene.collision.tree.max_depth == 12u);
+    for (const BodyDescription& body : scene.bodies) CHECK(body.vertex_mass == 1);
+  }
+  for (const BodyDescription& body : shipped("bunnies_overdamped").bodies) CHECK(body.damping == 2000);
+  CHECK(shipped("bunnies_overdamped").simulation.damping_law == DampingLaw::constant);
+  CHECK(shipped("bunnies_undamped").simulation.damping_law == DampingLaw::none);
+  for (const char* name : {"two_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot", "three_spheres"})
+    for (const BodyDescription& body : shipped(name).bodies) CHECK(body.damping == 1);
+}
+
+}  // namespace pliant
