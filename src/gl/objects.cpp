@@ -1,0 +1,145 @@
+// Buffers and programs, labelled for debug output and graphics debuggers.
+#include "gl/objects.hpp"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/expect.hpp"
+
+namespace pliant::gl {
+namespace {
+
+void set_label(GLenum kind, GLuint id, std::string_view label) {
+  GLint longest = 256;
+  glGetIntegerv(GL_MAX_LABEL_LENGTH, &longest);
+  glObjectLabel(kind, id, static_cast<GLsizei>(std::min(label.size(), static_cast<std::size_t>(longest) - 1)), label.data());
+}
+
+std::string shader_log(GLuint shader) {
+  GLint length = 0;
+  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetShaderInfoLog(shader, length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
+}
+
+std::string program_log(GLuint program) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetProgramInfoLog(program, length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
+}
+
+[[noreturn]] void refuse(std::string_view label, const std::string& log) {
+  throw Error(ErrorKind::device, std::string(label), "the driver refuses this shader:\n" + log, "update the graphics driver");
+}
+
+/// A shader object that is deleted when the program it went into is linked.
+class Shader {
+ public:
+  Shader(GLenum stage, const FlatShader& source, std::string_view label) : id_(glCreateShader(stage)) {
+    const GLchar* text = source.text.c_str();
+    glShaderSource(id_, 1, &text, nullptr);
+    glCompileShader(id_);
+    set_label(GL_SHADER, id_, label);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_TRUE) return;
+    const std::string log = source.explain(shader_log(id_));
+    glDeleteShader(id_);
+    refuse(label, log);
+  }
+  ~Shader() { glDeleteShader(id_); }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  [[nodiscard]] GLuint id() const { return id_; }
+
+ private:
+  GLuint id_;
+};
+
+GLuint link(std::span<const Shader* const> shaders, const std::string& label) {
+  const GLuint program = glCreateProgram();
+  set_label(GL_PROGRAM, program, label);
+  for (const Shader* shader : shaders) glAttachShader(program, shader->id());
+  glLinkProgram(program);
+  for (const Shader* shader : shaders) glDetachShader(program, shader->id());
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return program;
+  const std::string log = program_log(program);
+  glDeleteProgram(program);
+  refuse(label, log);
+}
+
+}  // namespace
+
+Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
+  glCreateBuffers(1, &id_);
+  // Zeros are uploaded rather than cleared to: on NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued before
+  // it and is lost. An empty buffer still gets storage, so that it can be bound.
+  const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(zeros.size()), zeros.data(), GL_DYNAMIC_STORAGE_BIT);
+  set_label(GL_BUFFER, id_, label);
+}
+
+Buffer::~Buffer() {
+  if (id_ != 0) glDeleteBuffers(1, &id_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), size_(std::exchange(other.size_, 0)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
+  PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glNamedBufferSubData(id_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
+  PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+Program Program::compute(const FlatShader& source, std::string_view label) {
+  const Shader shader(GL_COMPUTE_SHADER, source, label);
+  return Program(link(std::array{&shader}, std::string(label)));
+}
+
+Program Program::compute(std::string_view file, std::span<const Define> defines) {
+  return compute(flatten_shader(file, defines), file);
+}
+
+Program Program::graphics(std::string_view vertex_file, std::string_view fragment_file, std::span<const Define> defines) {
+  const Shader vertex(GL_VERTEX_SHADER, flatten_shader(vertex_file, defines), vertex_file);
+  const Shader fragment(GL_FRAGMENT_SHADER, flatten_shader(fragment_file, defines), fragment_file);
+  return Program(link(std::array{&vertex, &fragment}, std::string(vertex_file) + " + " + std::string(fragment_file)));
+}
+
+Program::~Program() {
+  if (id_ != 0) glDeleteProgram(id_);
+}
+
+Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+
+}  // namespace pliant::gl

@@ -1,0 +1,49 @@
+// Owning handles for the OpenGL objects pliant uses. All need a current Context.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "gl/shader_source.hpp"
+
+namespace pliant::gl {
+
+/// A buffer object with immutable, zero-filled storage.
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(std::size_t bytes, std::string_view label);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  void write(std::size_t first_byte, std::span<const std::byte> data);
+  /// Waits for the GPU to finish what writes this buffer.
+  void read(std::size_t first_byte, std::span<std::byte> data) const;
+  [[nodiscard]] std::uint32_t id() const { return id_; }
+  [[nodiscard]] std::size_t size() const { return size_; }  // [bytes]
+
+ private:
+  std::uint32_t id_ = 0;
+  std::size_t size_ = 0;
+};
+
+/// A linked program. A shader that does not compile throws Error (device) with its true file and line.
+class Program {
+ public:
+  Program() = default;
+  static Program compute(std::string_view file, std::span<const Define> defines = {});
+  static Program compute(const FlatShader& source, std::string_view label);
+  static Program graphics(std::string_view vertex_file, std::string_view fragment_file, std::span<const Define> defines = {});
+  ~Program();
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+  [[nodiscard]] std::uint32_t id() const { return id_; }
+
+ private:
+  explicit Program(std::uint32_t id) : id_(id) {}
+  std::uint32_t id_ = 0;
+};
+
+}  // namespace pliant::gl

@@ -1,0 +1,146 @@
+// Flattening of #include lines, with a table from each line of the result back to its file and line.
+#include "gl/shader_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+
+#include "core/error.hpp"
+
+namespace pliant::gl {
+namespace {
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+struct Include {
+  std::string_view name;
+  bool quoted = false;  // else <name>
+};
+
+/// The include that this line asks for; an empty name when it asks for none.
+Include parse_include(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (!line.starts_with("#include")) return {};
+  const std::size_t open = line.find_first_of("\"<");
+  if (open == std::string_view::npos) return {};
+  const std::size_t close = line.find_first_of("\">", open + 1);
+  if (close == std::string_view::npos) return {};
+  return {line.substr(open + 1, close - open - 1), line[open] == '"'};
+}
+
+class Flattener {
+ public:
+  Flattener(std::span<const ShaderFile> files, std::span<const Define> defines) : files_(files), defines_(defines) {}
+
+  void append(const std::string& name, std::string_view where) {
+    const ShaderFile& file = find(name, where);
+    if (std::ranges::find(included_, file.name) != included_.end()) return;
+    included_.push_back(file.name);
+    int line_number = 0;
+    for (std::string_view line : split_lines(file.text)) append_line(line, {file.name, ++line_number});
+  }
+
+  FlatShader finish() {
+    FlatShader flat;
+    for (const auto& [text, origin] : lines_) {
+      flat.text.append(text).push_back('\n');
+      flat.origins.push_back(origin);
+    }
+    return flat;
+  }
+
+  void insert_defines() {
+    const auto is_version = [](const Line& line) { return line.text.starts_with("#version"); };
+    const auto version = std::ranges::find_if(lines_, is_version);
+    auto place = version == lines_.end() ? lines_.begin() : version + 1;
+    int number = 0;
+    for (const auto& [name, value] : defines_) {
+      if (name.starts_with('@')) continue;
+      place = lines_.insert(place, {fmt::format("#define {} {}", name, value), {"<defines>", ++number}}) + 1;
+    }
+  }
+
+ private:
+  struct Line {
+    std::string text;
+    FlatShader::Origin origin;
+  };
+
+  const ShaderFile& find(const std::string& name, std::string_view where) const {
+    const auto file = std::ranges::find(files_, std::string_view(name), &ShaderFile::name);
+    if (file != files_.end()) return *file;
+    throw Error(ErrorKind::device, std::string(where), fmt::format("there is no shader file '{}'", name),
+                "rebuild pliant, so that every file below shaders/ is embedded");
+  }
+
+  void append_line(std::string_view line, FlatShader::Origin origin) {
+    const Include include = parse_include(line);
+    if (include.name.empty()) {
+      lines_.push_back({std::string(line), origin});
+    } else if (!include.quoted) {
+      lines_.push_back({"", origin});
+    } else {
+      append(resolve(include.name, origin), fmt::format("{}:{}", origin.file, origin.line));
+    }
+  }
+
+  std::string resolve(std::string_view name, FlatShader::Origin origin) const {
+    if (!name.starts_with('@')) {
+      return (std::filesystem::path(origin.file).parent_path() / name).lexically_normal().generic_string();
+    }
+    const auto define = std::ranges::find(defines_, name, &Define::first);
+    if (define != defines_.end()) return define->second;
+    throw Error(ErrorKind::device, fmt::format("{}:{}", origin.file, origin.line),
+                fmt::format("no file is given for the virtual include '{}'", name), "");
+  }
+
+  std::span<const ShaderFile> files_;
+  std::span<const Define> defines_;
+  std::vector<std::string_view> included_;
+  std::vector<Line> lines_;
+};
+
+}  // namespace
+
+FlatShader flatten_shader(std::span<const ShaderFile> files, std::string_view file, std::span<const Define> defines) {
+  Flattener flattener(files, defines);
+  flattener.append(std::string(file), "");
+  flattener.insert_defines();
+  return flattener.finish();
+}
+
+FlatShader flatten_shader(std::string_view file, std::span<const Define> defines) {
+  return flatten_shader(embedded_shaders(), file, defines);
+}
+
+std::string FlatShader::explain(std::string_view driver_log) const {
+  // Mesa "0:12(3): error", NVIDIA "0(12) : error", glslang and others "ERROR: 0:12: ...".
+  static const std::regex place(R"(^((?:ERROR: |WARNING: )?)\d+(?::(\d+)|\((\d+)\)))");
+  std::istringstream log{std::string(driver_log)};
+  std::string explained;
+  for (std::string line; std::getline(log, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, place)) {
+      const std::size_t number = std::stoul(match[2].matched ? match[2] : match[3]);
+      if (number >= 1 && number <= origins.size()) {
+        const Origin& origin = origins[number - 1];
+        line = fmt::format("{}{}:{}{}", match[1].str(), origin.file, origin.line, match.suffix().str());
+      }
+    }
+    explained += line + '\n';
+  }
+  return explained;
+}
+
+}  // namespace pliant::gl

@@ -1,0 +1,41 @@
+// The shader files embedded in the library, and the flattening of their #include lines.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pliant::gl {
+
+struct ShaderFile {
+  std::string_view name;  // path below shaders/, such as "compute/kernels/refit.glsl"
+  std::string_view text;
+};
+
+[[nodiscard]] std::span<const ShaderFile> embedded_shaders();
+
+/// Name and value of a #define; a name that starts with '@' is a virtual include instead: `#include "@kernel"` reads the
+/// file that the value names.
+using Define = std::pair<std::string, std::string>;
+
+struct FlatShader {
+  std::string text;
+  struct Origin {
+    std::string_view file;
+    int line;
+  };
+  std::vector<Origin> origins;  // of each line of text, from line 1
+
+  /// Replaces the driver's line numbers ("0:12(3)", "0(12)", "ERROR: 0:12") by true file names and lines.
+  [[nodiscard]] std::string explain(std::string_view driver_log) const;
+};
+
+/// Each file is included once. Includes are relative to the including file; `#include <...>` is dropped (C++ only).
+/// Defines go behind the #version line. Throws Error (device) when a file is missing.
+[[nodiscard]] FlatShader flatten_shader(std::string_view file, std::span<const Define> defines = {});
+/// The same over other files than the embedded ones; the result's origins view their names.
+[[nodiscard]] FlatShader flatten_shader(std::span<const ShaderFile> files, std::string_view file,
+                                        std::span<const Define> defines = {});
+
+}  // namespace pliant::gl

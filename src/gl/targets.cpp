@@ -1,0 +1,66 @@
+// Textures, framebuffers and vertex arrays.
+#include "gl/targets.hpp"
+
+#include <glad/gl.h>
+
+#include "core/error.hpp"
+
+namespace pliant::gl {
+namespace {
+
+void set_sampling(GLuint texture, const TextureOptions& options) {
+  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, options.levels > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
+  glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  if (!options.compares_depth) return;
+  constexpr GLfloat far_depth[4] = {1, 1, 1, 1};
+  glTextureParameterfv(texture, GL_TEXTURE_BORDER_COLOR, far_depth);
+  glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+}  // namespace
+
+Texture::Texture(const TextureOptions& options, std::string_view label) : size_(options.size) {
+  const auto width = static_cast<GLsizei>(size_.x), height = static_cast<GLsizei>(size_.y);
+  if (options.samples > 1) {
+    glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id_);
+    glTextureStorage2DMultisample(id_, options.samples, options.format, width, height, GL_TRUE);
+  } else {
+    glCreateTextures(GL_TEXTURE_2D, 1, &id_);
+    glTextureStorage2D(id_, options.levels, options.format, width, height);
+    set_sampling(id_, options);
+  }
+  glObjectLabel(GL_TEXTURE, id_, static_cast<GLsizei>(label.size()), label.data());
+}
+
+Texture::~Texture() { glDeleteTextures(1, &id_); }
+
+Framebuffer::Framebuffer(const Texture* color, const Texture* depth, std::string_view label)
+    : size_(color != nullptr ? color->size() : depth->size()) {
+  glCreateFramebuffers(1, &id_);
+  glObjectLabel(GL_FRAMEBUFFER, id_, static_cast<GLsizei>(label.size()), label.data());
+  if (color != nullptr) glNamedFramebufferTexture(id_, GL_COLOR_ATTACHMENT0, color->id(), 0);
+  if (depth != nullptr) glNamedFramebufferTexture(id_, GL_DEPTH_ATTACHMENT, depth->id(), 0);
+  if (color == nullptr) glNamedFramebufferDrawBuffer(id_, GL_NONE);
+  if (glCheckNamedFramebufferStatus(id_, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  glDeleteFramebuffers(1, &id_);
+  throw Error(ErrorKind::device, std::string(label), "the driver cannot draw into this format", "update the graphics driver");
+}
+
+Framebuffer::~Framebuffer() { glDeleteFramebuffers(1, &id_); }
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
+}
+
+VertexArray::VertexArray(const Buffer* indices) {
+  glCreateVertexArrays(1, &id_);
+  if (indices != nullptr) glVertexArrayElementBuffer(id_, indices->id());
+}
+
+VertexArray::~VertexArray() { glDeleteVertexArrays(1, &id_); }
+
+}  // namespace pliant::gl
