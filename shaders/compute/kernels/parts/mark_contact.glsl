@@ -1,0 +1,20 @@
+// Tests one pair of triangles, given by their places in leaf order; marks the six vertices if they touch.
+bool triangles_touch(IN_ARRAY(vec3, p, 3), IN_ARRAY(vec3, q, 3)) {
+  return triangle_test == 0u ? triangles_may_touch(p, q) : triangles_intersect_moller(p, q);
+}
+
+void mark_contact(uint first, uint second) {
+  vec3 p[3];
+  vec3 q[3];
+  for (uint k = 0u; k < 3u; ++k) {
+    p[k] = vec3(world_position[first_position + triangle[3u * first + k]]);
+    q[k] = vec3(world_position[first_position + triangle[3u * second + k]]);
+  }
+  if (!triangles_touch(p, q)) return;
+  for (uint k = 0u; k < 3u; ++k) {
+    ATOMIC_STORE(mark[triangle[3u * first + k]], control[0].step);
+    ATOMIC_STORE(mark[triangle[3u * second + k]], control[0].step);
+  }
+  atomicAdd(control[0].count[contact_pairs], 1u);
+  atomicMax(control[0].respond_groups[0], groups_for(vertex_count));
+}

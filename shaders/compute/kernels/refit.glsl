@@ -1,0 +1,54 @@
+// One thread a leaf: its box from its triangles, then up the tree. Of two siblings the one that arrives second goes on to the
+// parent, so no thread ever waits and one dispatch refits every tree.
+#include "../physics/control.glsl"
+#include "../physics/collision/box.glsl"
+WRITE(0, Controls, Control, control)
+READ(1, Leaves, uvec2, leaf)                  // node, body
+READ(2, Nodes, uvec4, node)                   // left child (right = left + 1; 0: a leaf), parent, first triangle, end
+SHARED_WRITE(3, NodeBoxes, vec4, node_box)    // lower, upper of each node
+READ(4, Triangles, uint, triangle)            // three vertices each, in leaf order
+READ(5, WorldPositions, vec4, world_position)
+WRITE(6, Arrivals, uint, arrival)
+READ(7, Partners, uint, partner_step)
+PARAMETER(0, uint, leaf_count)
+PARAMETER(1, uint, first_position)
+
+const uint no_node = 0xffffffffu;  // the parent of a root
+
+Box box_of_triangles(uint begin, uint end) {
+  Box box = empty_box();
+  for (uint corner = 3u * begin; corner < 3u * end; ++corner)
+    box = grow(box, vec3(world_position[first_position + triangle[corner]]));
+  return box;
+}
+
+void store_box(uint n, Box box) {
+  node_box[2u * n] = vec4(box.lower, 0);
+  node_box[2u * n + 1u] = vec4(box.upper, 0);
+}
+
+Box box_of_children(uint left) {
+  Box box;
+  box.lower = vec3(node_box[2u * left]);
+  box.upper = vec3(node_box[2u * left + 1u]);
+  return grow(grow(box, vec3(node_box[2u * left + 2u])), vec3(node_box[2u * left + 3u]));
+}
+
+void refit(uint item) {
+  if (item >= leaf_count || partner_step[leaf[item].y] != control[0].step) return;
+  uint n = leaf[item].x;
+  store_box(n, box_of_triangles(node[n].z, node[n].w));
+  uint refitted = 1u;
+  uint parent = node[n].y;
+  while (parent != no_node) {
+    memoryBarrierBuffer();
+    if (atomicAdd(arrival[parent], 1u) == 0u) break;
+    memoryBarrierBuffer();
+    arrival[parent] = 0u;
+    store_box(parent, box_of_children(node[parent].x));
+    ++refitted;
+    parent = node[parent].y;
+  }
+  if (parent == no_node) atomicAdd(control[0].count[trees_refitted], 1u);
+  atomicAdd(control[0].count[nodes_refitted], refitted);
+}

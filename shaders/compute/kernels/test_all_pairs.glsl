@@ -1,0 +1,27 @@
+// The search without trees, for comparison: one thread for each triangle of the first body of a near pair and 
+// every triangle of the second.
+#include "../physics/control.glsl"
+#include "../physics/collision/certified_triangles.glsl"
+#include "../physics/collision/moller_triangles.glsl"
+WRITE(0, Controls, Control, control)
+READ(1, NearPairs, uvec2, near_pair)
+READ(2, Nodes, uvec4, node)
+READ(3, Triangles, uint, triangle)
+READ(4, WorldPositions, vec4, world_position)
+WRITE(5, Marks, uint, mark)
+PARAMETER(0, uint, vertex_count)
+PARAMETER(1, uint, first_position)
+PARAMETER(2, uint, triangle_test)
+PARAMETER(3, uint, threads_per_pair)
+#include "parts/mark_contact.glsl"
+
+void test_all_pairs(uint item) {
+  uint pair_index = item / threads_per_pair;
+  if (pair_index >= control[0].near_pair_count) return;
+  uvec4 first = node[near_pair[pair_index].x];
+  uvec4 second = node[near_pair[pair_index].y];
+  uint s = first.z + item % threads_per_pair;
+  if (s >= first.w) return;
+  for (uint t = second.z; t < second.w; ++t) mark_contact(s, t);
+  atomicAdd(control[0].count[triangle_tests], second.w - second.z);
+}

@@ -1,0 +1,46 @@
+// Axis-aligned boxes. Minimum and maximum are exact, so every device computes the same ones, in any order.
+#ifndef BOX_GLSL
+#define BOX_GLSL
+#include "../language.glsl"
+SHARED_BEGIN
+
+struct Box { vec3 lower; vec3 upper; };
+
+FN Box empty_box() {
+  Box box;
+  box.lower = vec3(3.0e38f);
+  box.upper = vec3(-3.0e38f);
+  return box;
+}
+
+// Comparisons with NaN are false, so a NaN coordinate leaves the box as it is.
+FN Box grow(Box box, vec3 p) {
+  box.lower.x = p.x < box.lower.x ? p.x : box.lower.x;
+  box.lower.y = p.y < box.lower.y ? p.y : box.lower.y;
+  box.lower.z = p.z < box.lower.z ? p.z : box.lower.z;
+  box.upper.x = p.x > box.upper.x ? p.x : box.upper.x;
+  box.upper.y = p.y > box.upper.y ? p.y : box.upper.y;
+  box.upper.z = p.z > box.upper.z ? p.z : box.upper.z;
+  return box;
+}
+
+FN Box triangle_box(vec3 p, vec3 q, vec3 r) { return grow(grow(grow(empty_box(), p), q), r); }
+
+// Boxes are closed: touching ones overlap.
+FN bool overlaps(Box a, Box b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
+         a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+// Bits that order as the floats do, for atomicMin and atomicMax.
+FN uint ordered_bits(float value) {
+  uint bits = floatBitsToUint(value);
+  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+FN float from_ordered_bits(uint bits) {
+  return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,45 @@
+// The simulation's clock, its counters and the sizes of the dispatches that depend on what earlier passes found.
+#ifndef CONTROL_GLSL
+#define CONTROL_GLSL
+#include "language.glsl"
+SHARED_BEGIN
+
+const uint group_size = 64u;  // threads in a work group of every kernel
+const uint no_vertex = 0xffffffffu;
+
+// What is counted in each step and summed over the run.
+const uint nodes_refitted = 0u;
+const uint node_tests = 1u;
+const uint triangle_tests = 2u;
+const uint contact_pairs = 3u;
+const uint reverted_vertices = 4u;
+const uint body_pairs_near = 5u;
+const uint body_pairs_skipped = 6u;  // root boxes apart: no tree work
+const uint trees_refitted = 7u;      // a body without a partner keeps its old boxes
+const uint frame_changes = 8u;
+const uint pairs_beyond_capacity = 9u;  // tested by the thread that found them, for want of room
+const uint counter_count = 10u;
+
+struct Control {
+  uint step;               // the step being made, from 1
+  uint non_finite_step;    // 0: none so far
+  uint non_finite_vertex;  // the first one, or no_vertex
+  uint contact_steps;      // steps with a contact
+  uint contact_pairs_max;  // most triangle pairs in one step
+  uint near_pair_count;    // body pairs whose boxes overlap, this step
+  uint candidate_count;    // triangle pairs to test, this step; may pass the list's capacity
+  uint turn_groups[3];     // indirect dispatch sizes: change_frame
+  uint refresh_groups[3];  // refresh_force
+  uint refit_groups[3];    // refit
+  uint find_groups[3];     // find_pairs, or test_all_pairs
+  uint test_groups[3];     // test_pairs
+  uint respond_groups[3];  // respond
+  uint count[10];          // this step's, by the names above
+  uint total_low[10];      // of all steps before: 64 bits in two halves
+  uint total_high[10];
+};
+
+FN uint groups_for(uint item_count) { return (item_count + group_size - 1u) / group_size; }
+
+SHARED_END
+#endif

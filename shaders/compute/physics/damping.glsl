@@ -1,0 +1,46 @@
+// The paper's damping, F_D = -g m v with the rate g [1/s], and its exact action on a kick.
+#ifndef DAMPING_GLSL
+#define DAMPING_GLSL
+#include "language.glsl"
+SHARED_BEGIN
+
+const uint damping_none = 0u;
+const uint damping_constant = 1u;  // the paper's equation 2
+const uint damping_adaptive = 2u;  // the paper's equation 3
+
+// g = 0, c/m, or min(|F_s| / 10, 10) c/m, with the net spring force |F_s| in newtons.
+FN double damping_rate(uint law, double damping, double vertex_mass, double net_force) {
+  if (law == damping_none) return double(0);
+  double factor = law == damping_constant ? double(1) : min(net_force / double(10), double(10));
+  return factor * damping / vertex_mass;
+}
+
+// What a kick of duration t leaves of the velocity, e^-z, and its effect per acceleration and time, (1 - e^-z) / z, with z = g t.
+// A Taylor series near zero, then doublings: e^-2z = (e^-z)^2 and phi(2z) = phi(z) (1 + e^-z) / 2. GLSL has no exp of double.
+struct Decay { double keep; double gain; };
+
+FN Decay decay(double z) {
+  uint doublings = 0u;
+  double y = z;
+  while (abs(y) > double(0.25) && doublings < 12u) {
+    y = y * double(0.5);
+    ++doublings;
+  }
+  Decay result;
+  if (abs(y) > double(0.25)) {  // z beyond 1000: e^-z is zero in fp64
+    result.keep = double(0);
+    result.gain = double(1) / z;
+    return result;
+  }
+  result.gain = double(1);
+  for (int n = 13; n > 1; --n) result.gain = double(1) - y / double(n) * result.gain;
+  result.keep = double(1) - y * result.gain;
+  for (uint k = 0u; k < doublings; ++k) {
+    result.gain = result.gain * (double(1) + result.keep) * double(0.5);
+    result.keep = result.keep * result.keep;
+  }
+  return result;
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,100 @@
+// The shared dialect: what a file needs to be GLSL 4.50 and C++20 at once. `real` is the precision of the forces: float in
+// shaders, float or double on the CPU (REAL_BITS). Everything else says float or double itself and means it.
+#ifndef LANGUAGE_GLSL
+#define LANGUAGE_GLSL
+#ifdef __cplusplus
+  #include <glm/vec2.hpp>
+  #include <glm/vec3.hpp>
+  #include <glm/vec4.hpp>
+  #include <glm/common.hpp>
+  #include <glm/geometric.hpp>
+  #include <atomic>
+  #include <bit>
+  #include <cmath>
+  #define SHARED_BEGIN namespace pliant::physics {
+  #define SHARED_END }
+  namespace pliant::physics {}
+  #if defined(REAL_BITS) && REAL_BITS == 64
+    #define REAL_NAMESPACE pliant::physics64
+    namespace pliant::physics64 { using namespace pliant::physics; using real = double; }
+  #else
+    #define REAL_NAMESPACE pliant::physics32
+    namespace pliant::physics32 { using namespace pliant::physics; using real = float; }
+  #endif
+  #define REAL_BEGIN namespace REAL_NAMESPACE { using real3 = glm::vec<3, real>; using real4 = glm::vec<4, real>;
+  #define REAL_END }
+  #define FN inline
+  #define IN(T) const T&
+  #define OUT(T) T&
+  #define IN_ARRAY(T, name, n) const T (&name)[n]
+  #define EXACT
+  #define READ(slot, block, T, name) const T* const name = arguments.read<T>(slot);
+  #define WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
+  #define SHARED_WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
+  #define PARAMETER(slot, T, name) const T name = arguments.parameter<T>(slot);
+  #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
+#else
+  #define real float
+  #define real3 vec3
+  #define real4 vec4
+  #define SHARED_BEGIN
+  #define SHARED_END
+  #define REAL_BEGIN
+  #define REAL_END
+  #define FN
+  #define IN(T) in T
+  #define OUT(T) out T
+  #define IN_ARRAY(T, name, n) in T name[n]
+  #define EXACT precise                 // every operation rounds by itself, in the order written
+  #define READ(slot, block, T, name) layout(std430, binding = slot) readonly buffer block { T name[]; };
+  #define WRITE(slot, block, T, name) layout(std430, binding = slot) buffer block { T name[]; };
+  #define SHARED_WRITE(slot, block, T, name) layout(std430, binding = slot) coherent buffer block { T name[]; };
+  #define PARAMETER(slot, T, name) layout(location = slot) uniform T name;
+  #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
+#endif
+
+// Flat arrays of doubles hold three numbers a vector: std430 and C++ disagree on arrays of dvec3.
+#define LOAD3(array, first) dvec3((array)[(first)], (array)[(first) + 1u], (array)[(first) + 2u])
+#define STORE3(array, first, value)          \
+  {                                          \
+    (array)[(first)] = (value).x;            \
+    (array)[(first) + 1u] = (value).y;       \
+    (array)[(first) + 2u] = (value).z;       \
+  }
+
+SHARED_BEGIN
+#ifdef __cplusplus
+using glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec3;
+using glm::abs, glm::cross, glm::dot, glm::length, glm::max, glm::min;
+using std::abs, std::sqrt;
+FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }  // glm's branches on every sign
+// GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
+FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
+FN uint atomicMin(uint& target, uint value) {
+  std::atomic_ref shared(target);
+  uint before = shared.load(std::memory_order_relaxed);
+  while (value < before && !shared.compare_exchange_weak(before, value, std::memory_order_relaxed)) {
+  }
+  return before;
+}
+FN uint atomicMax(uint& target, uint value) {
+  std::atomic_ref shared(target);
+  uint before = shared.load(std::memory_order_relaxed);
+  while (value > before && !shared.compare_exchange_weak(before, value, std::memory_order_relaxed)) {
+  }
+  return before;
+}
+FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
+FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
+FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
+#endif
+FN float ordered_dot(vec3 a, vec3 b) {
+  EXACT float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+  return sum;
+}
+FN vec3 ordered_cross(IN(vec3) a, IN(vec3) b) {
+  EXACT vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  return product;
+}
+SHARED_END
+#endif
