@@ -1,0 +1,118 @@
+// A device holds arrays and runs kernels over items. A kernel is one file in shaders/compute/kernels, the same on every device.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace pliant {
+
+using BufferId = std::uint32_t;  // 0: none
+using KernelId = std::uint32_t;
+using Parameter = std::variant<std::uint32_t, double>;
+
+inline constexpr std::size_t max_buffers = 8;  // what OpenGL guarantees a shader
+inline constexpr std::size_t max_parameters = 8;
+
+/// A kernel with its buffers and parameters, by slot.
+struct KernelCall {
+  KernelId kernel = 0;
+  std::array<BufferId, max_buffers> buffers{};
+  std::array<Parameter, max_parameters> parameters{};
+};
+
+struct DeviceInfo {
+  std::string kind;          // "cpu" or "gpu"
+  std::string name;          // model, and what its bits depend on
+  bool is_software = false;  // a "gpu" that is a CPU
+  unsigned threads = 1;      // of the CPU that run kernels
+};
+
+/// Kernels run one after another, each after the one before has finished; run() may return earlier.
+/// One thread at a time may use a device.
+class Device {
+ public:
+  virtual ~Device() = default;
+  [[nodiscard]] virtual const DeviceInfo& info() const = 0;
+  /// Bits of the forces' `real`: 32 or 64. Anything else is the same in both.
+  [[nodiscard]] virtual int precision() const = 0;
+
+  /// The buffer is zero-filled.
+  [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label) = 0;
+  virtual void release(BufferId buffer) = 0;
+  /// At least what was asked for [bytes].
+  [[nodiscard]] virtual std::size_t size_of(BufferId buffer) const = 0;
+  /// Of all buffers now held [bytes].
+  [[nodiscard]] virtual std::size_t allocated_bytes() const = 0;
+  virtual void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) = 0;
+  /// Waits for the kernels before it.
+  virtual void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) = 0;
+
+  /// `name` is the file's and its function's: kernels/NAME.glsl. Throws Error (device) when it does not build.
+  [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
+  virtual void run(const KernelCall& call, std::uint32_t item_count) = 0;
+  /// Runs as many groups of physics::group_size items as the three uints at `first_byte` say (x, 1, 1). The kernel checks
+  /// the item's bound itself.
+  virtual void run_indirect(const KernelCall& call, BufferId group_counts, std::size_t first_byte) = 0;
+  /// Waits until everything has run.
+  virtual void finish() = 0;
+};
+
+/// An owned array of `count` elements on a device, which must outlive it.
+template <class T>
+class DeviceArray {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  DeviceArray() = default;
+  DeviceArray(Device& device, std::size_t count, std::string_view label)
+      : device_(&device), count_(count), id_(device.allocate(std::max<std::size_t>(count, 1) * sizeof(T), label)) {}
+  DeviceArray(Device& device, std::span<const T> values, std::string_view label) : DeviceArray(device, values.size(), label) {
+    upload(values);
+  }
+  ~DeviceArray() {
+    if (device_ != nullptr) device_->release(id_);
+  }
+  DeviceArray(DeviceArray&& other) noexcept { swap(other); }
+  DeviceArray& operator=(DeviceArray&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+
+  void upload(std::span<const T> values, std::size_t first = 0) {
+    if (!values.empty()) device_->write(id_, first * sizeof(T), std::as_bytes(values));
+  }
+  [[nodiscard]] std::vector<T> download(std::size_t first, std::size_t count) const {
+    std::vector<T> values(count);
+    if (count > 0) device_->read(id_, first * sizeof(T), std::as_writable_bytes(std::span<T>(values)));
+    return values;
+  }
+  [[nodiscard]] std::vector<T> download() const { return download(0, count_); }
+  [[nodiscard]] BufferId id() const { return id_; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+ private:
+  void swap(DeviceArray& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(count_, other.count_);
+    std::swap(id_, other.id_);
+  }
+
+  Device* device_ = nullptr;
+  std::size_t count_ = 0;
+  BufferId id_ = 0;
+};
+
+/// `threads` 0: one a processor. `precision` 32 or 64.
+[[nodiscard]] std::unique_ptr<Device> make_cpu_device(unsigned threads, int precision);
+
+/// Opens the `index`-th adapter of gl::list_adapters() and keeps its context current on this thread. Throws Error (device).
+[[nodiscard]] std::unique_ptr<Device> make_gpu_device(int index);
+
+}  // namespace pliant
