@@ -1,0 +1,122 @@
+// The bounds follow from scanning outward until a step first amplifies, then bisecting.
+#include "dynamics/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "core/expect.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double amplification_limit = 1.0 + 1e-4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int grid_count = 32;  // intervals of the damping rate
+
+// The end of the interval that starts at 0 in which amplification(y) stays at or below the limit. Methods of the sizes in
+// use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
+template <class Amplification>
+double first_exit(double stride, const Amplification& amplification) {
+  double inside = 0;
+  while (amplification(inside + stride) <= amplification_limit) inside += stride;
+  double outside = inside + stride;
+  while (outside - inside > 1e-14 * outside) {
+    const double middle = 0.5 * (inside + outside);
+    (amplification(middle) <= amplification_limit ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+double amplification(const std::vector<double>& polynomial, std::complex<double> z) {
+  std::complex<double> sum = 0;
+  for (auto i = polynomial.rbegin(); i != polynomial.rend(); ++i) sum = sum * z + *i;
+  return std::abs(sum);
+}
+
+// Largest magnitude of the eigenvalues of a real 2 x 2 matrix.
+double spectral_radius(double trace, double determinant) {
+  const double discriminant = trace * trace / 4 - determinant;
+  if (discriminant < 0) return std::sqrt(determinant);
+  return std::abs(trace) / 2 + std::sqrt(discriminant);
+}
+
+// One step of length h = y on x'' = -x - g v; a kick damps exactly: v <- exp(-g t) v + (1 - exp(-g t))/g a.
+double amplification(const Splitting& method, double y, double g) {
+  double from_x[2] = {1, 0}, from_v[2] = {0, 1};  // where (x, v) = (1, 0) and (0, 1) go
+  for (std::size_t i = 0; i < method.kick.size(); ++i) {
+    const double t = static_cast<double>(method.kick[i]) * y;
+    const double decay = std::exp(-g * t), push = g > 0 ? -std::expm1(-g * t) / g : t;
+    const double drift = i < method.drift.size() ? static_cast<double>(method.drift[i]) * y : 0;
+    for (double* state : {from_x, from_v}) {
+      state[1] = decay * state[1] - push * state[0];
+      state[0] += drift * state[1];
+    }
+  }
+  return spectral_radius(from_x[0] + from_v[1], from_x[0] * from_v[1] - from_x[1] * from_v[0]);
+}
+
+// Below g = 2 omega lambda runs along the circle |lambda| = omega, above it along the real axis. On a ray the distance
+// of the exit is the same for every lambda, so the real axis matters at its far end alone.
+double runge_kutta_bound(const RungeKutta& method, double omega, double damping_rate_max) {
+  const std::vector<double> polynomial = stability_polynomial(method);
+  const auto exit_along = [&](double angle) {
+    return first_exit(1.0 / 256, [&](double radius) { return amplification(polynomial, std::polar(radius, angle)); });
+  };
+  const double half_rate = damping_rate_max / 2;
+  double bound = infinity;
+  if (omega > 0) {
+    const double last_angle = std::asin(std::min(1.0, half_rate / omega));
+    for (int i = 0; i <= (damping_rate_max > 0 ? grid_count : 0); ++i)
+      bound = std::min(bound, exit_along(std::numbers::pi / 2 + last_angle * i / grid_count) / omega);
+  }
+  if (half_rate > 0 && half_rate >= omega) {
+    const double fastest = half_rate + std::sqrt((half_rate - omega) * (half_rate + omega));
+    bound = std::min(bound, exit_along(std::numbers::pi) / fastest);
+  }
+  return bound;
+}
+
+double splitting_bound(const Splitting& method, double omega, double damping_rate_max) {
+  if (omega == 0) return infinity;  // free flight and its damping are exact
+  const auto worst = [&](double y) {
+    double largest = 0;
+    for (int i = 0; i <= (damping_rate_max > 0 ? grid_count : 0); ++i)
+      largest = std::max(largest, amplification(method, y, damping_rate_max / omega * i / grid_count));
+    return largest;
+  };
+  return first_exit(1.0 / 4096, worst) / omega;  // srkn11b's first instability is a sliver, y = 3.1414 to 3.1423
+}
+
+}  // namespace
+
+std::vector<double> stability_polynomial(const RungeKutta& method) {
+  std::vector<double> polynomial{1.0};
+  std::vector<long double> power(method.stages, 1.0L);  // A^k (1, ..., 1)
+  for (int k = 0; k < method.stages; ++k) {
+    long double coefficient = 0;
+    for (int i = 0; i < method.stages; ++i) coefficient += method.b[i] * power[i];
+    polynomial.push_back(static_cast<double>(coefficient));
+    // Below the diagonal alone, so from the last row up the product can replace its factor.
+    for (int i = method.stages - 1; i >= 0; --i) {
+      long double sum = 0;
+      for (int j = 0; j < i; ++j) sum += method.a[i * method.stages + j] * power[j];
+      power[i] = sum;
+    }
+  }
+  return polynomial;
+}
+
+double step_bound(const Integrator& integrator, double omega_squared, double damping_rate_max) {
+  PLIANT_EXPECT(std::isfinite(omega_squared) && omega_squared >= 0);
+  PLIANT_EXPECT(std::isfinite(damping_rate_max) && damping_rate_max >= 0);
+  PLIANT_EXPECT(damping_rate_max == 0 || allows_damping(integrator));
+  const double omega = std::sqrt(omega_squared);
+  if (const auto* method = std::get_if<RungeKutta>(&integrator.method))
+    return runge_kutta_bound(*method, omega, damping_rate_max);
+  return splitting_bound(std::get<Splitting>(integrator.method), omega, damping_rate_max);
+}
+
+}  // namespace pliant

@@ -1,0 +1,19 @@
+// How long a step a method bears on the oscillator x'' = -omega^2 x - g x', and so on a body's stiffest mode.
+#pragma once
+#include <vector>
+
+#include "dynamics/integrator.hpp"
+
+namespace pliant {
+
+/// R's coefficients, constant term first: one step on y' = lambda y multiplies y by R(h lambda).
+[[nodiscard]] std::vector<double> stability_polynomial(const RungeKutta& method);
+
+/// The step h [s] up to which one step amplifies no more than 1 + 1e-4, for every damping rate g from 0 to
+/// damping_rate_max and both solutions lambda of lambda^2 + g lambda + omega_squared = 0. Infinite where nothing bounds it.
+/// A slower mode can bear less where g is near omega or above; that of omega_squared = 0, a body drifting through a
+/// damping medium, needs a call of its own. Damping expects allows_damping(integrator).
+[[nodiscard]] double step_bound(const Integrator& integrator, double omega_squared /* N k/m [1/s^2] */,
+                                double damping_rate_max /* [1/s] */);
+
+}  // namespace pliant

@@ -1,0 +1,188 @@
+// Conservation, symmetry and convergence of the integrators on a body in general motion.
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "core/thread_pool.hpp"
+#include "simulation/measure.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+// A lopsided cloud of 12 vertices, squashed and spinning.
+BodySetup tumbling() {
+  std::mt19937 random(20240501);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  TriangleMesh mesh;
+  for (int i = 0; i < 12; ++i) mesh.positions.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  BodySetup setup = body_of_mesh(mesh);
+  setup.description.stretch = {1.2, 0.85, 1.05};
+  setup.description.spin = {0.3, -0.2, 0.5};
+  setup.description.velocity = {1, 2, -0.5};
+  return setup;
+}
+
+Measurement measured(const Model& model, const State& state, const glm::dvec3& gravity = glm::dvec3(0.0)) {
+  ThreadPool pool(1);
+  return measure(model, state, gravity, pool);
+}
+
+double error_at(Device& device, const ModelAndState& start, const Method& method, double end_time,
+                const std::vector<glm::dvec3>& exact) {
+  const auto steps = static_cast<std::uint64_t>(std::lround(end_time / method.time_step));
+  return distance(evolve(device, start, method, steps).world_positions(start.model), exact);
+}
+
+// log2 of how much the error shrinks when the step is halved.
+double measured_order(const ModelAndState& start, const Integrator& integrator, DampingLaw law, double coarse_step) {
+  const auto device = make_cpu_device(1, 64);
+  const double end_time = 16 * coarse_step;
+  const Method reference{"vern8", coarse_step / 64, law};
+  const auto exact = evolve(*device, start, reference, 16 * 64).world_positions(start.model);
+  const double coarse = error_at(*device, start, {integrator.name, coarse_step, law}, end_time, exact);
+  const double fine = error_at(*device, start, {integrator.name, coarse_step / 2, law}, end_time, exact);
+  CAPTURE(coarse, fine);
+  CHECK(fine > 1e-14);  // above rounding, so that the slope means something
+  return std::log2(coarse / fine);
+}
+
+TEST_CASE("halving the step shrinks the error as the method's order says") {
+  const ModelAndState start = built(tumbling());
+  const double omega = stiffest_omega(start.model);
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant})
+    for (const Integrator& integrator : integrators()) {
+      if (law != DampingLaw::none && !allows_damping(integrator)) continue;
+      CAPTURE(integrator.name, static_cast<int>(law));
+      const double z = integrator.order >= 8 ? 0.8 : integrator.order >= 6 ? 0.6 : 0.1;
+      CHECK(measured_order(start, integrator, law, z / omega) == Approx(integrator.order).margin(0.7));
+    }
+}
+
+TEST_CASE("the kinks of the adaptive law leave any method order two") {
+  BodySetup setup = tumbling();
+  setup.description.stiffness = 100;  // forces on both sides of the kink at 100 N
+  const ModelAndState start = built(setup);
+  const auto device = make_cpu_device(1, 64);
+  const double step = 0.4 / stiffest_omega(start.model), end_time = 40 * step;
+  const auto exact = evolve(*device, start, {"vern8", step / 128, DampingLaw::adaptive}, 40 * 128).world_positions(start.model);
+  const double coarse = error_at(*device, start, {"cv8", step, DampingLaw::adaptive}, end_time, exact);
+  const double fine = error_at(*device, start, {"cv8", step / 16, DampingLaw::adaptive}, end_time, exact);
+  CAPTURE(coarse, fine);
+  const double order = std::log2(coarse / fine) / 4;
+  CHECK(order > 1.5);
+  CHECK(order < 3.5);
+}
+
+TEST_CASE("momentum and angular momentum are conserved without damping", "[gl]") {
+  const ModelAndState start = built(tumbling());
+  const Measurement before = measured(start.model, start.state);
+  for (const TestDevice& test : all_devices())
+    for (const Integrator& integrator : integrators()) {
+      CAPTURE(test.name, integrator.name);
+      const double step = (integrator.order >= 8 ? 0.2 : 0.02) / stiffest_omega(start.model);
+      const Measurement after = measured(start.model, evolve(*test.device, start, {integrator.name, step}, 200));
+      const double tolerance = test.rounding < 1e-12 ? 1e-11 : 2e-5;
+      CHECK(glm::distance(after.momentum, before.momentum) < tolerance * glm::length(before.momentum));
+      // A Runge-Kutta method turns rigidly only to its own order; a splitting exactly.
+      CHECK(glm::distance(after.angular_momentum, before.angular_momentum) <
+            std::max(tolerance, integrator.order == 4 ? 1e-7 : 1e-9) * glm::length(before.angular_momentum));
+    }
+}
+
+TEST_CASE("without damping the energy error of an order-8 method falls with its ninth power") {
+  const ModelAndState start = built(tumbling());
+  const double energy = measured(start.model, start.state).energy();
+  const auto device = make_cpu_device(1, 64);
+  const auto drift = [&](double z, std::uint64_t steps) {
+    const State end = evolve(*device, start, {"cv8", z / stiffest_omega(start.model)}, steps);
+    return std::abs(measured(start.model, end).energy() / energy - 1);
+  };
+  const double coarse = drift(1.0, 100), fine = drift(0.5, 200);
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 1e-2);
+  CHECK(std::log2(coarse / fine) == Approx(9).margin(1.0));
+}
+
+TEST_CASE("damping takes energy away, and never gives any", "[gl]") {
+  const ModelAndState start = built(tumbling());
+  for (const TestDevice& test : all_devices())
+    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) {
+      CAPTURE(test.name, static_cast<int>(law));
+      double energy = measured(start.model, start.state).energy();
+      State state = start.state;
+      for (int part = 0; part < 10; ++part) {
+        state = evolve(*test.device, {start.model, state}, {"verlet", 0.2 / stiffest_omega(start.model), law}, 5);
+        const double later = measured(start.model, state).energy();
+        CHECK(later < energy);
+        energy = later;
+      }
+    }
+}
+
+TEST_CASE("energy with gravity is conserved") {
+  const glm::dvec3 gravity(0.5, -9.81, 0);
+  const ModelAndState start = built(tumbling(), gravity);
+  const auto device = make_cpu_device(1, 64);
+  const double before = measured(start.model, start.state, gravity).energy();
+  const State end = evolve(*device, start, {"cv8", 0.1 / stiffest_omega(start.model)}, 300);
+  CHECK(measured(start.model, end, gravity).energy() == Approx(before).epsilon(1e-10));
+}
+
+TEST_CASE("a turned and moved start gives the turned and moved result", "[gl]") {
+  BodySetup moved = tumbling();
+  moved.description.rotation = {0, 0, 90};
+  moved.description.position = {1e4, -3e3, 500};
+  const auto turn = [](const glm::dvec3& p) { return glm::dvec3(-p.y, p.x, p.z); };
+  moved.description.spin = turn(moved.description.spin);
+  moved.description.velocity = turn(moved.description.velocity);
+  const ModelAndState here = built(tumbling()), there = built(moved);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    const Method method{"cv8", 0.3 / stiffest_omega(here.model), DampingLaw::adaptive};
+    const auto a = evolve(*test.device, here, method, 100).world_positions(here.model);
+    const auto b = evolve(*test.device, there, method, 100).world_positions(there.model);
+    std::vector<glm::dvec3> expected;
+    for (const glm::dvec3& p : a) expected.push_back(turn(p) + moved.description.position);
+    // Rotation by 90 degrees and a shift of 1e4 m cost fp64 digits, never fp32's.
+    CHECK(distance(b, expected) < (test.rounding < 1e-12 ? 1e-10 : 5e-6));
+  }
+}
+
+TEST_CASE("fp32 forces with fp64 state keep to the fp64 trajectory", "[gl]") {
+  BodySetup setup = sphere(2);
+  setup.description.stretch = {1.1, 0.95, 1};
+  const ModelAndState start = built(setup);
+  const Method method{"cv8", 0.5 / stiffest_omega(start.model)};
+  const auto exact = evolve(*make_cpu_device(2, 64), start, method, 200);
+  double size = 0;
+  for (const double number : start.state.motion) size += number * number;
+  for (const TestDevice& test : all_devices()) {
+    if (test.rounding < 1e-12) continue;
+    CAPTURE(test.name);
+    const State end = evolve(*test.device, start, method, 200);
+    CHECK(distance(end.world_positions(start.model), exact.world_positions(start.model)) < 1e-6 * std::sqrt(size));
+  }
+}
+
+TEST_CASE("changing a body's frame leaves its motion as it was", "[gl]") {
+  BodySetup setup = tumbling();
+  setup.description.spin = {2, -1, 3};  // many changes of frame
+  const ModelAndState start = built(setup);
+  const Measurement before = measured(start.model, start.state);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    CollisionDescription apart;
+    const double step = 0.1 / stiffest_omega(start.model);
+    Simulation simulation(*test.device, start.model, start.state, plan_of({"cv8", step}), DampingLaw::none, apart);
+    simulation.advance(600);
+    CHECK(simulation.report().frame_changes > 100);
+    const Measurement after = measured(start.model, simulation.state());
+    const double tolerance = test.rounding < 1e-12 ? 1e-9 : 3e-5;
+    CHECK(after.energy() == Approx(before.energy()).epsilon(tolerance));
+    CHECK(glm::distance(after.angular_momentum, before.angular_momentum) < tolerance * glm::length(before.angular_momentum));
+  }
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,170 @@
+// Step bounds against published limits, and against oscillators that are really stepped.
+#include "dynamics/stability.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <string>
+
+namespace pliant {
+namespace {
+
+using Complex = std::complex<double>;
+
+// One plain Runge-Kutta step of y' = lambda y from y = 1, with z = h lambda.
+Complex plain_step(const RungeKutta& method, Complex z) {
+  std::vector<Complex> slopes;
+  Complex end = 1;
+  for (int i = 0; i < method.stages; ++i) {
+    Complex y = 1;
+    for (int j = 0; j < i; ++j) y += static_cast<double>(method.a[i * method.stages + j]) * slopes[j];
+    slopes.push_back(z * y);
+    end += static_cast<double>(method.b[i]) * slopes[i];
+  }
+  return end;
+}
+
+// The larger amplification of the two solutions of x'' = -omega^2 x - g x'.
+double oscillator_amplification(const RungeKutta& method, double h, double omega, double g) {
+  const Complex root = std::sqrt(Complex(g * g / 4 - omega * omega));
+  return std::max(std::abs(plain_step(method, h * (-g / 2 + root))), std::abs(plain_step(method, h * (-g / 2 - root))));
+}
+
+// Growth of |(x, v)| per step of x'' = -x - g v over many steps of velocity Verlet with the damped kick.
+double verlet_growth(double h, double g) {
+  const double decay = std::exp(-g * h / 2), push = g > 0 ? (1 - decay) / g : h / 2;
+  double x = 0.3, v = -0.4;
+  constexpr int steps = 1000;
+  for (int step = 0; step < steps; ++step) {
+    v = decay * v - push * x;
+    x += h * v;
+    v = decay * v - push * x;
+  }
+  return std::pow(std::hypot(x, v) / 0.5, 1.0 / steps);
+}
+
+}  // namespace
+
+TEST_CASE("undamped step bounds are the published limits of the imaginary axis") {
+  // rk4 to vern8: the largest y with |R(iy)| <= 1 + 1e-4, found on a grid of 6e-5 in exact coefficients. verlet: closed
+  // form. srkn11b: Blanes and Moan (2002).
+  const std::pair<const char*, double> limits[] = {{"verlet", 2.0},         {"srkn11b", 3.1414},    {"rk4", 2.82852},
+                                                   {"cv8", 3.00186},        {"cv8_minus", 3.39666}, {"dop853", 5.96046},
+                                                   {"verner78_8", 4.77546}, {"vern8", 2.85066}};
+  REQUIRE(std::size(limits) == integrators().size());
+  for (const auto& [name, limit] : limits) {
+    CAPTURE(name);
+    CHECK(step_bound(find_integrator(name), 1.0, 0.0) == Approx(limit).margin(1e-4));
+  }
+}
+
+TEST_CASE("the stability polynomial is what a Runge-Kutta step does to an exponential") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    const std::vector<double> polynomial = stability_polynomial(*method);
+    for (const Complex z : {Complex(0, 1.5), Complex(-2, 0), Complex(-0.8, 2.1), Complex(0.3, -0.2)}) {
+      Complex value = 0;
+      for (std::size_t k = polynomial.size(); k-- > 0;) value = value * z + polynomial[k];
+      CHECK(std::abs(value - plain_step(*method, z)) < 1e-10);  // vern8 sums slopes 100 times the result
+    }
+  }
+}
+
+TEST_CASE("a method's polynomial agrees with the exponential series up to its order and no further") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    const std::vector<double> polynomial = stability_polynomial(*method);
+    for (int k = 0; k <= integrator.order; ++k) CHECK(polynomial[k] == Approx(1 / std::tgamma(k + 1)).epsilon(1e-12));
+    const double next = integrator.order + 1 < static_cast<int>(polynomial.size()) ? polynomial[integrator.order + 1] : 0;
+    CHECK(next != Approx(1 / std::tgamma(integrator.order + 2)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a Runge-Kutta step within the bound does not amplify, and just beyond it does") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    for (const double largest_rate : {0.0, 0.3, 1.0, 2.0, 3.0, 40.0}) {
+      CAPTURE(integrator.name, largest_rate);
+      const double bound = step_bound(integrator, 1.0, largest_rate);
+      double inside = 0, outside = 0;
+      for (int i = 0; i <= 200; ++i) {
+        const double rate = largest_rate * i / 200;
+        for (const double part : {0.05, 0.3, 0.6, 0.9, 0.99})
+          inside = std::max(inside, oscillator_amplification(*method, part * bound, 1.0, rate));
+        outside = std::max(outside, oscillator_amplification(*method, 1.002 * bound, 1.0, rate));
+      }
+      CHECK(inside <= 1 + 1e-4);
+      CHECK(outside > 1 + 1e-4);
+    }
+  }
+}
+
+TEST_CASE("slower modes bear the step of the stiffest and of free drift") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    for (const double largest_rate : {0.0, 0.3, 1.0, 1.9, 2.1, 3.0, 40.0}) {
+      CAPTURE(integrator.name, largest_rate);
+      const double h = 0.9 * std::min(step_bound(integrator, 1.0, largest_rate), step_bound(integrator, 0.0, largest_rate));
+      double largest = 0;
+      for (int i = 0; i <= 50; ++i)
+        for (int j = 0; j <= 50; ++j)
+          largest = std::max(largest, oscillator_amplification(*method, h, i / 50.0, largest_rate * j / 50));
+      CHECK(largest <= 1 + 1e-4);
+    }
+  }
+}
+
+TEST_CASE("a body drifting through a strongly damping medium bears less than its stiffest mode") {
+  const Integrator& rk4 = find_integrator("rk4");
+  CHECK(step_bound(rk4, 1.0, 1.9) > 2.5);
+  CHECK(step_bound(rk4, 0.0, 1.9) == Approx(2.7853 / 1.9).epsilon(1e-3));  // the limit of the real axis
+}
+
+TEST_CASE("step bounds scale with the period") {
+  for (const Integrator& integrator : integrators()) {
+    CAPTURE(integrator.name);
+    const double rate = allows_damping(integrator) ? 3.0 : 0.0;
+    CHECK(step_bound(integrator, 4e4, 2 * rate) == Approx(step_bound(integrator, 1e4, rate) / 2).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("more damping never lengthens a Runge-Kutta method's bound") {
+  for (const Integrator& integrator : integrators()) {
+    if (!std::holds_alternative<RungeKutta>(integrator.method)) continue;
+    double previous = step_bound(integrator, 1.0, 0.0);
+    for (const double rate : {0.1, 0.7, 1.9, 2.0, 2.1, 5.0, 100.0}) {
+      CAPTURE(integrator.name, rate);
+      const double bound = step_bound(integrator, 1.0, rate);
+      CHECK(bound <= previous * (1 + 2e-3));  // the bound samples angles
+      previous = bound;
+    }
+  }
+}
+
+TEST_CASE("verlet bears any damping within its undamped bound") {
+  const Integrator& verlet = find_integrator("verlet");
+  for (const double rate : {0.0, 0.5, 3.0, 1e6}) {
+    CAPTURE(rate);
+    CHECK(step_bound(verlet, 1.0, rate) == Approx(2.0).margin(1e-6));
+    CHECK(verlet_growth(1.98, rate) < 1 + 5e-3);
+  }
+  CHECK(verlet_growth(2.02, 0.0) > 1.05);
+}
+
+TEST_CASE("without springs only damping bounds the step") {
+  for (const Integrator& integrator : integrators()) {
+    CAPTURE(integrator.name);
+    CHECK(std::isinf(step_bound(integrator, 0.0, 0.0)));
+    if (!allows_damping(integrator)) continue;
+    CHECK(std::isinf(step_bound(integrator, 0.0, 5.0)) == std::holds_alternative<Splitting>(integrator.method));
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,331 @@
+// Order conditions over every integrator. Runge-Kutta: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
+// II.2; splittings as Nystrom methods: the same book, II.14, with trees for x'' = f(x).
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "core/error.hpp"
+#include "dynamics/integrator.hpp"
+
+namespace pliant {
+namespace {
+
+using Vector = std::vector<long double>;
+
+struct Residual {
+  long double value = 0, scale = 0;  // scale: the same sum over magnitudes
+};
+
+// ---- rooted trees ----
+
+struct Tree {
+  int order = 1;
+  long double density = 1;  // gamma
+  std::vector<const Tree*> children;
+};
+
+// Every rooted tree up to `order`, smaller ones first.
+class Trees {
+ public:
+  explicit Trees(int order) {
+    for (int n = 1; n <= order; ++n) {
+      std::vector<const Tree*> none;
+      grow(n, n - 1, all_.size(), none);
+    }
+  }
+  const std::vector<std::unique_ptr<Tree>>& all() const { return all_; }
+
+ private:
+  // Adds children of descending index until `left` vertices are spent.
+  void grow(int order, int left, std::size_t first_forbidden, std::vector<const Tree*>& children) {
+    if (left == 0) return add(order, children);
+    for (std::size_t i = 0; i < first_forbidden; ++i) {
+      if (all_[i]->order > left) break;
+      children.push_back(all_[i].get());
+      grow(order, left - all_[i]->order, i + 1, children);
+      children.pop_back();
+    }
+  }
+  void add(int order, const std::vector<const Tree*>& children) {
+    Tree tree{order, static_cast<long double>(order), children};
+    for (const Tree* child : children) tree.density *= child->density;
+    all_.push_back(std::make_unique<Tree>(tree));
+  }
+  std::vector<std::unique_ptr<Tree>> all_;
+};
+
+Vector product(const Vector& matrix, const Vector& vector) {
+  Vector result(vector.size());
+  for (std::size_t i = 0; i < vector.size(); ++i)
+    for (std::size_t j = 0; j < vector.size(); ++j) result[i] += matrix[i * vector.size() + j] * vector[j];
+  return result;
+}
+
+long double dot(const Vector& a, const Vector& b) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+Vector magnitudes(Vector values) {
+  for (long double& value : values) value = std::abs(value);
+  return values;
+}
+
+// The elementary weight of `tree` at each stage.
+Vector stage_weights(const Tree& tree, const Vector& a, int stages) {
+  Vector weights(stages, 1);
+  for (const Tree* child : tree.children) {
+    const Vector inner = product(a, stage_weights(*child, a, stages));
+    for (int i = 0; i < stages; ++i) weights[i] *= inner[i];
+  }
+  return weights;
+}
+
+Residual residual(const Tree& tree, const RungeKutta& method, const Vector& b) {
+  const long double value = dot(b, stage_weights(tree, method.a, method.stages)) - 1 / tree.density;
+  return {value, dot(magnitudes(b), stage_weights(tree, magnitudes(method.a), method.stages))};
+}
+
+// The largest residual over the trees of one order, in units of its sum's magnitude (and 1 at least).
+long double worst(const Trees& trees, int order, const RungeKutta& method, const Vector& b) {
+  long double largest = 0;
+  for (const auto& tree : trees.all()) {
+    if (tree->order != order) continue;
+    const Residual r = residual(*tree, method, b);
+    largest = std::max(largest, std::abs(r.value) / std::max(1.0L, r.scale));
+  }
+  return largest;
+}
+
+void check_order(const Trees& trees, const RungeKutta& method, const Vector& b, int order) {
+  REQUIRE(static_cast<int>(b.size()) == method.stages);
+  for (int n = 1; n <= order; ++n) {
+    CAPTURE(n);
+    CHECK(worst(trees, n, method, b) < 1e-17L);
+  }
+  CHECK(worst(trees, order + 1, method, b) > 1e-10L);
+}
+
+// ---- Nystrom trees: a node's factors are v (a drift from the step's start) or the double integral of a subtree ----
+
+struct NystromTree {
+  int drift_count = 0;
+  std::vector<const NystromTree*> children;
+  int order = 1;                // of its term in the velocity
+  long double coefficient = 1;  // on the exact solution its term's integrand is coefficient * time^(order - 1)
+};
+
+class NystromTrees {
+ public:
+  explicit NystromTrees(int order) {
+    for (int n = 1; n <= order; ++n)
+      for (int drifts = n - 1; drifts >= 0; --drifts) {
+        std::vector<const NystromTree*> none;
+        grow(n, drifts, n - 1 - drifts, all_.size(), none);
+      }
+  }
+  const std::vector<std::unique_ptr<NystromTree>>& all() const { return all_; }
+
+ private:
+  void grow(int order, int drifts, int left, std::size_t first_forbidden, std::vector<const NystromTree*>& children) {
+    if (left == 0) return add(order, drifts, children);
+    for (std::size_t i = 0; i < first_forbidden; ++i) {
+      if (all_[i]->order + 1 > left) continue;
+      children.push_back(all_[i].get());
+      grow(order, drifts, left - all_[i]->order - 1, i + 1, children);
+      children.pop_back();
+    }
+  }
+  void add(int order, int drifts, const std::vector<const NystromTree*>& children) {
+    NystromTree tree{drifts, children, order, 1};
+    for (const NystromTree* child : children)
+      tree.coefficient *= child->coefficient / static_cast<long double>(child->order * (child->order + 1));
+    all_.push_back(std::make_unique<NystromTree>(tree));
+  }
+  std::vector<std::unique_ptr<NystromTree>> all_;
+};
+
+struct NystromMethod {
+  Vector a, b, b_position, c;
+};
+
+NystromMethod as_nystrom(const Splitting& splitting) {
+  NystromMethod method;
+  long double time = 0;
+  for (std::size_t i = 0; i < splitting.kick.size(); ++i) {
+    method.c.push_back(time);
+    if (i < splitting.drift.size()) time += splitting.drift[i];
+  }
+  method.b = splitting.kick;
+  for (std::size_t i = 0; i < method.b.size(); ++i) {
+    method.b_position.push_back(method.b[i] * (1 - method.c[i]));
+    for (std::size_t j = 0; j < method.b.size(); ++j)
+      method.a.push_back(j < i ? method.b[j] * (method.c[i] - method.c[j]) : 0.0L);
+  }
+  return method;
+}
+
+Vector stage_weights(const NystromTree& tree, const NystromMethod& method) {
+  Vector weights(method.c.size(), 1);
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(method.c[i], tree.drift_count);
+  for (const NystromTree* child : tree.children) {
+    const Vector inner = product(method.a, stage_weights(*child, method));
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= inner[i];
+  }
+  return weights;
+}
+
+long double velocity_residual(const NystromTree& tree, const NystromMethod& method) {
+  return dot(method.b, stage_weights(tree, method)) - tree.coefficient / static_cast<long double>(tree.order);
+}
+
+long double position_residual(const NystromTree& tree, const NystromMethod& method) {
+  return dot(method.b_position, stage_weights(tree, method)) -
+         tree.coefficient / static_cast<long double>(tree.order * (tree.order + 1));
+}
+
+// ---- a plain Runge-Kutta step of x' = v, v' = acceleration(x, v), as an oracle ----
+
+struct Point {
+  long double x, v;
+};
+
+long double acceleration(Point p) { return -std::sin(p.x) - 0.3L * p.v * std::abs(p.v); }
+
+Point plain_step(const RungeKutta& method, Point start, long double h) {
+  std::vector<Point> slopes;
+  Point end = start;
+  for (int i = 0; i < method.stages; ++i) {
+    Point p = start;
+    for (int j = 0; j < i; ++j) {
+      p.x += h * method.a[i * method.stages + j] * slopes[j].x;
+      p.v += h * method.a[i * method.stages + j] * slopes[j].v;
+    }
+    slopes.push_back({p.v, acceleration(p)});
+    end.x += h * method.b[i] * slopes[i].x;
+    end.v += h * method.b[i] * slopes[i].v;
+  }
+  return end;
+}
+
+Point nystrom_step(const NystromTableau& tableau, Point start, long double h) {
+  Vector accelerations;
+  for (int row = 0;; ++row) {
+    Point p{start.x + tableau.c[row] * h * start.v, start.v};
+    for (std::size_t j = 0; j < accelerations.size(); ++j) {
+      p.x += h * h * tableau.position[row * tableau.stages + j] * accelerations[j];
+      p.v += h * tableau.velocity[row * tableau.stages + j] * accelerations[j];
+    }
+    if (row == tableau.stages) return p;
+    accelerations.push_back(acceleration(p));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("rooted trees are as many as the literature counts") {
+  const Trees trees(9);
+  std::map<int, int> count;
+  for (const auto& tree : trees.all()) ++count[tree->order];
+  const std::map<int, int> expected{{1, 1}, {2, 1}, {3, 2}, {4, 4}, {5, 9}, {6, 20}, {7, 48}, {8, 115}, {9, 286}};
+  CHECK(count == expected);
+}
+
+TEST_CASE("every Runge-Kutta method satisfies all conditions of its order and not all of the next") {
+  const Trees trees(9);
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    check_order(trees, *method, method->b, integrator.order);
+    if (method->order_hat > 0) check_order(trees, *method, method->b_hat, method->order_hat);
+    if (method->order_hat2 > 0) check_order(trees, *method, method->b_hat2, method->order_hat2);
+  }
+}
+
+TEST_CASE("every Runge-Kutta method is explicit, and its nodes are the sums of its rows") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    REQUIRE(static_cast<int>(method->a.size()) == method->stages * method->stages);
+    const Vector row_sums = product(method->a, Vector(method->stages, 1));
+    for (int i = 0; i < method->stages; ++i) {
+      CHECK(std::abs(row_sums[i] - method->c[i]) < 1e-17L);
+      for (int j = i; j < method->stages; ++j) CHECK(method->a[i * method->stages + j] == 0);
+    }
+  }
+}
+
+TEST_CASE("every splitting satisfies all Nystrom conditions of its order and not all of the next") {
+  const NystromTrees trees(7);
+  for (const Integrator& integrator : integrators()) {
+    const auto* splitting = std::get_if<Splitting>(&integrator.method);
+    if (splitting == nullptr) continue;
+    CAPTURE(integrator.name);
+    const NystromMethod method = as_nystrom(*splitting);
+    long double next = 0;
+    for (const auto& tree : trees.all()) {
+      CAPTURE(tree->order);
+      if (tree->order <= integrator.order) CHECK(std::abs(velocity_residual(*tree, method)) < 1e-13L);
+      if (tree->order + 1 <= integrator.order) CHECK(std::abs(position_residual(*tree, method)) < 1e-13L);
+      if (tree->order == integrator.order + 1) next = std::max(next, std::abs(velocity_residual(*tree, method)));
+    }
+    CHECK(next > 1e-9L);
+  }
+}
+
+TEST_CASE("a splitting's coefficients read the same backwards and cover the step") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* splitting = std::get_if<Splitting>(&integrator.method);
+    if (splitting == nullptr) continue;
+    CAPTURE(integrator.name);
+    REQUIRE(splitting->kick.size() == splitting->drift.size() + 1);
+    for (const Vector* values : {&splitting->kick, &splitting->drift}) {
+      CHECK(*values == Vector(values->rbegin(), values->rend()));
+      CHECK(std::abs(dot(*values, Vector(values->size(), 1)) - 1) < 1e-18L);
+    }
+  }
+}
+
+TEST_CASE("a Nystrom tableau takes the step of the Runge-Kutta method it came from") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<RungeKutta>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    const NystromTableau tableau = nystrom_tableau(*method);
+    CHECK(tableau.stages == evaluations_per_step(integrator));
+    const Point start{0.7L, -1.1L}, expected = plain_step(*method, start, 0.4L), actual = nystrom_step(tableau, start, 0.4L);
+    CHECK(std::abs(actual.x - expected.x) < 1e-14L);  // the tableau is rounded to double
+    CHECK(std::abs(actual.v - expected.v) < 1e-14L);
+  }
+}
+
+TEST_CASE("stages that only an error estimate uses cost no force evaluation") {
+  CHECK(evaluations_per_step(find_integrator("verlet")) == 1);
+  CHECK(evaluations_per_step(find_integrator("srkn11b")) == 11);
+  CHECK(evaluations_per_step(find_integrator("dop853")) == 12);
+  CHECK(evaluations_per_step(find_integrator("verner78_8")) == 12);
+  CHECK(evaluations_per_step(find_integrator("vern8")) == 12);
+}
+
+TEST_CASE("an unknown integrator is an input error that lists the known ones") {
+  try {
+    (void)find_integrator("rk5", "a.toml:3: simulation.integrator");
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::input);
+    const std::string text = error.what();
+    CHECK(text.find("a.toml:3") == 0);
+    CHECK(text.find("rk5") != std::string::npos);
+    for (const Integrator& integrator : integrators()) CHECK(text.find(integrator.name) != std::string::npos);
+  }
+}
+
+TEST_CASE("damping is for every method but splittings with negative kicks") {
+  for (const Integrator& integrator : integrators()) CHECK(allows_damping(integrator) == (integrator.name != "srkn11b"));
+}
+
+}  // namespace pliant
