@@ -1,0 +1,54 @@
+// Records the dispatches that find and answer contacts between bodies at the end of a step.
+#pragma once
+#include <vector>
+
+#include "collision/tree.hpp"
+#include "device/device_bodies.hpp"
+#include "device/pass.hpp"
+#include "scene/scene_description.hpp"
+
+namespace pliant {
+
+class Collider {
+ public:
+  /// `device` and `bodies` must outlive the collider. The trees' structure comes from the rest positions.
+  Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description);
+
+  /// Bounds every body at `half`, and nothing more: for scenes without contacts.
+  [[nodiscard]] std::vector<Pass> bounding_passes(std::uint32_t half) const;
+  /// Finds the triangles of different bodies that touch at `half` and marks their vertices. Follows bounding_passes.
+  [[nodiscard]] std::vector<Pass> contact_passes(std::uint32_t half) const;
+  /// Moves marked vertices of the other half back to `from_half`.
+  [[nodiscard]] std::vector<Pass> response_passes(std::uint32_t from_half) const;
+
+  [[nodiscard]] const Forest& forest() const { return forest_; }
+  /// Of the latest search: places of two triangles in the forest's order, in no fixed order, as many as fit the list.
+  [[nodiscard]] std::vector<glm::uvec2> candidates() const;
+  /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
+  [[nodiscard]] std::vector<glm::vec4> node_boxes() const { return node_boxes_.download(); }
+  /// Of every vertex, the latest step in which it touched another body; 0: none.
+  [[nodiscard]] std::vector<std::uint32_t> marks() const { return marks_.download(); }
+
+ private:
+  [[nodiscard]] std::vector<Pass> tree_passes(std::uint32_t first_position) const;
+  [[nodiscard]] std::vector<Pass> brute_force_passes(std::uint32_t first_position) const;
+  [[nodiscard]] std::uint32_t threads_per_pair() const;
+
+  Device& device_;
+  DeviceBodies& bodies_;
+  CollisionDescription description_;
+  Forest forest_;
+  std::uint32_t largest_body_;     // triangles
+  DeviceArray<glm::uvec2> trees_;  // [body]: root, number of leaves
+  DeviceArray<glm::uvec2> leaves_;
+  DeviceArray<glm::uvec4> nodes_;
+  DeviceArray<glm::vec4> node_boxes_;
+  DeviceArray<std::uint32_t> triangles_;      // three a triangle, leaf order
+  DeviceArray<std::uint32_t> arrivals_;       // [node]
+  DeviceArray<std::uint32_t> partner_steps_;  // [body]
+  DeviceArray<glm::uvec2> near_pairs_;
+  DeviceArray<glm::uvec2> candidates_;
+  DeviceArray<std::uint32_t> marks_;  // [vertex]
+};
+
+}  // namespace pliant

@@ -1,0 +1,34 @@
+// The bodies' bounding box trees: their structure, built once from rest positions. Boxes are refitted elsewhere.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace pliant {
+
+inline constexpr std::uint32_t no_node = 0xffffffffu;
+
+/// One binary tree per body, all in the same arrays. A body's nodes are contiguous and stand level by level, so children follow
+/// their parent and a sweep from the last node to the first meets children before parents.
+struct Forest {
+  /// x: left child, the right one is next to it; 0 in a leaf (node 0 is a root, never a child). y: parent; no_node in a root.
+  /// z, w: first and one past the last triangle, in leaf order.
+  std::vector<glm::uvec4> nodes;
+  std::vector<glm::uvec2> leaves;                       // node, body; in the order of nodes
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // vertex indices, in leaf order
+  std::vector<std::uint32_t> triangle_ids;              // leaf order -> index into Model::triangles
+  std::vector<std::uint32_t> roots;                     // a body; no_node where a body has no triangles
+  std::vector<std::uint32_t> leaf_counts;               // a body; 0 where a body has no triangles
+  unsigned depth = 0;                                   // of the deepest node; a root has depth 0
+};
+
+/// Builds all trees, top-down: a node of more than leaf_size triangles above max_depth is split; one that cannot be split is a
+/// leaf, whatever its size. `positions` are those of the model's vertices (rest or world) [m], finite; w is ignored.
+[[nodiscard]] Forest build_forest(const Model& model, std::span<const glm::vec4> positions, const TreeDescription& description);
+
+}  // namespace pliant
