@@ -1,0 +1,120 @@
+// See simulation.hpp. Step s starts from half (s - 1) mod 2 and ends in the other.
+#include "simulation/simulation.hpp"
+
+#include <algorithm>
+
+namespace pliant {
+namespace {
+
+using physics::Control;
+
+void append(std::vector<Pass>& passes, std::vector<Pass> more) {
+  passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+std::uint64_t total(const Control& control, std::uint32_t counter) {
+  return (static_cast<std::uint64_t>(control.total_high[counter]) << 32) | control.total_low[counter];
+}
+
+std::uint32_t body_of(const Model& model, std::uint32_t vertex) {
+  return static_cast<std::uint32_t>(model.rest_positions[vertex].w);
+}
+
+void add_collision_counts(StepReport& report, const Control& control, std::size_t body_count) {
+  report.contact_steps = control.contact_steps;
+  report.contact_pairs_max = control.contact_pairs_max;
+  report.reverted_vertices = total(control, physics::reverted_vertices);
+  report.nodes_refitted = total(control, physics::nodes_refitted);
+  report.node_tests = total(control, physics::node_tests);
+  report.triangle_tests = total(control, physics::triangle_tests);
+  report.pairs_beyond_capacity = total(control, physics::pairs_beyond_capacity);
+  report.frame_changes = total(control, physics::frame_changes);
+  report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
+  report.refits_skipped = report.steps * body_count - total(control, physics::trees_refitted);
+}
+
+void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Frame>& frames) {
+  for (std::size_t b = 0; b < frames.size(); ++b) {
+    const std::uint64_t vertices = model.bodies[b].vertex_count;
+    report.force_evaluations += frames[b].force_evaluations;
+    report.forces_skipped += frames[b].forces_skipped;
+    report.pair_interactions += frames[b].force_evaluations * vertices * (vertices - 1);
+  }
+}
+
+}  // namespace
+
+Simulation::Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, DampingLaw law,
+                       const CollisionDescription& collision)
+    : device_(device),
+      model_(model),
+      bodies_(device, model, start),
+      stepper_(device, bodies_, *plan.integrator, law, plan.time_step),
+      collider_(device, bodies_, model, collision) {
+  for (std::uint32_t half = 0; half < 2; ++half)
+    schedules_[half] = schedule(half, collision.response == ContactResponse::reflect);
+}
+
+std::vector<Pass> Simulation::schedule(std::uint32_t from_half, bool responds) const {
+  std::vector<Pass> passes = stepper_.passes(from_half);
+  append(passes, collider_.bounding_passes(1 - from_half));
+  if (responds) {
+    append(passes, collider_.contact_passes(1 - from_half));
+    append(passes, collider_.response_passes(from_half));
+  }
+  passes.push_back(make_pass(device_, "finish_step", {bodies_.control.id()}, {}, 1));
+  return passes;
+}
+
+void Simulation::advance(std::uint64_t steps) {
+  for (std::uint64_t k = 0; k < steps; ++k) run_passes(device_, schedules_[queued_steps_++ & 1]);
+}
+
+std::uint32_t Simulation::half() {
+  const std::uint32_t halted_at = bodies_.control.download().front().non_finite_step;
+  return static_cast<std::uint32_t>((halted_at != 0 ? halted_at : queued_steps_) & 1);
+}
+
+StepReport Simulation::report() {
+  const Control control = bodies_.control.download().front();
+  StepReport report;
+  report.steps = control.step - 1;
+  if (control.non_finite_step != 0) {
+    const std::uint32_t body = body_of(model_, control.non_finite_vertex);
+    report.non_finite = NonFinite{control.non_finite_step, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
+  }
+  add_collision_counts(report, control, model_.bodies.size());
+  add_force_counts(report, model_, bodies_.frames.download());
+  return report;
+}
+
+State Simulation::state() { return bodies_.download(half()); }
+
+std::vector<glm::vec4> Simulation::world_positions() {
+  return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
+}
+
+Intersections Simulation::intersections() {
+  const Control saved = bodies_.control.download().front();
+  Control probe = saved;
+  probe.step = 0xffffffffu;  // no step will ever take these marks for its own
+  probe.non_finite_step = 0;
+  probe.non_finite_vertex = physics::no_vertex;
+  const std::uint32_t current = half();
+  bodies_.control.upload(std::span(&probe, 1));
+  std::vector<std::uint32_t> boxes;
+  for (std::uint32_t b = 0; b < bodies_.body_count; ++b) boxes.insert(boxes.end(), {~0u, ~0u, ~0u, 0u, 0u, 0u});
+  bodies_.body_boxes.upload(boxes);
+  run_passes(device_, collider_.bounding_passes(current));
+  run_passes(device_, collider_.contact_passes(current));
+
+  Intersections result{.pairs = bodies_.control.download().front().count[physics::contact_pairs], .bodies = {}};
+  const std::vector<std::uint32_t> marks = collider_.marks();
+  for (std::uint32_t i = 0; i < marks.size(); ++i)
+    if (marks[i] == probe.step && (result.bodies.empty() || result.bodies.back() != body_of(model_, i)))
+      result.bodies.push_back(body_of(model_, i));
+  bodies_.control.upload(std::span(&saved, 1));
+  return result;
+}
+
+}  // namespace pliant

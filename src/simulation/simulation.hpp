@@ -1,0 +1,80 @@
+// The order of one step: integrate, bound, find contacts, respond, count. Recorded once, then run without reading back.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/collider.hpp"
+#include "device/device_bodies.hpp"
+#include "dynamics/stepper.hpp"
+#include "model/model.hpp"
+#include "scene/scene_description.hpp"
+#include "simulation/time_plan.hpp"
+
+namespace pliant {
+
+/// The first vertex that went non-finite.
+struct NonFinite {
+  std::uint64_t step = 0;              // the step that made it, from 1
+  std::uint32_t body = 0, vertex = 0;  // vertex of the body
+};
+
+/// What the simulation did since its start.
+struct StepReport {
+  std::uint64_t steps = 0;  // completed, a non-finite one included
+  std::optional<NonFinite> non_finite;
+  std::uint64_t contact_steps = 0;      // steps with a pair
+  std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
+  std::uint64_t reverted_vertices = 0;
+  std::uint64_t force_evaluations = 0;  // all forces of one body once
+  std::uint64_t pair_interactions = 0;  // N (N - 1) for each of them
+  std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
+  std::uint64_t pairs_beyond_capacity = 0;  // triangle pairs tested where they were found, the list being full
+  std::uint64_t frame_changes = 0;          // of bodies' frames, following their rotation
+  std::uint64_t forces_skipped = 0;         // force evaluations that were zero beforehand: a body moving rigidly
+  std::uint64_t body_pairs_skipped = 0;     // root boxes apart
+  std::uint64_t refits_skipped = 0;         // trees without a partner
+};
+
+/// Triangles of different bodies that touch.
+struct Intersections {
+  std::uint64_t pairs = 0;
+  std::vector<std::uint32_t> bodies;  // that take part
+};
+
+class Simulation {
+ public:
+  /// `device` and `model` must outlive the simulation.
+  Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, DampingLaw law,
+             const CollisionDescription& collision);
+
+  /// Queues steps; they may still be running when this returns. After a non-finite step nothing moves.
+  void advance(std::uint64_t steps);
+  /// Waits for the queued steps.
+  [[nodiscard]] StepReport report();
+  [[nodiscard]] State state();
+  [[nodiscard]] std::vector<glm::vec4> world_positions();
+  /// Tests the world positions as they stand, by the scene's own search and triangle test.
+  [[nodiscard]] Intersections intersections();
+
+  /// The device's own world positions: buffer and first element, for drawing.
+  [[nodiscard]] BufferId position_buffer() const { return bodies_.world_positions.id(); }
+  [[nodiscard]] std::uint32_t first_position() { return half() * bodies_.vertex_count; }
+  [[nodiscard]] const Collider& collider() const { return collider_; }
+
+ private:
+  [[nodiscard]] std::uint32_t half();  // the one that holds the current state
+  [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half, bool responds) const;
+
+  Device& device_;
+  const Model& model_;
+  DeviceBodies bodies_;
+  Stepper stepper_;
+  Collider collider_;
+  std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
+  std::uint64_t queued_steps_ = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,65 @@
+// The automatic step keeps a tenth away from the stability bound of the stiffest body.
+#include "simulation/time_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "dynamics/stability.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double safety = 0.9;
+constexpr double largest_step_count = 4e9;  // the clock on the device has 32 bits
+
+double largest_damping_rate(const ModelBody& body, DampingLaw law) {
+  if (law == DampingLaw::none) return 0;
+  return (law == DampingLaw::adaptive ? 10.0 : 1.0) * body.damping / body.vertex_mass;
+}
+
+double bound_of(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
+  const double rate = largest_damping_rate(body, law);
+  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;
+  // The stiffest mode, and the body's own translation, which springs do not hold back.
+  return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
+}
+
+double automatic_step(double bound, double frame_rate) {
+  const double frame_time = 1 / frame_rate;
+  if (!std::isfinite(bound)) return frame_time;
+  return frame_time / std::max(1.0, std::ceil(frame_time / (safety * bound) - 1e-9));
+}
+
+void expect_method_damps(const Integrator& integrator, const SimulationDescription& simulation) {
+  if (simulation.damping_law == DampingLaw::none || allows_damping(integrator)) return;
+  throw Error(ErrorKind::input, simulation.integrator.where,
+              std::string(integrator.name) + " has kicks back in time, which damping makes unstable",
+              "set simulation.damping_law = \"none\" or choose another integrator, such as verlet");
+}
+
+}  // namespace
+
+std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
+  return static_cast<std::uint64_t>(std::ceil(static_cast<double>(frame) / (frame_rate * time_step) - 1e-6));
+}
+
+TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps) {
+  const SimulationDescription& simulation = scene.simulation;
+  TimePlan plan{.integrator = &find_integrator(simulation.integrator.value, simulation.integrator.where),
+                .step_bound = std::numeric_limits<double>::infinity(),
+                .frame_rate = scene.output.frame_rate};
+  expect_method_damps(*plan.integrator, simulation);
+  for (const ModelBody& body : model.bodies)
+    plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, simulation.damping_law));
+  plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
+  const double count = std::round(simulation.duration / plan.time_step);
+  if (!steps && !(count <= largest_step_count))
+    throw Error(ErrorKind::input, scene.file.string(), "the scene takes more than 4e9 steps",
+                "shorten simulation.duration or lengthen simulation.time_step");
+  plan.steps = steps ? *steps : static_cast<std::uint64_t>(count);
+  return plan;
+}
+
+}  // namespace pliant

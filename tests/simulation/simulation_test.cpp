@@ -1,0 +1,201 @@
+// A whole step: contacts, response, determinism, and what happens when numbers go wrong.
+#include "simulation/simulation.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "collision/oracle.hpp"
+#include "gl/context.hpp"
+#include "support/collision_scene.hpp"
+
+namespace pliant {
+namespace {
+
+struct Outcome {
+  State state;
+  std::vector<glm::vec4> positions;
+  StepReport report;
+};
+
+Outcome collide(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps,
+                const CollisionDescription& collision = {}) {
+  Simulation simulation(device, start.model, start.state, plan_of(method), method.law, collision);
+  simulation.advance(steps);
+  return {simulation.state(), simulation.world_positions(), simulation.report()};
+}
+
+const Method usual{"cv8", 0.01, DampingLaw::adaptive};
+
+TEST_CASE("the CPU gives the same bits on 1, 2 and 7 threads") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  for (const int precision : {32, 64}) {
+    const Outcome one = collide(*make_cpu_device(1, precision), start, usual, 30);
+    CHECK(one.report.contact_steps > 5);
+    for (const unsigned threads : {2u, 7u}) {
+      const Outcome many = collide(*make_cpu_device(threads, precision), start, usual, 30);
+      CHECK(many.state.motion == one.state.motion);
+      CHECK(many.positions == one.positions);
+      CHECK(many.report.triangle_tests == one.report.triangle_tests);
+      CHECK(many.report.reverted_vertices == one.report.reverted_vertices);
+    }
+  }
+}
+
+TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const Outcome first = collide(*make_gpu_device(0), start, usual, 30);
+  const Outcome second = collide(*make_gpu_device(0), start, usual, 30);
+  CHECK(first.report.contact_steps > 5);
+  CHECK(first.state.motion == second.state.motion);
+  CHECK(first.positions == second.positions);
+  CHECK(first.report.node_tests == second.report.node_tests);
+}
+
+TEST_CASE("steps queued together and one by one give the same bits") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  const Outcome together = collide(*device, start, usual, 25);
+  Simulation simulation(*device, start.model, start.state, plan_of(usual), usual.law, CollisionDescription{});
+  for (int step = 0; step < 25; ++step) {
+    simulation.advance(1);
+    static_cast<void>(simulation.intersections());  // looking changes nothing
+  }
+  CHECK(simulation.state().motion == together.state.motion);
+  CHECK(simulation.report().contact_pairs_max == together.report.contact_pairs_max);
+}
+
+TEST_CASE("vertices in contact go back bit for bit with their velocity reversed and scaled, and no others", "[gl]") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    CollisionDescription none, reflect;
+    none.response = ContactResponse::none;
+    reflect.elasticity = 0.7;
+    Simulation simulation(*test.device, start.model, start.state, plan_of(usual), usual.law, reflect);
+    std::size_t reverted = 0;
+    for (int step = 0; step < 12; ++step) {
+      const auto before = simulation.world_positions();
+      const State from = simulation.state();
+      const Outcome free = collide(*test.device, {start.model, from}, usual, 1, none);
+      simulation.advance(1);
+      const auto marks = simulation.collider().marks();
+      const auto after = simulation.world_positions();
+      const State to = simulation.state();
+      for (std::size_t i = 0; i < marks.size(); ++i) {
+        const bool marked = marks[i] == static_cast<std::uint32_t>(step + 1);
+        reverted += marked;
+        if (!marked) continue;
+        CHECK(after[i] == before[i]);
+        for (std::size_t k = 3; k < 6; ++k)
+          CHECK(to.motion[6 * i + k] == Approx(-0.7 * free.state.motion[6 * i + k]).epsilon(1e-12));
+      }
+    }
+    CHECK(reverted > 10);
+    CHECK(simulation.report().reverted_vertices == reverted);
+  }
+}
+
+TEST_CASE("marked vertices are those of the triangles that brute force finds", "[gl]") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    CollisionDescription none;
+    none.response = ContactResponse::none;
+    Simulation simulation(*test.device, start.model, start.state, plan_of(usual), usual.law, none);
+    simulation.advance(15);
+    const Intersections found = simulation.intersections();
+    const auto pairs = intersecting_pairs(start.model, simulation.world_positions(), TriangleTest::certified);
+    CHECK(found.pairs == pairs.size());
+    CHECK(found.bodies == std::vector<std::uint32_t>{0, 1});
+    std::vector<bool> touched(start.model.rest_positions.size());
+    for (const glm::uvec2& pair : pairs)
+      for (const std::uint32_t triangle : {pair.x, pair.y})
+        for (const std::uint32_t vertex : start.model.triangles[triangle]) touched[vertex] = true;
+    const auto marks = simulation.collider().marks();
+    for (std::size_t i = 0; i < marks.size(); ++i) CHECK((marks[i] != 0) == touched[i]);
+  }
+}
+
+TEST_CASE("searching trees and searching all pairs simulate the same") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  CollisionDescription brute;
+  brute.search = ContactSearch::brute_force;
+  const Outcome by_tree = collide(*device, start, usual, 30), by_force = collide(*device, start, usual, 30, brute);
+  CHECK(by_tree.state.motion == by_force.state.motion);
+  CHECK(by_tree.report.contact_pairs_max == by_force.report.contact_pairs_max);
+  CHECK(by_tree.report.triangle_tests < by_force.report.triangle_tests / 20);
+}
+
+TEST_CASE("bodies that stay apart do no tree work") {
+  auto setups = colliding_spheres();
+  setups[0].description.velocity = {-2, 0, 0};
+  setups[1].description.velocity = {2, 0, 0};
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const Outcome outcome = collide(*make_cpu_device(1, 32), start, usual, 20);
+  CHECK(outcome.report.nodes_refitted == 0);
+  CHECK(outcome.report.node_tests == 0);
+  CHECK(outcome.report.body_pairs_skipped == 20);
+  CHECK(outcome.report.refits_skipped == 40);
+}
+
+TEST_CASE("a force evaluation counts every ordered pair of a body's vertices") {
+  BodySetup setup = sphere(1);
+  setup.description.stretch = {1.1, 1, 1};
+  const ModelAndState start = built(setup);
+  const auto device = make_cpu_device(1, 32);
+  const StepReport cv8 = collide(*device, start, {"cv8", 0.01}, 7).report;
+  CHECK(cv8.force_evaluations == 77);
+  CHECK(cv8.pair_interactions == 77ull * 42 * 41);
+  CHECK(collide(*device, start, {"verlet", 0.01}, 7).report.force_evaluations == 8);  // and the first step's own
+}
+
+TEST_CASE("a vertex that goes non-finite is named in the step that made it, and nothing moves after", "[gl]") {
+  BodySetup first = sphere(0), second = sphere(0);
+  second.description.name = "second";
+  second.description.position = {5, 0, 0};
+  second.description.stretch = {1.2, 1, 1};
+  const std::vector<BodySetup> setups{first, second};
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const double step = 40 / stiffest_omega(start.model);  // far beyond the bound
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation simulation(*test.device, start.model, start.state, plan_of({"rk4", step}), DampingLaw::none,
+                          CollisionDescription{});
+    simulation.advance(1);
+    std::uint64_t steps = 1;
+    while (!simulation.report().non_finite && steps < 1000) simulation.advance(1), ++steps;
+    const StepReport report = simulation.report();
+    REQUIRE(report.non_finite);
+    CHECK(report.non_finite->step == steps);
+    CHECK(report.non_finite->body == 1);
+    CHECK(report.non_finite->vertex < 12);
+    const auto broken = simulation.world_positions();
+    const bool finite = std::all_of(broken.begin() + 12, broken.end(), [](const glm::vec4& p) {
+      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+    const State at = simulation.state();
+    const bool state_finite = std::all_of(at.motion.begin() + 72, at.motion.end(), [](double x) { return std::abs(x) < 3e38; });
+    CHECK_FALSE((finite && state_finite));
+    simulation.advance(3);
+    CHECK(simulation.report().steps == steps);
+    CHECK(simulation.report().non_finite->step == steps);
+  }
+}
+
+TEST_CASE("the GPU's final state is the fp64 one for the smooth part of a collision scene", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const Method method{"cv8", 0.005, DampingLaw::adaptive};
+  const std::uint64_t steps = 8;  // before the first contact
+  const Outcome exact = collide(*make_cpu_device(2, 64), start, method, steps),
+                gpu = collide(*make_gpu_device(0), start, method, steps);
+  CHECK(exact.report.contact_steps == 0);
+  const auto a = exact.state.world_positions(start.model), b = gpu.state.world_positions(start.model);
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(glm::length(a[i] - b[i]) < 1e-5);
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,94 @@
+#include "simulation/time_plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "dynamics/stability.hpp"
+#include "support/evolve.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+SceneDescription scene_with(const std::string& integrator, DampingLaw law) {
+  SceneDescription scene;
+  scene.file = "scene.toml";
+  scene.simulation.integrator = {integrator, "scene.toml:3: simulation.integrator"};
+  scene.simulation.damping_law = law;
+  return scene;
+}
+
+TEST_CASE("the automatic step is at most nine tenths of the bound and divides a frame evenly") {
+  BodySetup setup = sphere(2);
+  setup.description.stiffness = 40;
+  const Model model = built(setup).model;
+  for (const double frame_rate : {10.0, 24.0, 60.0, 1000.0}) {
+    SceneDescription scene = scene_with("cv8", DampingLaw::none);
+    scene.output.frame_rate = frame_rate;
+    const TimePlan plan = plan_time(scene, model);
+    const double steps_per_frame = 1 / (frame_rate * plan.time_step);
+    CHECK(plan.step_bound == Approx(3.0018 / stiffest_omega(model)).epsilon(1e-4));
+    CHECK(plan.time_step <= 0.9 * plan.step_bound * (1 + 1e-12));
+    CHECK(std::abs(steps_per_frame - std::round(steps_per_frame)) < 1e-9);
+    if (steps_per_frame > 1.5)
+      CHECK(1 / (frame_rate * (steps_per_frame - 1)) > 0.9 * plan.step_bound);  // no longer step would do
+    CHECK(plan.step_of_frame(7) == static_cast<std::uint64_t>(std::llround(7 * steps_per_frame)));
+  }
+}
+
+TEST_CASE("the stiffest body sets the bound") {
+  BodySetup soft = sphere(0), hard = sphere(0);
+  hard.description.stiffness = 9;
+  const std::vector<BodySetup> setups{soft, hard};
+  const TimePlan plan = plan_time(scene_with("rk4", DampingLaw::none), build_model(setups, {0, 0, 0}).model);
+  CHECK(plan.step_bound == Approx(step_bound(find_integrator("rk4"), 12 * 9.0, 0)));
+}
+
+TEST_CASE("bodies without springs or damping bound nothing, and a step is then a frame") {
+  BodySetup setup = sphere(0);
+  setup.description.stiffness = 0;
+  const TimePlan plan = plan_time(scene_with("cv8", DampingLaw::none), built(setup).model);
+  CHECK(std::isinf(plan.step_bound));
+  CHECK(plan.time_step == Approx(1.0 / 60));
+}
+
+TEST_CASE("a strongly damped drift bounds the step too") {
+  BodySetup setup = sphere(0);
+  setup.description.stiffness = 1e-6;
+  setup.description.damping = 2000;
+  const TimePlan plan = plan_time(scene_with("cv8", DampingLaw::constant), built(setup).model);
+  CHECK(plan.step_bound < 3.8 / 2000);
+}
+
+TEST_CASE("with a fixed step a frame is the first state at or after its time") {
+  SceneDescription scene = scene_with("cv8", DampingLaw::none);
+  scene.simulation.time_step = 0.007;
+  scene.simulation.duration = 1;
+  const TimePlan plan = plan_time(scene, built(sphere(0)).model);
+  CHECK(plan.steps == 143);
+  for (std::uint64_t frame = 0; frame < 60; ++frame) {
+    const auto step = static_cast<double>(plan.step_of_frame(frame));
+    CHECK(step * 0.007 >= static_cast<double>(frame) / 60 - 1e-8);
+    CHECK((step - 1) * 0.007 < static_cast<double>(frame) / 60);
+  }
+}
+
+TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an input error where the scene names it") {
+  const Model model = built(sphere(0)).model;
+  const auto unknown = error_of([&] { return plan_time(scene_with("euler", DampingLaw::none), model); });
+  CHECK(unknown.kind() == ErrorKind::input);
+  check_says(unknown, {"scene.toml:3", "euler", "verlet", "cv8"});
+  const auto unstable = error_of([&] { return plan_time(scene_with("srkn11b", DampingLaw::adaptive), model); });
+  CHECK(unstable.kind() == ErrorKind::input);
+  check_says(unstable, {"scene.toml:3", "srkn11b", "damping"});
+  CHECK_NOTHROW(plan_time(scene_with("srkn11b", DampingLaw::none), model));
+}
+
+TEST_CASE("more steps than the device's clock counts is an input error") {
+  SceneDescription scene = scene_with("cv8", DampingLaw::none);
+  scene.simulation.time_step = 1e-12;
+  CHECK(error_of([&] { return plan_time(scene, built(sphere(0)).model); }).kind() == ErrorKind::input);
+}
+
+}  // namespace
+}  // namespace pliant
