@@ -1,0 +1,3 @@
+#version 450
+// The shadow map keeps depth alone.
+void main() {}

@@ -1,0 +1,9 @@
+#version 450
+// Depth of the bodies seen from the key light.
+#include "stage.glsl"
+#include "surface.glsl"
+
+void main() {
+  vec3 world = world_position(uint(gl_VertexID));
+  place_vertex(world, key_projection * vec4(world, 1.0));
+}

@@ -1,0 +1,27 @@
+// What all drawing shaders share of one frame: camera, key light and ground. GLSL and C++ read the same declaration;
+// matrices and vec4 alone, which std140 and glm lay out alike.
+#ifndef STAGE_GLSL
+#define STAGE_GLSL
+#ifdef __cplusplus
+  #include <glm/mat4x4.hpp>
+  #include <glm/vec4.hpp>
+namespace pliant::render {
+using glm::mat4, glm::vec4;
+struct Stage {
+#else
+layout(std140, binding = 0) uniform Stage {
+#endif
+  mat4 view_projection;      // world to clip space
+  mat4 from_clip;            // and back
+  mat4 key_projection;       // world to the clip space of the key light's shadow map
+  vec4 eye;                  // xyz [m]
+  vec4 key_direction;        // xyz: unit vector towards the light
+  vec4 centre;               // xyz: of the scene [m]; w: its radius [m]
+  vec4 ground;               // x, z: centre of the ground's light map; y: height; w: half the map's side [m], 0: no ground
+#ifdef __cplusplus
+};
+}  // namespace pliant::render
+#else
+};
+#endif
+#endif

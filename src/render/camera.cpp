@@ -1,0 +1,53 @@
+// Fitting a camera to a box, and its matrices.
+#include "render/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace pliant::render {
+namespace {
+
+/// Straight down or up, another axis has to say where the picture's top is.
+glm::dvec3 up_for(const glm::dvec3& forward) {
+  return std::abs(forward.y) > 0.999 * glm::length(forward) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+}
+
+glm::dvec3 corner(const SceneBox& box, unsigned i) {
+  return {i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z};
+}
+
+}  // namespace
+
+double SceneBox::radius() const {
+  const double half_diagonal = glm::length(high - low) * 0.5;
+  return half_diagonal > 0 ? half_diagonal : 1.0;
+}
+
+CameraDescription frame_scene(const SceneBox& box, double aspect) {
+  constexpr double field_of_view = 30.0, filled = 0.94;
+  const glm::dvec3 back = glm::normalize(glm::dvec3(0.22, 0.32, 1.0));
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+  const double tangent = std::tan(glm::radians(field_of_view) * 0.5) * filled;
+  double distance = box.radius() * 0.1;
+  for (unsigned i = 0; i < 8; ++i) {
+    const glm::dvec3 p = corner(box, i) - box.centre();
+    const double half_height = std::max(std::abs(glm::dot(p, up)), std::abs(glm::dot(p, right)) / aspect);
+    distance = std::max(distance, glm::dot(p, back) + half_height / tangent);
+  }
+  return {box.centre() + back * distance, box.centre(), field_of_view};
+}
+
+double ground_below(const SceneBox& box) { return box.low.y - 0.01 * box.radius(); }
+
+glm::dmat4 view_projection(const CameraDescription& camera, double aspect) {
+  const glm::dvec3 forward = camera.target - camera.eye;
+  const double distance = std::max(glm::length(forward), 1e-9);
+  const glm::dmat4 projection = glm::perspective(glm::radians(camera.field_of_view), aspect, 0.01 * distance, 1000.0 * distance);
+  return projection * glm::lookAt(camera.eye, camera.target, up_for(forward));
+}
+
+}  // namespace pliant::render

@@ -1,0 +1,49 @@
+// Draws the bodies from the buffer in which the simulation keeps their world positions, on a studio ground under a key light.
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+
+#include "model/model.hpp"
+#include "render/camera.hpp"
+#include "render/image.hpp"
+
+namespace pliant::render {
+
+struct RenderOptions {
+  glm::uvec2 size{1280, 720};  // [pixels]
+  CameraDescription camera;
+  Coloring coloring = Coloring::body;
+  SceneBox scene;                       // where the bodies will move; lights and shadows are fitted to it
+  std::optional<double> ground_height;  // [m]; empty: no ground
+};
+
+/// The options for a scene: its camera, or one that frames the box, and a ground below it.
+[[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
+
+/// Needs a current gl::Context while it lives. Positions never visit the CPU: normals and strain are computed in the
+/// vertex shader. A vertex that is not finite takes its triangles out of the picture.
+class FrameRenderer {
+ public:
+  /// Uploads the topology. Throws Error (device) when the driver has no storage buffers in vertex shaders.
+  FrameRenderer(const Model& model, const RenderOptions& options);
+  ~FrameRenderer();
+
+  /// Draws into the renderer's own framebuffer. `positions_buffer` is a GL buffer of vec4, xyz the world position [m];
+  /// the model's vertex 0 is its element `first_vertex`.
+  void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex);
+  /// Waits for the last draw() and reads its picture.
+  [[nodiscard]] Image read() const;
+  /// Copies the last picture to another framebuffer (0: the window's), scaled to `size` [pixels].
+  void present(std::uint32_t framebuffer, const glm::uvec2& size) const;
+
+  /// The lights stay where they are.
+  void set_camera(const CameraDescription& camera);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pliant::render
