@@ -1,0 +1,58 @@
+#include "output/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "core/expect.hpp"
+
+namespace pliant {
+namespace {
+
+// A leading comma, so that numbers follow one another. No number carries a sign that is not one: fmt would write "-nan".
+void append_number(std::string& line, double value) {
+  if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();
+  fmt::format_to(std::back_inserter(line), ",{:.17g}", value);
+}
+
+void append_vector(std::string& line, const glm::dvec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) append_number(line, vector[axis]);
+}
+
+}  // namespace
+
+HistoryFile::HistoryFile(const std::filesystem::path& path) : file_(path) {
+  file_.write("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices\n");
+}
+
+void HistoryFile::append(const HistoryRow& row) {
+  std::string line = fmt::format("{}", row.step);
+  for (const double value :
+       {row.time, row.kinetic, row.elastic, row.gravitational, row.kinetic + row.elastic + row.gravitational})
+    append_number(line, value);
+  append_vector(line, row.momentum);
+  append_vector(line, row.angular_momentum);
+  file_.write(fmt::format("{},{},{}\n", line, row.contact_steps, row.reverted_vertices));
+  file_.flush();
+}
+
+void write_final_state(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions,
+                       std::span<const glm::dvec3> velocities) {
+  PLIANT_EXPECT(positions.size() == model.vertex_count() && velocities.size() == model.vertex_count());
+  OutputFile file(path);
+  file.write("body,vertex,x,y,z,vx,vy,vz\n");
+  for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+    for (std::uint32_t vertex = 0; vertex < model.bodies[body].vertex_count; ++vertex) {
+      std::string line = fmt::format("{},{}", body, vertex);
+      append_vector(line, positions[model.bodies[body].first_vertex + vertex]);
+      append_vector(line, velocities[model.bodies[body].first_vertex + vertex]);
+      file.write(line += '\n');
+    }
+  }
+  file.close();
+}
+
+}  // namespace pliant

@@ -1,0 +1,41 @@
+// The numbers of a run as CSV: 17 digits, which hold every bit of a double; what is not a number is `nan`.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "model/model.hpp"
+#include "output/file.hpp"
+
+namespace pliant {
+
+/// One row of history.csv.
+struct HistoryRow {
+  std::uint64_t step = 0;
+  double time = 0;                      // [s]
+  double kinetic = 0;                   // [J]
+  double elastic = 0;                   // [J]
+  double gravitational = 0;             // [J], zero at the world's origin
+  glm::dvec3 momentum{0.0};             // [kg m/s]
+  glm::dvec3 angular_momentum{0.0};     // about the world's origin [kg m^2/s]
+  std::uint64_t contact_steps = 0;      // since the start
+  std::uint64_t reverted_vertices = 0;  // since the start
+};
+
+/// history.csv, which can be read while it grows. All throw Error (command_line) when the file can't be written.
+class HistoryFile {
+ public:
+  explicit HistoryFile(const std::filesystem::path& path);
+  void append(const HistoryRow& row);
+  void close() { file_.close(); }
+
+ private:
+  OutputFile file_;
+};
+
+/// final_state.csv: a row a vertex, numbered within its body; world positions [m] and velocities [m/s].
+void write_final_state(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions,
+                       std::span<const glm::dvec3> velocities);
+
+}  // namespace pliant

@@ -1,0 +1,12 @@
+// Pictures as PNG files.
+#pragma once
+#include <filesystem>
+
+#include "render/image.hpp"
+
+namespace pliant {
+
+/// Overwrites `path`. Throws Error (command_line) when it can't be written.
+void write_png(const std::filesystem::path& path, const render::Image& image);
+
+}  // namespace pliant

@@ -1,0 +1,67 @@
+#include "output/summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "output/file.hpp"
+
+namespace pliant {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json object(const std::vector<std::pair<std::string, Value>>& entries) {
+  Json json = Json::object();
+  for (const auto& [name, value] : entries) json[name] = value;
+  return json;
+}
+
+Json device_json(const Summary& summary) { return {{"kind", summary.device.kind}, {"name", summary.device.name}}; }
+
+Json energy_json(const Summary& summary) {
+  const auto& [initial, final, max_drift] = summary.energy;
+  return {{"initial", initial}, {"final", final}, {"max_drift", max_drift ? Json(*max_drift) : Json(nullptr)}};
+}
+
+Json contacts_json(const Summary& summary) {
+  const auto& [steps, pairs_max, reverted_vertices] = summary.contacts;
+  return {{"steps", steps}, {"pairs_max", pairs_max}, {"reverted_vertices", reverted_vertices}};
+}
+
+Json work_json(const Summary& summary) {
+  const auto& [force_evaluations, pair_interactions, nodes_refitted, node_tests, triangle_tests] = summary.work;
+  return {{"force_evaluations", force_evaluations},
+          {"pair_interactions", pair_interactions},
+          {"nodes_refitted", nodes_refitted},
+          {"node_tests", node_tests},
+          {"triangle_tests", triangle_tests}};
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& path, const Summary& summary) {
+  const Json json = {{"scene", summary.scene},
+                     {"device", device_json(summary)},
+                     {"precision", summary.precision},
+                     {"threads", summary.threads},
+                     {"integrator", summary.integrator},
+                     {"time_step", summary.time_step},
+                     {"steps", summary.steps},
+                     {"simulated_seconds", summary.simulated_seconds},
+                     {"wall_seconds", summary.wall_seconds},
+                     {"steps_per_second", summary.steps_per_second},
+                     {"energy", energy_json(summary)},
+                     {"contacts", contacts_json(summary)},
+                     {"final_intersecting_pairs", summary.final_intersecting_pairs},
+                     {"non_finite", summary.non_finite},
+                     {"work", work_json(summary)},
+                     {"skipped", object(summary.skipped)},
+                     {"timings_ms", object(summary.timings_ms)},
+                     {"version", summary.version}};
+  OutputFile file(path);
+  file.write(json.dump(2, ' ', false, Json::error_handler_t::replace));  // replace: a path need not be UTF-8
+  file.write("\n");
+  file.close();
+}
+
+}  // namespace pliant

@@ -1,0 +1,54 @@
+// summary.json: what a run did, for scripts. The members' names are the file's keys.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pliant {
+
+struct Summary {
+  using Count = std::pair<std::string, std::uint64_t>;
+  using Duration = std::pair<std::string, double>;  // [ms]
+
+  std::string scene;  // the file's name
+  struct {
+    std::string kind, name;  // "cpu" or "gpu"
+  } device;
+  int precision = 32;  // of the forces [bits]
+  unsigned threads = 1;
+  std::string integrator;
+  double time_step = 0;  // [s]
+  std::uint64_t steps = 0;
+  double simulated_seconds = 0;
+  double wall_seconds = 0;  // stepping alone
+  double steps_per_second = 0;
+  struct {
+    double initial = 0, final = 0;    // [J]
+    std::optional<double> max_drift;  // relative; empty where energy is not conserved
+  } energy;
+  struct {
+    std::uint64_t steps = 0;              // steps with a pair of touching triangles
+    std::uint64_t pairs_max = 0;          // most triangle pairs in one step
+    std::uint64_t reverted_vertices = 0;  // sum over the run
+  } contacts;
+  std::uint64_t final_intersecting_pairs = 0;
+  bool non_finite = false;
+  struct {
+    std::uint64_t force_evaluations = 0;  // all forces of one body, once
+    std::uint64_t pair_interactions = 0;
+    std::uint64_t nodes_refitted = 0;
+    std::uint64_t node_tests = 0;
+    std::uint64_t triangle_tests = 0;
+  } work;
+  std::vector<Count> skipped;
+  std::vector<Duration> timings_ms;
+  std::string version;
+};
+
+/// Numbers that are not finite become null. Throws Error (command_line) when the file can't be written.
+void write_summary(const std::filesystem::path& path, const Summary& summary);
+
+}  // namespace pliant

@@ -1,0 +1,54 @@
+// What the tests of the writers share: a folder of their own, and a small model.
+#pragma once
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "core/read_text.hpp"
+#include "model/model.hpp"
+
+namespace pliant::test {
+
+/// A fresh folder, removed at the end.
+struct ScratchFolder {
+  std::filesystem::path path;
+  ScratchFolder() {
+    std::random_device random;
+    do path = std::filesystem::temp_directory_path() / ("pliant_test_" + std::to_string(random()));
+    while (!std::filesystem::create_directory(path));
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+};
+
+/// A tetrahedron and a triangle; what the files hold comes from the arguments of the writers.
+inline Model two_bodies() {
+  Model model;
+  model.bodies.resize(2);
+  model.bodies[0].name = "left";
+  model.bodies[0].vertex_count = 4;
+  model.bodies[0].triangle_count = 4;
+  model.bodies[0].color = {1.0, 0.5, 0.0};
+  model.bodies[1].name = "right\nv 0 0 0";  // a name that tries to be a vertex
+  model.bodies[1].first_vertex = 4;
+  model.bodies[1].vertex_count = 3;
+  model.bodies[1].first_triangle = 4;
+  model.bodies[1].triangle_count = 1;
+  model.rest_positions.resize(7);
+  model.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {4, 5, 6}};
+  return model;
+}
+
+inline std::vector<glm::dvec3> some_vectors(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-10.0, 10.0);
+  std::vector<glm::dvec3> vectors(7);
+  for (glm::dvec3& vector : vectors) vector = {number(random), number(random), number(random)};
+  return vectors;
+}
+
+}  // namespace pliant::test

@@ -1,0 +1,90 @@
+// summary.json, read back.
+#include "output/summary.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "scratch.hpp"
+
+namespace pliant {
+namespace {
+
+using namespace test;
+using Json = nlohmann::ordered_json;
+
+Json written(const Summary& summary) {
+  const ScratchFolder folder;
+  write_summary(folder.path / "summary.json", summary);
+  return Json::parse(read_text(folder.path / "summary.json"));
+}
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& item : object.items()) names.push_back(item.key());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a summary has every key that scripts rely on") {
+  const Json json = written({});
+  using Names = std::vector<std::string>;
+  CHECK(keys(json) == Names{"scene", "device", "precision", "threads", "integrator", "time_step", "steps", "simulated_seconds",
+                            "wall_seconds", "steps_per_second", "energy", "contacts", "final_intersecting_pairs", "non_finite",
+                            "work", "skipped", "timings_ms", "version"});
+  CHECK(keys(json["device"]) == Names{"kind", "name"});
+  CHECK(keys(json["energy"]) == Names{"initial", "final", "max_drift"});
+  CHECK(keys(json["contacts"]) == Names{"steps", "pairs_max", "reverted_vertices"});
+  CHECK(keys(json["work"]) == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
+  CHECK(json["skipped"].is_object());
+  CHECK(json["timings_ms"].is_object());
+}
+
+TEST_CASE("a summary's values read back as they were") {
+  Summary summary;
+  summary.scene = "scenes/\"two\" spheres.toml";
+  summary.device.kind = "gpu";
+  summary.time_step = 0.1;
+  summary.steps = 1ull << 40;
+  summary.energy.initial = 1.0 / 3;
+  summary.energy.final = 2.5;
+  summary.energy.max_drift = 1e-7;
+  summary.contacts.pairs_max = 17;
+  summary.work.triangle_tests = 99;
+  summary.skipped = {{"forces", 3}, {"collision", 4}};
+  summary.timings_ms = {{"integrate", 1.25}};
+  const Json json = written(summary);
+  CHECK(json["scene"] == summary.scene);
+  CHECK(json["device"]["kind"] == "gpu");
+  CHECK(json["time_step"] == 0.1);
+  CHECK(json["steps"] == summary.steps);
+  CHECK(json["energy"]["initial"] == summary.energy.initial);
+  CHECK(json["energy"]["final"] == 2.5);
+  CHECK(json["energy"]["max_drift"] == 1e-7);
+  CHECK(json["contacts"]["pairs_max"] == 17);
+  CHECK(json["work"]["triangle_tests"] == 99);
+  CHECK(keys(json["skipped"]) == std::vector<std::string>{"forces", "collision"});
+  CHECK(json["timings_ms"]["integrate"] == 1.25);
+}
+
+TEST_CASE("what is not a finite number is null") {
+  Summary summary;
+  summary.energy.final = std::numeric_limits<double>::quiet_NaN();
+  summary.steps_per_second = std::numeric_limits<double>::infinity();
+  const Json json = written(summary);
+  CHECK(json["energy"]["final"].is_null());
+  CHECK(json["energy"]["max_drift"].is_null());
+  CHECK(json["steps_per_second"].is_null());
+}
+
+TEST_CASE("a path that is no UTF-8 does not stop the summary") {
+  Summary summary;
+  summary.scene = "sch\xF6n.toml";
+  CHECK(written(summary)["scene"].get<std::string>().find("sch") == 0);
+}
+
+TEST_CASE("a summary on a full disk is an error") { CHECK_THROWS_AS(write_summary("/dev/full", {}), Error); }
+
+}  // namespace pliant
