@@ -1,0 +1,23 @@
+// Which device a run takes.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "device/device.hpp"
+
+namespace pliant::app {
+
+enum class DeviceKind { automatic, cpu, gpu };
+
+struct DeviceChoice {
+  DeviceKind kind = DeviceKind::automatic;
+  std::optional<int> gpu_index;  // of gl::list_adapters()
+  int precision = 32;
+  unsigned threads = 0;  // 0: one a processor
+};
+
+/// Automatic: a hardware GPU if there is one and precision is 32, else the CPU; software OpenGL only when the GPU is asked for.
+/// Throws Error: command_line for a contradiction, device when there is no such device.
+[[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice);
+
+}  // namespace pliant::app

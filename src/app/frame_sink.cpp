@@ -1,0 +1,81 @@
+#include "app/frame_sink.hpp"
+
+#include "core/error.hpp"
+#include "device/gpu/gpu_device.hpp"
+#include "gl/objects.hpp"
+#include "output/png.hpp"
+#include "render/frame_renderer.hpp"
+
+namespace pliant::app {
+namespace {
+
+render::SceneBox box_of(const PreparedRun& run) {
+  const auto positions = run.start.state.world_positions(run.start.model);
+  render::SceneBox box{positions.front(), positions.front()};
+  for (const glm::dvec3& position : positions) {
+    box.low = glm::min(box.low, position);
+    box.high = glm::max(box.high, position);
+  }
+  return box;
+}
+
+std::unique_ptr<gl::Context> context_for_drawing() {
+  std::string reason;
+  if (gl::list_adapters(&reason).empty())
+    throw Error(ErrorKind::device, "--frames png", "drawing needs OpenGL 4.5: " + reason,
+                "install libegl1 and libgl1-mesa-dri, or write obj, ply or vtk frames");
+  return std::make_unique<gl::Context>(0);
+}
+
+}  // namespace
+
+/// Draws from the simulation's own buffer on a GPU device; from a copy of the positions on the CPU.
+class FrameSink::Painter {
+ public:
+  explicit Painter(PreparedRun& run) : run_(run) {
+    const bool on_gpu = gpu::context_of(*run.device) != nullptr;
+    if (!on_gpu) {
+      own_context_ = context_for_drawing();
+      copy_ = gl::Buffer(run.start.model.rest_positions.size() * sizeof(glm::vec4), "drawn positions");
+    }
+    renderer_ = std::make_unique<render::FrameRenderer>(run.start.model, render::options_for(box_of(run), run.scene.output));
+  }
+
+  render::Image paint() {
+    if (own_context_) {
+      const std::vector<glm::vec4> positions = run_.simulation->world_positions();
+      copy_.write(0, std::as_bytes(std::span(positions)));
+      renderer_->draw(copy_.id(), 0);
+    } else {
+      renderer_->draw(gpu::gl_buffer_of(*run_.device, run_.simulation->position_buffer()), run_.simulation->first_position());
+    }
+    return renderer_->read();
+  }
+
+ private:
+  PreparedRun& run_;
+  std::unique_ptr<gl::Context> own_context_;
+  gl::Buffer copy_;
+  std::unique_ptr<render::FrameRenderer> renderer_;
+};
+
+FrameSink::FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder)
+    : run_(run), format_(format), folder_(std::move(folder)) {
+  if (format == FrameFormat::png) painter_ = std::make_unique<Painter>(run);
+}
+
+FrameSink::~FrameSink() = default;
+
+void FrameSink::write(const State& state) {
+  if (format_ == FrameFormat::none) return;
+  const std::filesystem::path path = frame_path(folder_, count_++, format_);
+  if (format_ == FrameFormat::png) return write_png(path, painter_->paint());
+  const Model& model = run_.start.model;
+  const auto positions = state.world_positions(model);
+  if (format_ == FrameFormat::obj) return write_obj(path, model, positions);
+  const auto velocities = state.world_velocities(model);
+  if (format_ == FrameFormat::ply) return write_ply(path, model, positions, velocities);
+  write_vtk(path, model, positions, velocities);
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,76 @@
+#include "app/info_command.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "device/device.hpp"
+#include "dynamics/integrator.hpp"
+#include "gl/context.hpp"
+
+namespace pliant::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* remedy =
+    "GPU runs and PNG frames need an OpenGL 4.5 driver with EGL (Debian: libegl1 and libgl1-mesa-dri, or NVIDIA's driver); "
+    "--device cpu runs without";
+
+Json described_integrators() {
+  Json list = Json::array();
+  for (const Integrator& integrator : integrators())
+    list.push_back({{"name", integrator.name},
+                    {"order", integrator.order},
+                    {"force_evaluations_per_step", evaluations_per_step(integrator)},
+                    {"damping", allows_damping(integrator)},
+                    {"description", integrator.description},
+                    {"source", integrator.source}});
+  return list;
+}
+
+Json described_devices() {
+  const DeviceInfo cpu = make_cpu_device(0, 32)->info();
+  Json gpus = Json::array();
+  std::string reason;
+  for (const gl::Adapter& adapter : gl::list_adapters(&reason))
+    gpus.push_back({{"index", adapter.index},
+                    {"renderer", adapter.renderer},
+                    {"vendor", adapter.vendor},
+                    {"driver", adapter.version},
+                    {"software", adapter.is_software}});
+  Json result = {{"version", PLIANT_VERSION}, {"cpu", {{"name", cpu.name}, {"threads", cpu.threads}}}, {"gpus", gpus}};
+  if (gpus.empty()) result["missing"] = reason + "; " + remedy;
+  return result;
+}
+
+void print_integrators(const Json& list) {
+  fmt::print("{:<12} {:>5} {:>12}  {:<8} {}\n", "name", "order", "forces/step", "damping", "description");
+  for (const Json& row : list)
+    fmt::print("{:<12} {:>5} {:>12}  {:<8} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
+               row["force_evaluations_per_step"].get<int>(), row["damping"].get<bool>() ? "yes" : "no",
+               row["description"].get<std::string>());
+}
+
+void print_devices(const Json& devices) {
+  fmt::print("pliant {}\n", devices["version"].get<std::string>());
+  fmt::print("cpu:   {} ({} threads)\n", devices["cpu"]["name"].get<std::string>(), devices["cpu"]["threads"].get<unsigned>());
+  for (const Json& gpu : devices["gpus"])
+    fmt::print("gpu {}: {}, driver {}{}\n", gpu["index"].get<int>(), gpu["renderer"].get<std::string>(),
+               gpu["driver"].get<std::string>(), gpu["software"].get<bool>() ? " (software: used only with --device gpu)" : "");
+  if (devices.contains("missing")) fmt::print("no gpu: {}\n", devices["missing"].get<std::string>());
+}
+
+}  // namespace
+
+void show_info(const InfoOptions& options) {
+  const Json content = options.integrators ? described_integrators() : described_devices();
+  if (options.json)
+    fmt::print("{}\n", content.dump(2));
+  else if (options.integrators)
+    print_integrators(content);
+  else
+    print_devices(content);
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,106 @@
+// The command line: options in, exit code out.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "app/info_command.hpp"
+#include "app/run_command.hpp"
+#include "core/error.hpp"
+#include "mesh/load.hpp"
+#include "mesh/report.hpp"
+
+namespace {
+
+using namespace pliant;
+
+void add_run(CLI::App& program, app::RunOptions& options) {
+  CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
+  const std::map<std::string, app::DeviceKind> devices = {
+      {"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}};
+  const std::map<std::string, FrameFormat> formats = {{"none", FrameFormat::none},
+                                                      {"png", FrameFormat::png},
+                                                      {"obj", FrameFormat::obj},
+                                                      {"ply", FrameFormat::ply},
+                                                      {"vtk", FrameFormat::vtk}};
+  run->add_option("scene", options.scene, "Scene file (TOML)")->required();
+  run->add_option("--device", options.device.kind, "Where to simulate (default auto: a hardware GPU, else the CPU)")
+      ->transform(CLI::CheckedTransformer(devices))
+      ->option_text("auto|cpu|gpu");
+  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")->check(CLI::NonNegativeNumber);
+  run->add_option("--precision", options.device.precision, "Bits of the forces; 64 on the CPU alone")
+      ->check(CLI::IsMember({32, 64}));
+  run->add_option("--threads", options.device.threads, "Threads of the CPU (default: one a processor)")
+      ->check(CLI::Range(1, 4096));
+  CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
+                           ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{4'000'000'000}));
+  run->add_option("--duration", options.duration, "Simulated time [s]")->check(CLI::NonNegativeNumber)->excludes(steps);
+  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(CLI::PositiveNumber);
+  run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them");
+  run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
+      ->allow_extra_args(false)
+      ->take_all();
+  run->add_option("--out", options.out, "Folder to write (default out/SCENE)");
+  run->add_option("--frames", options.frames, "What to write for each frame (default none)")
+      ->transform(CLI::CheckedTransformer(formats))
+      ->option_text("none|png|obj|ply|vtk");
+  run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
+  run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
+}
+
+void add_info(CLI::App& program, app::InfoOptions& options) {
+  CLI::App* info = program.add_subcommand("info", "Show devices, or integrators");
+  info->add_flag("--json", options.json, "As JSON");
+  info->add_flag("--integrators", options.integrators, "List the integrators");
+}
+
+struct MeshOptions {
+  std::string mesh;
+  bool json = false;
+};
+
+void add_mesh(CLI::App& program, MeshOptions& options) {
+  CLI::App* mesh = program.add_subcommand("mesh", "Report what a mesh consists of and what is wrong with it");
+  mesh->add_option("mesh", options.mesh, "OBJ file, or generator such as icosphere:3")->required();
+  mesh->add_flag("--json", options.json, "As JSON");
+}
+
+void show_mesh(const MeshOptions& options) {
+  const LoadedMesh loaded = load_mesh(options.mesh, ".");
+  for (const std::string& warning : loaded.warnings) std::cerr << "pliant: warning: " << warning << '\n';
+  const MeshReport report = report_mesh(loaded.mesh);
+  std::cout << (options.json ? to_json(report) : to_text(report));
+}
+
+int execute(int count, char** arguments) {
+  CLI::App program{"pliant: soft bodies of all-pairs springs, on GPU and CPU"};
+  program.set_version_flag("--version", PLIANT_VERSION);
+  program.require_subcommand(1);
+  app::RunOptions run;
+  app::InfoOptions info;
+  MeshOptions mesh;
+  add_run(program, run);
+  add_info(program, info);
+  add_mesh(program, mesh);
+  try {
+    program.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::command_line);
+  }
+  if (program.got_subcommand("run")) return app::run(run);
+  if (program.got_subcommand("info"))
+    app::show_info(info);
+  else
+    show_mesh(mesh);
+  return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return execute(count, arguments);
+  } catch (const pliant::Error& error) {
+    std::fprintf(stderr, "pliant: %s\n", error.what());
+    return static_cast<int>(error.kind());
+  }
+}

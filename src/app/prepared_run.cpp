@@ -1,0 +1,65 @@
+#include "app/prepared_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+
+namespace pliant::app {
+namespace {
+
+SceneDescription load_described_scene(const RunOptions& options) {
+  SceneDescription scene = load_scene(options.scene, options.overrides);
+  if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
+  if (options.time_step) scene.simulation.time_step = options.time_step;
+  if (options.duration) scene.simulation.duration = *options.duration;
+  return scene;
+}
+
+// A name from the command line is the command line's fault.
+TimePlan plan_for(const PreparedRun& run, const RunOptions& options) {
+  try {
+    return plan_time(run.scene, run.start.model, options.steps);
+  } catch (const Error& error) {
+    if (!options.integrator) throw;
+    throw Error(ErrorKind::command_line, "", error.what(), "");
+  }
+}
+
+void warn_of_step(PreparedRun& run) {
+  if (run.plan.time_step <= run.plan.step_bound) return;
+  run.warnings.push_back(
+      fmt::format("the time step {:.6g} s is {:.3g} times the stability bound of {} here, {:.6g} s: expect growing motion",
+                  run.plan.time_step, run.plan.time_step / run.plan.step_bound, run.plan.integrator->name, run.plan.step_bound));
+}
+
+void warn_of_overlap(PreparedRun& run) {
+  const Intersections overlap = run.simulation->intersections();
+  if (overlap.pairs == 0) return;
+  std::string names;
+  for (const std::uint32_t body : overlap.bodies) names += (names.empty() ? "" : ", ") + run.start.model.bodies[body].name;
+  run.warnings.push_back(fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names));
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
+  auto prepared = std::make_unique<PreparedRun>();
+  PreparedRun& run = *prepared;
+  run.load_time.start();
+  run.scene = load_described_scene(options);
+  run.start = build_model(load_bodies(run.scene, &run.warnings), run.scene.simulation.gravity);
+  run.plan = plan_for(run, options);
+  run.load_time.stop();
+  run.build_time.start();
+  run.device = choose_device(options.device);
+  run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan,
+                                                run.scene.simulation.damping_law, run.scene.collision);
+  warn_of_step(run);
+  warn_of_overlap(run);
+  run.build_time.stop();
+  return prepared;
+}
+
+}  // namespace pliant::app

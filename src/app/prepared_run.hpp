@@ -1,0 +1,28 @@
+// A scene made ready to run: loaded, built and planned, with the command line's changes applied.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/run_command.hpp"
+#include "core/stopwatch.hpp"
+#include "device/device.hpp"
+#include "simulation/simulation.hpp"
+
+namespace pliant::app {
+
+struct PreparedRun {
+  SceneDescription scene;
+  ModelAndState start;
+  TimePlan plan;
+  std::unique_ptr<Device> device;
+  std::unique_ptr<Simulation> simulation;
+  std::vector<std::string> warnings;
+  Stopwatch load_time, build_time;
+};
+
+/// It must not move, since its simulation refers to its model. Throws Error. Warnings tell of meshes, of a step beyond the
+/// stability bound and of bodies that overlap at the start.
+[[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options);
+
+}  // namespace pliant::app

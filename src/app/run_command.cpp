@@ -1,0 +1,214 @@
+// Steps from frame to frame; measures, writes and draws at each; reports at the end.
+#include "app/run_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+#include "app/frame_sink.hpp"
+#include "app/prepared_run.hpp"
+#include "core/thread_pool.hpp"
+#include "output/csv.hpp"
+#include "output/summary.hpp"
+#include "simulation/measure.hpp"
+
+namespace pliant::app {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+constexpr std::uint64_t steps_at_once = 32;  // between looks at the clock and at Ctrl-C
+
+class Run {
+ public:
+  Run(const RunOptions& options, PreparedRun& prepared, const std::filesystem::path& folder)
+      : options_(options),
+        run_(prepared),
+        folder_(folder),
+        measuring_pool_(options.device.threads),
+        history_(folder / "history.csv"),
+        frames_(prepared, options.frames, folder / "frames") {}
+
+  int execute() {
+    record(true);
+    for (std::uint64_t frame = 1; !finished(); ++frame) {
+      step_until(std::min(run_.plan.steps, run_.plan.step_of_frame(frame)));
+      const bool at_frame = report_.steps == run_.plan.step_of_frame(frame);
+      record(at_frame);
+    }
+    history_.close();
+    write_end();
+    return report_.non_finite ? exit_non_finite : 0;
+  }
+
+ private:
+  bool finished() const { return interrupted != 0 || report_.non_finite || report_.steps >= run_.plan.steps; }
+
+  void step_until(std::uint64_t target) {
+    while (report_.steps < target && !finished()) {
+      stepping_.start();
+      run_.simulation->advance(std::min(steps_at_once, target - report_.steps));
+      report_ = run_.simulation->report();
+      stepping_.stop();
+      show_progress();
+    }
+  }
+
+  // A row of history, and a frame where one falls.
+  void record(bool at_frame) {
+    state_ = run_.simulation->state();
+    now_ = measuring_.time([&] { return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_); });
+    if (report_.steps == 0) first_ = now_;
+    const double drift = std::abs(now_.energy() - first_.energy()) / energy_scale();
+    largest_drift_ = drift <= largest_drift_ ? largest_drift_ : drift;
+    history_.append({.step = report_.steps,
+                     .time = static_cast<double>(report_.steps) * run_.plan.time_step,
+                     .kinetic = now_.kinetic,
+                     .elastic = now_.elastic,
+                     .gravitational = now_.gravitational,
+                     .momentum = now_.momentum,
+                     .angular_momentum = now_.angular_momentum,
+                     .contact_steps = report_.contact_steps,
+                     .reverted_vertices = report_.reverted_vertices});
+    if (at_frame) writing_.time([&] { frames_.write(state_); });
+  }
+
+  double energy_scale() const {
+    if (first_.energy() != 0) return std::abs(first_.energy());
+    double scale = 0;
+    for (const ModelBody& body : run_.start.model.bodies)
+      scale = std::max(scale, 0.5 * body.stiffness * body.radius * body.radius);
+    return scale > 0 ? scale : 1;
+  }
+
+  void write_end() {
+    const Model& model = run_.start.model;
+    write_final_state(folder_ / "final_state.csv", model, state_.world_positions(model), state_.world_velocities(model));
+    write_summary(folder_ / "summary.json", summary());
+    if (!options_.quiet) show_end();
+    if (report_.non_finite) show_non_finite();
+  }
+
+  Summary summary() {
+    Summary s;
+    s.scene = run_.scene.file.string();
+    s.device = {run_.device->info().kind, run_.device->info().name};
+    s.precision = run_.device->precision();
+    s.threads = run_.device->info().threads;
+    s.integrator = run_.plan.integrator->name;
+    s.time_step = run_.plan.time_step;
+    s.steps = report_.steps;
+    s.simulated_seconds = static_cast<double>(report_.steps) * run_.plan.time_step;
+    s.wall_seconds = stepping_.seconds();
+    s.steps_per_second = report_.steps == 0 ? 0 : static_cast<double>(report_.steps) / stepping_.seconds();
+    s.energy = {first_.energy(), now_.energy(), {}};
+    if (run_.scene.simulation.damping_law == DampingLaw::none && report_.contact_steps == 0) s.energy.max_drift = largest_drift_;
+    s.contacts = {report_.contact_steps, report_.contact_pairs_max, report_.reverted_vertices};
+    s.final_intersecting_pairs = run_.simulation->intersections().pairs;
+    s.non_finite = report_.non_finite.has_value();
+    s.work = {report_.force_evaluations, report_.pair_interactions, report_.nodes_refitted, report_.node_tests,
+              report_.triangle_tests};
+    s.skipped = {{"force_evaluations", report_.forces_skipped},
+                 {"body_pairs", report_.body_pairs_skipped},
+                 {"tree_refits", report_.refits_skipped}};
+    s.timings_ms = {{"load", 1e3 * run_.load_time.seconds()},
+                    {"build", 1e3 * run_.build_time.seconds()},
+                    {"step", 1e3 * stepping_.seconds()},
+                    {"measure", 1e3 * measuring_.seconds()},
+                    {"frames", 1e3 * writing_.seconds()}};
+    s.version = PLIANT_VERSION;
+    return s;
+  }
+
+  void show_progress() const {
+    if (options_.quiet || isatty(fileno(stderr)) == 0) return;
+    const double done = static_cast<double>(report_.steps) / static_cast<double>(run_.plan.steps);
+    const auto filled = static_cast<std::size_t>(30 * done);
+    fmt::print(stderr, "\r[{:<30}] {:3.0f} %  step {}/{}  {:.1f} steps/s ", std::string(filled, '#'), 100 * done, report_.steps,
+               run_.plan.steps, static_cast<double>(report_.steps) / stepping_.seconds());
+    if (finished()) fmt::print(stderr, "\n");
+  }
+
+  void show_end() const {
+    fmt::print("{}{} steps of {:.6g} s by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n",
+               interrupted != 0 ? "interrupted after " : "", report_.steps, run_.plan.time_step, run_.plan.integrator->name,
+               stepping_.seconds(), report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(),
+               run_.device->info().kind, run_.device->info().name);
+    fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
+    fmt::print("summary: {}\n", (folder_ / "summary.json").string());
+    if (frames_.count() > 0) fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
+  }
+
+  void show_non_finite() const {
+    const NonFinite& where = *report_.non_finite;
+    const bool beyond = run_.plan.time_step > run_.plan.step_bound;
+    fmt::print(stderr, "pliant: the simulation became non-finite in step {} at vertex {} of body \"{}\"; {}\n", where.step,
+               where.vertex, run_.start.model.bodies[where.body].name,
+               beyond ? fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound)
+                      : std::string("shorten the time step, or lower stiffness, damping or velocities"));
+  }
+
+  const RunOptions& options_;
+  PreparedRun& run_;
+  std::filesystem::path folder_;
+  ThreadPool measuring_pool_;
+  HistoryFile history_;
+  FrameSink frames_;
+  StepReport report_;
+  State state_;
+  Measurement first_, now_;
+  double largest_drift_ = 0;
+  Stopwatch stepping_, measuring_, writing_;
+};
+
+// Times two steps with every body deformed, so that no force is skipped.
+double seconds_per_step(PreparedRun& run) {
+  State deformed = run.start.state;
+  for (std::size_t i = 0; i < run.start.model.rest_positions.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      deformed.motion[6 * i + static_cast<std::size_t>(k)] += 1e-3 * run.start.model.rest_positions[i][k];
+  Simulation trial(*run.device, run.start.model, deformed, run.plan, run.scene.simulation.damping_law, run.scene.collision);
+  trial.advance(1);
+  run.device->finish();
+  Stopwatch watch;
+  watch.time([&] {
+    trial.advance(2);
+    run.device->finish();
+  });
+  return watch.seconds() / 2;
+}
+
+void show_check(PreparedRun& run) {
+  const std::size_t bytes = run.device->allocated_bytes();
+  fmt::print("scene:            {}\n", run.scene.title.empty() ? run.scene.file.string() : run.scene.title);
+  for (const ModelBody& body : run.start.model.bodies)
+    fmt::print("body:             {} ({} vertices, {} triangles)\n", body.name, body.vertex_count, body.triangle_count);
+  fmt::print("integrator:       {}\n", run.plan.integrator->name);
+  fmt::print("stability bound:  {:.6g} s\n", run.plan.step_bound);
+  fmt::print("time step:        {:.6g} s ({:.3g} of the bound)\n", run.plan.time_step, run.plan.time_step / run.plan.step_bound);
+  fmt::print("steps:            {}\n", run.plan.steps);
+  fmt::print("device:           {} ({})\n", run.device->info().kind, run.device->info().name);
+  fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
+  fmt::print("stepping time:    about {:.3g} s\n", static_cast<double>(run.plan.steps) * seconds_per_step(run));
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const std::unique_ptr<PreparedRun> run = prepare_run(options);
+  PreparedRun& prepared = *run;
+  for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+  if (options.check) {
+    show_check(prepared);
+    return 0;
+  }
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  const std::filesystem::path folder = options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
+  return Run(options, prepared, folder).execute();
+}
+
+}  // namespace pliant::app
