@@ -1,6 +1,8 @@
 // The command line: options in, exit code out.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "app/info_command.hpp"
@@ -12,6 +14,15 @@
 namespace {
 
 using namespace pliant;
+
+// CLI11's own number checks let nan and inf pass.
+CLI::Validator finite(double lowest, const char* range) {
+  const auto complaint = [lowest, range](const std::string& text) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    return std::isfinite(value) && value >= lowest ? std::string() : text + " is not " + range;
+  };
+  return {complaint, range};
+}
 
 void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
@@ -33,8 +44,8 @@ void add_run(CLI::App& program, app::RunOptions& options) {
       ->check(CLI::Range(1, 4096));
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{4'000'000'000}));
-  run->add_option("--duration", options.duration, "Simulated time [s]")->check(CLI::NonNegativeNumber)->excludes(steps);
-  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(CLI::PositiveNumber);
+  run->add_option("--duration", options.duration, "Simulated time [s]")->check(finite(0, "a number >= 0"))->excludes(steps);
+  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(finite(1e-30, "a number > 0"));
   run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them");
   run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
       ->allow_extra_args(false)

@@ -1,0 +1,261 @@
+// The program as scripts use it: exit codes, messages and files.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "gl/context.hpp"
+#include "output/scratch.hpp"
+#include "support/program.hpp"
+
+namespace pliant {
+namespace {
+
+using test::ScratchFolder;
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+nlohmann::json summary_in(const std::filesystem::path& folder) { return nlohmann::json::parse(text_of(folder / "summary.json")); }
+
+// A scene of two small spheres, quick to run; `more` goes into [simulation].
+std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "") {
+  const auto path = folder.path / "small.toml";
+  std::ofstream(path) << "[simulation]\ntime_step = 0.01\nduration = 0.2\n"
+                      << more
+                      << "[output]\nsize = [160, 90]\n"
+                         "[[body]]\nname = \"left\"\nmesh = \"icosphere:1\"\nposition = [-1.1, 0, 0]\nvelocity = [4, 0, 0]\n"
+                         "[[body]]\nname = \"right\"\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstiffness = 20\n";
+  return path;
+}
+
+void check_fails(const std::string& arguments, int exit_code, std::initializer_list<const char*> parts) {
+  CAPTURE(arguments);
+  const ProgramResult result = run_program(arguments);
+  CHECK(result.exit_code == exit_code);
+  for (const char* part : parts) CHECK_THAT(result.output, Catch::Contains(part));
+}
+
+TEST_CASE("a run writes its summary, history and final state") {
+  const ScratchFolder folder;
+  const auto out = folder.path / "out";
+  const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --out " + out.string());
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  const auto summary = summary_in(out);
+  for (const char* key : {"scene", "device", "precision", "threads", "integrator", "time_step", "steps", "simulated_seconds",
+                          "wall_seconds", "steps_per_second", "energy", "contacts", "final_intersecting_pairs", "non_finite",
+                          "work", "skipped", "timings_ms", "version"})
+    CHECK(summary.contains(key));
+  CHECK(summary["steps"] == 20);
+  CHECK(summary["integrator"] == "dop853");
+  CHECK(summary["contacts"]["steps"] > 0);
+  CHECK(summary["energy"]["max_drift"].is_null());
+  CHECK(line_count(text_of(out / "final_state.csv")) == 1 + 84);
+  CHECK(line_count(text_of(out / "history.csv")) == 1 + 1 + 12);  // t = 0, and frames at 60 per second until 0.2 s
+  CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
+}
+
+TEST_CASE("zero steps write the start") {
+  const ScratchFolder folder;
+  const std::string common =
+      "run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet --out " + folder.path.string();
+  REQUIRE(run_program(common).exit_code == 0);
+  CHECK(summary_in(folder.path)["steps"] == 0);
+  CHECK(line_count(text_of(folder.path / "history.csv")) == 2);
+  std::istringstream rows(text_of(folder.path / "final_state.csv"));
+  std::string row;
+  double sum_x = 0, sum_vx = 0;
+  std::getline(rows, row);
+  CHECK(row == "body,vertex,x,y,z,vx,vy,vz");
+  for (int k = 0; k < 42 && std::getline(rows, row); ++k) {
+    int body = -1, vertex = -1;
+    double x = 0, y = 0, z = 0, vx = 0;
+    REQUIRE(std::sscanf(row.c_str(), "%d,%d,%lf,%lf,%lf,%lf", &body, &vertex, &x, &y, &z, &vx) == 6);
+    CHECK(body == 0);
+    CHECK(vertex == k);
+    sum_x += x;
+    sum_vx += vx;
+  }
+  CHECK(sum_x / 42 == Approx(-1.1));
+  CHECK(sum_vx / 42 == Approx(4));
+}
+
+TEST_CASE("an undamped run without contact reports its energy drift") {
+  const ScratchFolder folder;
+  const std::string scene = small_scene(folder, "damping_law = \"none\"\n").string();
+  REQUIRE(run_program("run " + scene +
+                      " --device cpu --quiet --steps 10 --set body.left.stretch=[1.1,1,1] --set body.left.velocity=[0,0,0]" +
+                      " --out " + folder.path.string())
+              .exit_code == 0);
+  const auto drift = summary_in(folder.path)["energy"]["max_drift"];
+  REQUIRE(drift.is_number());
+  CHECK(drift > 0);
+  CHECK(drift < 1e-3);
+}
+
+TEST_CASE("options replace what the scene says") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --quiet --out " + folder.path.string();
+  REQUIRE(run_program(
+              run + " --integrator rk4 --time-step 0.005 --duration 0.1 --precision 64 --threads 2 --set body.right.stiffness=80")
+              .exit_code == 0);
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["integrator"] == "rk4");
+  CHECK(summary["steps"] == 20);
+  CHECK(summary["time_step"] == 0.005);
+  CHECK(summary["precision"] == 64);
+  CHECK(summary["threads"] == 2);
+}
+
+TEST_CASE("frames are pictures of the scene, on either device, and not blank", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const ScratchFolder folder;
+  for (const std::string device : {"cpu", "gpu"}) {
+    const auto out = folder.path / device;
+    REQUIRE(run_program("run " + small_scene(folder).string() + " --steps 4 --frames png --quiet --device " + device + " --out " +
+                        out.string())
+                .exit_code == 0);
+    CHECK(text_of(out / "frames/frame_0000.png").size() > 3000);  // a blank picture of this size packs to a few hundred bytes
+    CHECK(text_of(out / "frames/frame_0002.png").size() > 3000);
+    CHECK(text_of(out / "frames/frame_0000.png") != text_of(out / "frames/frame_0002.png"));
+  }
+  CHECK(text_of(folder.path / "cpu/frames/frame_0000.png") == text_of(folder.path / "gpu/frames/frame_0000.png"));
+}
+
+TEST_CASE("each format of frames has a file a frame") {
+  const ScratchFolder folder;
+  for (const std::string format : {"obj", "ply", "vtk"}) {
+    REQUIRE(run_program("run " + small_scene(folder).string() + " --steps 4 --device cpu --quiet --frames " + format + " --out " +
+                        folder.path.string())
+                .exit_code == 0);
+    for (const char* name : {"frame_0000.", "frame_0001.", "frame_0002."})
+      CHECK(std::filesystem::file_size(folder.path / "frames" / (name + format)) > 1000);
+  }
+}
+
+TEST_CASE("an existing folder is written into and never emptied") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path / "precious.txt") << "keep me";
+  REQUIRE(run_program("run " + small_scene(folder).string() + " --device cpu --steps 1 --quiet --out " + folder.path.string())
+              .exit_code == 0);
+  CHECK(text_of(folder.path / "precious.txt") == "keep me");
+}
+
+TEST_CASE("a step beyond the bound runs, with a warning that says by how much") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --integrator verlet --time-step 0.1 --steps 1 --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("warning") && Catch::Contains("2.05 times"));  // omega = sqrt(42 40), bound 2 / omega
+}
+
+TEST_CASE("bodies that overlap at the start are named in a warning") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --set body.right.position=[0,0,0] --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("left, right"));
+}
+
+TEST_CASE("a run that goes non-finite says where, writes what there is and exits with 5") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                  " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set body.left.stretch=[1.1,1,1] --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 5);
+  CHECK_THAT(result.output, Catch::Contains("non-finite in step") && Catch::Contains("body \"left\"") &&
+                                Catch::Contains("shorten the time step"));
+  CHECK(summary_in(folder.path)["non_finite"] == true);
+  CHECK(summary_in(folder.path)["energy"]["final"].is_null());
+  CHECK_THAT(text_of(folder.path / "final_state.csv"), Catch::Contains("nan") || Catch::Contains("inf"));
+}
+
+TEST_CASE("--check validates and estimates without writing") {
+  const ScratchFolder folder;
+  const auto out = folder.path / "none";
+  const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --check --out " + out.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("stability bound") && Catch::Contains("steps:            20") &&
+                                Catch::Contains("memory") && Catch::Contains("stepping time"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("a bad command line exits with 2") {
+  const ScratchFolder folder;
+  const std::string scene = small_scene(folder).string() + " --out " + folder.path.string();
+  check_fails("", 2, {});
+  check_fails("fly", 2, {});
+  check_fails("run", 2, {"scene"});
+  check_fails("run " + scene + " --device quantum", 2, {"--device"});
+  check_fails("run " + scene + " --precision 16", 2, {"--precision"});
+  check_fails("run " + scene + " --device gpu --precision 64", 2, {"precision", "CPU"});
+  check_fails("run " + scene + " --device cpu --gpu 0", 2, {"--gpu"});
+  check_fails("run " + scene + " --steps 3 --duration 1", 2, {"--steps"});
+  check_fails("run " + scene + " --steps -1", 2, {"--steps"});
+  check_fails("run " + scene + " --steps many", 2, {"--steps"});
+  check_fails("run " + scene + " --time-step 0", 2, {"--time-step"});
+  check_fails("run " + scene + " --time-step nan", 2, {"--time-step"});
+  check_fails("run " + scene + " --duration -1", 2, {"--duration"});
+  check_fails("run " + scene + " --duration inf", 2, {"--duration"});
+  check_fails("run " + scene + " --threads 0", 2, {"--threads"});
+  check_fails("run " + scene + " --frames gif", 2, {"--frames"});
+  check_fails("run " + scene + " --device cpu --integrator euler", 2, {"--integrator", "euler", "cv8"});
+  check_fails("run " + scene + " --set simulation.time_stepp=1", 2, {"--set", "time_step"});
+  check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"--out"});
+}
+
+TEST_CASE("bad input exits with 3") {
+  const ScratchFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path / name, std::ios::binary) << text;
+    return (folder.path / name).string();
+  };
+  check_fails("run nowhere.toml", 3, {"nowhere.toml"});
+  check_fails("run " + write("bad.toml", "[[body]\n"), 3, {"bad.toml:1"});
+  check_fails("run " + write("key.toml", "[[body]]\nmesh = \"icosphere:1\"\nstifness = 3\n"), 3, {"key.toml:3", "stiffness"});
+  check_fails("run " + write("mesh.toml", "[[body]]\nmesh = \"gone.obj\"\n"), 3, {"gone.obj"});
+  check_fails(
+      "run --device cpu " + write("method.toml", "[simulation]\nintegrator = \"euler\"\n[[body]]\nmesh = \"icosphere:1\"\n"), 3,
+      {"method.toml:2", "euler"});
+  check_fails("mesh nowhere.obj", 3, {"nowhere.obj"});
+  check_fails("mesh icosphere:9", 3, {"icosphere"});
+  check_fails("mesh " + write("empty.obj", ""), 3, {"empty.obj"});
+  check_fails("mesh " + write("binary.obj", std::string("v 0 0 0\n\0\1\2", 11)), 3, {"binary.obj"});
+  check_fails("mesh " + write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), 3, {"nan.obj:2"});
+  check_fails("mesh " + write("huge.obj", "v 0 0 0\nv 1e400 0 0\nv 0 1 0\nf 1 2 3\n"), 3, {"huge.obj:2"});
+  check_fails("mesh " + write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), 3, {"range.obj:4"});
+  check_fails("mesh " + write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), 3, {"points.obj"});
+}
+
+TEST_CASE("mesh reports counts as text and as JSON") {
+  CHECK_THAT(run_program("mesh icosphere:3").output, Catch::Contains("642") && Catch::Contains("1280"));
+  const ProgramResult json = run_program("mesh " PLIANT_SOURCE_DIR "/meshes/bunny.obj --json");
+  REQUIRE(json.exit_code == 0);
+  CHECK_THAT(json.output, Catch::Contains("3674"));
+  CHECK_NOTHROW(nlohmann::json::parse(json.output));
+}
+
+TEST_CASE("info lists devices and integrators") {
+  const auto devices = nlohmann::json::parse(run_program("info --json").output);
+  CHECK(devices["cpu"]["threads"] >= 1);
+  CHECK(devices["gpus"].size() == gl::list_adapters().size());
+  const auto integrators = nlohmann::json::parse(run_program("info --integrators --json").output);
+  std::vector<std::string> names;
+  for (const auto& row : integrators) names.push_back(row["name"]);
+  CHECK(names == std::vector<std::string>{"verlet", "rk4", "srkn11b", "cv8", "cv8_minus", "dop853", "verner78_8", "vern8"});
+  CHECK(run_program("--version").exit_code == 0);
+  CHECK(run_program("--help").exit_code == 0);
+}
+
+}  // namespace
+}  // namespace pliant

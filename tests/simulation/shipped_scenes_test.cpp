@@ -1,0 +1,122 @@
+// The first steps of every shipped scene, on both devices and against brute force.
+#include <catch2/catch.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "collision/oracle.hpp"
+#include "gl/context.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+std::vector<SceneDescription> shipped_scenes() {
+  std::vector<SceneDescription> scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes"))
+    if (entry.path().extension() == ".toml") scenes.push_back(load_scene(entry.path()));
+  return scenes;
+}
+
+// Moves bodies into each other and bends them, as if in the middle of a collision.
+std::vector<glm::vec4> crowded_positions(const ModelAndState& start) {
+  const std::vector<glm::dvec3> world = start.state.world_positions(start.model);
+  glm::dvec3 middle(0.0);
+  for (const physics::Frame& frame : start.state.frames)
+    middle += glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]) / static_cast<double>(start.state.frames.size());
+  std::vector<glm::vec4> positions;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const physics::Frame& frame = start.state.frames[static_cast<std::size_t>(start.model.rest_positions[i].w)];
+    const glm::dvec3 shift = 0.4 * (middle - glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]));
+    const glm::dvec3 bend(0.03 * std::sin(7 * world[i].y), 0, 0.05 * std::cos(5 * world[i].x));
+    positions.emplace_back(glm::vec3(world[i] + shift + bend), 1.0f);
+  }
+  return positions;
+}
+
+using PairSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+PairSet as_set(const std::vector<glm::uvec2>& pairs) {
+  PairSet set;
+  for (const glm::uvec2& pair : pairs) set.emplace(std::min(pair.x, pair.y), std::max(pair.x, pair.y));
+  return set;
+}
+
+// The touching pairs among those that the device's tree search lists.
+PairSet pairs_by_tree(Device& device, const ModelAndState& start, const CollisionDescription& description,
+                      const std::vector<glm::vec4>& positions) {
+  DeviceBodies bodies(device, start.model, start.state);
+  Collider collider(device, bodies, start.model, description);
+  bodies.world_positions.upload(positions);
+  std::vector<std::uint32_t> boxes;
+  for (std::uint32_t b = 0; b < bodies.body_count; ++b) boxes.insert(boxes.end(), {~0u, ~0u, ~0u, 0u, 0u, 0u});
+  bodies.body_boxes.upload(boxes);
+  run_passes(device, collider.bounding_passes(0));
+  run_passes(device, collider.contact_passes(0));
+  const Forest& forest = collider.forest();
+  const PairSet all = as_set(intersecting_pairs(start.model, positions, description.triangle_test));
+  PairSet listed;
+  for (const glm::uvec2& pair : collider.candidates()) {
+    const std::uint32_t s = forest.triangle_ids[pair.x], t = forest.triangle_ids[pair.y];
+    listed.emplace(std::min(s, t), std::max(s, t));
+  }
+  PairSet found;
+  std::set_intersection(listed.begin(), listed.end(), all.begin(), all.end(), std::inserter(found, found.end()));
+  CHECK(bodies.control.download().front().count[physics::contact_pairs] == all.size());
+  return found;
+}
+
+TEST_CASE("on every shipped scene the trees find the pairs that brute force finds", "[gl]") {
+  for (const SceneDescription& scene : shipped_scenes()) {
+    const ModelAndState start = build_model(load_bodies(scene), glm::dvec3(0.0));
+    const std::vector<glm::vec4> positions = crowded_positions(start);
+    const PairSet all = as_set(intersecting_pairs(start.model, positions, scene.collision.triangle_test));
+    CAPTURE(scene.file.string());
+    CHECK(all.size() > 20);
+    for (const TestDevice& test : all_devices()) {
+      CAPTURE(test.name);
+      CHECK(pairs_by_tree(*test.device, start, scene.collision, positions) == all);
+    }
+  }
+}
+
+// Dents a body as a contact would, so that all its modes move.
+State dented(const ModelAndState& start) {
+  State state = start.state;
+  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i) {
+    const glm::vec4& rest = start.model.rest_positions[i];
+    const double radius = start.model.bodies[static_cast<std::size_t>(rest.w)].radius;
+    state.motion[6 * i] -= 0.2 * radius * std::max(0.0, static_cast<double>(rest.x) / radius - 0.5);
+    state.motion[6 * i + 4] += 0.1 * static_cast<double>(rest.z);
+  }
+  return state;
+}
+
+TEST_CASE("the smooth motion of every shipped scene is the fp64 one to 1e-5 of the body", "[gl][long]") {
+  for (const SceneDescription& scene : shipped_scenes()) {
+    ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
+    start.state = dented(start);
+    CAPTURE(scene.file.string());
+    // Within the bound: beyond it, rounding grows with everything else.
+    const TimePlan plan = plan_time(scene, start.model);
+    const Method method{plan.integrator->name, std::min(plan.time_step, 0.9 * plan.step_bound), scene.simulation.damping_law};
+    const auto exact = evolve(*make_cpu_device(2, 64), start, method, 8).world_positions(start.model);
+    for (const TestDevice& test : all_devices()) {
+      if (test.rounding < 1e-12) continue;
+      CAPTURE(test.name);
+      const auto found = evolve(*test.device, start, method, 8).world_positions(start.model);
+      double largest = 0;
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        const double radius = start.model.bodies[static_cast<std::size_t>(start.model.rest_positions[i].w)].radius;
+        largest = std::max(largest, glm::length(exact[i] - found[i]) / radius);
+      }
+      CHECK(largest < 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pliant
