@@ -1,11 +1,21 @@
-// A loop is handed over by counting `loop_` up; its end is `running_` reaching zero.
+// Between loops `next_` says closed, so a late thread can never take an item by the count of another loop.
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
 
-namespace pliant {
+#include "core/expect.hpp"
 
-ThreadPool::ThreadPool(unsigned threads) {
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t closed = 0xffffffffu;
+
+constexpr std::uint64_t place(std::uint32_t loop, std::uint32_t item) { return (static_cast<std::uint64_t>(loop) << 32) | item; }
+constexpr std::uint32_t item_of(std::uint64_t place) { return static_cast<std::uint32_t>(place); }
+
+}  // namespace
+
+ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
 }
@@ -17,40 +27,45 @@ ThreadPool::~ThreadPool() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain,
-                            const std::function<void(std::uint32_t, std::uint32_t)>& body) {
+void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body) {
+  PLIANT_EXPECT(count < closed);
   if (workers_.empty() || count <= grain) {
     for (std::uint32_t first = 0; first < count; first += std::min(grain, count - first))
-      body(first, std::min(first + grain, count));
+      body(first, first + std::min(grain, count - first));
     return;
   }
   body_ = &body;
   count_ = count;
   grain_ = grain;
-  next_ = 0;
-  running_ = static_cast<std::uint32_t>(workers_.size());
-  ++loop_;
+  done_ = 0;
+  const std::uint32_t loop = loop_ + 1;
+  next_ = place(loop, 0);
+  loop_ = loop;
   loop_.notify_all();
   take_ranges();
-  for (std::uint32_t left = running_; left != 0; left = running_) running_.wait(left);
+  for (std::uint32_t done = done_; done != count; done = done_) done_.wait(done);
+  next_ = place(loop, closed);
 }
 
 void ThreadPool::work() {
   std::uint32_t seen = 0;
-  while (true) {
+  while (!stopping_) {
+    take_ranges();
     loop_.wait(seen);
     seen = loop_;
-    if (stopping_) return;
-    take_ranges();
-    if (--running_ == 0) running_.notify_one();
   }
 }
 
 void ThreadPool::take_ranges() {
+  std::uint64_t next = next_;
   while (true) {
-    const std::uint64_t first = next_.fetch_add(grain_);
-    if (first >= count_) return;
-    (*body_)(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::min<std::uint64_t>(first + grain_, count_)));
+    const std::uint32_t count = count_, first = item_of(next);
+    if (first >= count) return;
+    const std::uint32_t size = std::min<std::uint32_t>(grain_, count - first);
+    if (!next_.compare_exchange_weak(next, next + size)) continue;
+    (*body_)(first, first + size);
+    if ((done_ += size) == count) done_.notify_one();
+    next = next_;
   }
 }
 

@@ -1,5 +1,5 @@
 // Threads that share the items of one loop after another. Written here rather than taken from a library because a step is some
-// twenty short loops, and so that thread sanitizers see every hand-over.
+// twenty short loops: a loop ends when its items are done, without waiting for threads that have not woken up for it.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -11,6 +11,9 @@ namespace pliant {
 
 class ThreadPool {
  public:
+  /// Calls with the first item of a range and one past its last.
+  using Body = std::function<void(std::uint32_t, std::uint32_t)>;
+
   /// `threads` counts the calling one; 0: one a processor.
   explicit ThreadPool(unsigned threads);
   ~ThreadPool();
@@ -19,20 +22,20 @@ class ThreadPool {
 
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(workers_.size()) + 1; }
 
-  /// Calls body(first, end) for ranges that cover 0 to count - 1, in any order on any thread; returns when all are done.
-  /// Ranges hold at most `grain` items. The body must not throw.
-  void for_ranges(std::uint32_t count, std::uint32_t grain, const std::function<void(std::uint32_t, std::uint32_t)>& body);
+  /// Calls body for ranges of at most `grain` items that cover 0 to count - 1, in any order on any thread; returns when all
+  /// are done. The body must not throw. One thread at a time may call this. Expects count < 2^32 - 1.
+  void for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body);
 
  private:
   void work();
   void take_ranges();
 
   std::vector<std::thread> workers_;
-  const std::function<void(std::uint32_t, std::uint32_t)>* body_ = nullptr;
-  std::uint32_t count_ = 0, grain_ = 1;
-  std::atomic<std::uint64_t> next_{0};     // first item nobody has taken
-  std::atomic<std::uint32_t> loop_{0};     // counts the loops; a change wakes the workers
-  std::atomic<std::uint32_t> running_{0};  // workers still in the loop
+  std::atomic<const Body*> body_{nullptr};
+  std::atomic<std::uint32_t> count_{0}, grain_{1};
+  std::atomic<std::uint64_t> next_;     // high half: the loop's number; low half: its first item that nobody has taken
+  std::atomic<std::uint32_t> done_{0};  // items finished
+  std::atomic<std::uint32_t> loop_{0};  // number of the latest loop; a change wakes the workers
   std::atomic<bool> stopping_{false};
 };
 

@@ -1,12 +1,25 @@
 // The program as scripts use it: exit codes, messages and files.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <catch2/catch.hpp>
+#include <csignal>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "gl/context.hpp"
 #include "output/scratch.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
 
 namespace pliant {
 namespace {
@@ -114,19 +127,61 @@ TEST_CASE("options replace what the scene says") {
   CHECK(summary["threads"] == 2);
 }
 
-TEST_CASE("frames are pictures of the scene, on either device, and not blank", "[gl]") {
+// Red, green and blue of each pixel.
+using Colour = std::array<unsigned char, 3>;
+
+std::vector<Colour> pixels_of(const std::filesystem::path& path) {
+  int width = 0, height = 0, channels = 0;
+  unsigned char* data = stbi_load(path.c_str(), &width, &height, &channels, 3);
+  REQUIRE(data != nullptr);
+  std::vector<Colour> pixels(static_cast<std::size_t>(width * height));
+  std::memcpy(pixels.data(), data, pixels.size() * sizeof(Colour));
+  stbi_image_free(data);
+  return pixels;
+}
+
+bool is_reddish(const Colour& c) { return c[0] > c[2] + 60; }
+bool is_bluish(const Colour& c) { return c[2] > c[0] + 60; }
+
+TEST_CASE("frames of the demo's scene show both bodies, and move, on either device", "[gl]") {
   if (gl::list_adapters().empty()) return;
   const ScratchFolder folder;
   for (const std::string device : {"cpu", "gpu"}) {
     const auto out = folder.path / device;
-    REQUIRE(run_program("run " + small_scene(folder).string() + " --steps 4 --frames png --quiet --device " + device + " --out " +
-                        out.string())
+    REQUIRE(run_program("run " + shipped_scene("two_spheres") + " --steps 20 --frames png --quiet --device " + device +
+                        " --set output.size=[320,180] --out " + out.string())
                 .exit_code == 0);
-    CHECK(text_of(out / "frames/frame_0000.png").size() > 3000);  // a blank picture of this size packs to a few hundred bytes
-    CHECK(text_of(out / "frames/frame_0002.png").size() > 3000);
-    CHECK(text_of(out / "frames/frame_0000.png") != text_of(out / "frames/frame_0002.png"));
+    const auto first = pixels_of(out / "frames/frame_0000.png"), later = pixels_of(out / "frames/frame_0001.png");
+    for (const auto& picture : {first, later}) {
+      CHECK(picture.size() == 320 * 180);
+      CHECK(std::count_if(picture.begin(), picture.end(), is_reddish) > 1000);
+      CHECK(std::count_if(picture.begin(), picture.end(), is_bluish) > 1000);
+      CHECK(std::set<Colour>(picture.begin(), picture.end()).size() > 500);
+    }
+    CHECK(first != later);
   }
-  CHECK(text_of(folder.path / "cpu/frames/frame_0000.png") == text_of(folder.path / "gpu/frames/frame_0000.png"));
+  CHECK(pixels_of(folder.path / "cpu/frames/frame_0000.png") == pixels_of(folder.path / "gpu/frames/frame_0000.png"));
+}
+
+TEST_CASE("Ctrl-C ends a run early and writes what there is") {
+  const ScratchFolder folder;
+  const std::string out = folder.path.string(), scene = small_scene(folder).string();
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program_path().c_str(), "pliant", "run", scene.c_str(), "--device", "cpu", "--steps", "1000000000", "--quiet", "--out",
+          out.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  while (!std::filesystem::exists(folder.path / "history.csv") || line_count(text_of(folder.path / "history.csv")) < 3)
+    REQUIRE(waitpid(child, &status, WNOHANG) == 0);
+  kill(child, SIGINT);
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["steps"] > 0);
+  CHECK(summary["steps"] < 1000000000);
+  CHECK(line_count(text_of(folder.path / "final_state.csv")) == 1 + 84);
 }
 
 TEST_CASE("each format of frames has a file a frame") {
@@ -239,7 +294,7 @@ TEST_CASE("bad input exits with 3") {
 
 TEST_CASE("mesh reports counts as text and as JSON") {
   CHECK_THAT(run_program("mesh icosphere:3").output, Catch::Contains("642") && Catch::Contains("1280"));
-  const ProgramResult json = run_program("mesh " PLIANT_SOURCE_DIR "/meshes/bunny.obj --json");
+  const ProgramResult json = run_program("mesh " + source_dir() + "/meshes/bunny.obj --json");
   REQUIRE(json.exit_code == 0);
   CHECK_THAT(json.output, Catch::Contains("3674"));
   CHECK_NOTHROW(nlohmann::json::parse(json.output));

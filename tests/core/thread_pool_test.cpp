@@ -21,14 +21,18 @@ TEST_CASE("every item of a loop is visited exactly once, on any number of thread
   }
 }
 
-TEST_CASE("loops follow each other without waiting for their stragglers' next turn") {
+TEST_CASE("thousands of short loops follow each other, each with the body and items of its own") {
   ThreadPool pool(4);
-  std::vector<std::uint64_t> sums(64, 0);
-  for (std::uint64_t loop = 1; loop <= 2000; ++loop)
-    pool.for_ranges(64, 1, [&](std::uint32_t first, std::uint32_t end) {
-      for (std::uint32_t i = first; i < end; ++i) sums[i] += loop;
+  std::uint64_t wrong = 0;
+  for (std::uint32_t loop = 1; loop <= 2000; ++loop) {
+    const std::uint32_t count = 2 + loop % 61;
+    std::vector<std::uint32_t> seen(count, 0);
+    pool.for_ranges(count, 1, [&seen, loop](std::uint32_t first, std::uint32_t end) {
+      for (std::uint32_t i = first; i < end; ++i) seen[i] += loop;
     });
-  for (const std::uint64_t sum : sums) CHECK(sum == 2000ull * 2001 / 2);
+    wrong += static_cast<std::uint64_t>(std::count_if(seen.begin(), seen.end(), [loop](std::uint32_t n) { return n != loop; }));
+  }
+  CHECK(wrong == 0);
 }
 
 }  // namespace

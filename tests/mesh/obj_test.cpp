@@ -8,6 +8,7 @@
 #include "mesh/generators.hpp"
 #include "mesh/load.hpp"
 #include "support/expect_error.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
@@ -113,9 +114,9 @@ TEST_CASE("a missing file and a folder are input errors that name the path") {
   const Error missing = error_of([] { return load_obj("no/such.obj"); });
   CHECK(missing.kind() == ErrorKind::input);
   check_says(missing, {"no/such.obj", "can't be opened"});
-  const Error folder = error_of([] { return load_obj(PLIANT_SOURCE_DIR); });
+  const Error folder = error_of([] { return load_obj(source_dir()); });
   CHECK(folder.kind() == ErrorKind::input);
-  check_says(folder, {PLIANT_SOURCE_DIR, "is a folder"});
+  check_says(folder, {source_dir().c_str(), "is a folder"});
 }
 
 TEST_CASE("every form of a face's corner names the same triangle") {
@@ -181,13 +182,13 @@ TEST_CASE("faces without area stay, with a warning that counts them") {
 
 TEST_CASE("a mesh's description is a generator's or a path relative to the given folder") {
   CHECK(load_mesh("icosphere:0", "no/such/folder").mesh.positions.size() == 12);
-  CHECK(load_mesh("bunny.obj", PLIANT_SOURCE_DIR "/meshes").mesh.positions.size() == 1839);
+  CHECK(load_mesh("bunny.obj", source_dir() + "/meshes").mesh.positions.size() == 1839);
   check_says(error_of([] { return load_mesh("sphere.obj", "no/such"); }), {"no/such/sphere.obj"});
 }
 
 TEST_CASE("the shipped meshes have the published counts and no warnings") {
-  const LoadedMesh bunny = load_obj(PLIANT_SOURCE_DIR "/meshes/bunny.obj");
-  const LoadedMesh teapot = load_obj(PLIANT_SOURCE_DIR "/meshes/teapot.obj");
+  const LoadedMesh bunny = load_obj(source_dir() + "/meshes/bunny.obj");
+  const LoadedMesh teapot = load_obj(source_dir() + "/meshes/teapot.obj");
   CHECK((bunny.mesh.positions.size() == 1839 && bunny.mesh.triangles.size() == 3674 && bunny.warnings.empty()));
   CHECK((teapot.mesh.positions.size() == 792 && teapot.mesh.triangles.size() == 992));
   CHECK(teapot.warnings == std::vector<std::string>{});

@@ -5,6 +5,7 @@
 
 #include "mesh/generators.hpp"
 #include "mesh/obj.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
@@ -124,7 +125,7 @@ TEST_CASE("collinear and repeated corners have no area at any size, thin triangl
 }
 
 TEST_CASE("the bunny is closed, manifold and of genus 0") {
-  const MeshReport report = report_mesh(load_obj(PLIANT_SOURCE_DIR "/meshes/bunny.obj").mesh);
+  const MeshReport report = report_mesh(load_obj(source_dir() + "/meshes/bunny.obj").mesh);
   CHECK((report.closed && report.manifold && report.genus == 0 && report.component_count == 1));
   CHECK(*report.volume > 0);
 }

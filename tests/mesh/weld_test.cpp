@@ -8,6 +8,7 @@
 #include "mesh/generators.hpp"
 #include "mesh/obj.hpp"
 #include "mesh/report.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
@@ -84,7 +85,7 @@ TEST_CASE("triangles that collapse are dropped and counted, with the vertices on
 }
 
 TEST_CASE("the teapot welds to 529 vertices and stays open") {
-  const TriangleMesh teapot = load_obj(PLIANT_SOURCE_DIR "/meshes/teapot.obj").mesh;
+  const TriangleMesh teapot = load_obj(source_dir() + "/meshes/teapot.obj").mesh;
   CHECK(report_mesh(teapot).duplicate_position_count == 263);
   const MeshReport report = report_mesh(weld(teapot, 1e-6).mesh);
   CHECK(report.vertex_count == 529);

@@ -1,13 +1,14 @@
 #include "model/load_bodies.hpp"
 
 #include "support/expect_error.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
 
 SceneDescription scene_with(const char* mesh) {
   SceneDescription scene;
-  scene.file = PLIANT_SOURCE_DIR "/scenes/none.toml";
+  scene.file = source_dir() + "/scenes/none.toml";
   scene.bodies.resize(1);
   scene.bodies[0].name = "pot";
   scene.bodies[0].where = "none.toml:3";

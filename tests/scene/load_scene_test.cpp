@@ -4,6 +4,7 @@
 
 #include "output/scratch.hpp"
 #include "support/expect_error.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
@@ -221,7 +222,7 @@ TEST_CASE("a missing scene and a folder are input errors that name the path") {
   const Error missing = error_of([] { return load_scene("no/such.toml"); });
   CHECK(missing.kind() == ErrorKind::input);
   check_says(missing, {"no/such.toml", "can't be opened"});
-  const Error folder = error_of([] { return load_scene(PLIANT_SOURCE_DIR); });
+  const Error folder = error_of([] { return load_scene(source_dir()); });
   CHECK(folder.kind() == ErrorKind::input);
   check_says(folder, {"is a folder"});
 }

@@ -6,19 +6,20 @@
 #include "mesh/report.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
 
 std::vector<std::filesystem::path> scene_files() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   return files;
 }
 
 SceneDescription shipped(const std::string& name) {
-  return load_scene(std::filesystem::path(PLIANT_SOURCE_DIR "/scenes") / (name + ".toml"));
+  return load_scene(std::filesystem::path(source_dir() + "/scenes") / (name + ".toml"));
 }
 
 std::vector<double> stiffnesses(const SceneDescription& scene) {

@@ -1,6 +1,6 @@
 // The first steps of every shipped scene, on both devices and against brute force.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -10,13 +10,14 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "support/evolve.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
 
 std::vector<SceneDescription> shipped_scenes() {
   std::vector<SceneDescription> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
     if (entry.path().extension() == ".toml") scenes.push_back(load_scene(entry.path()));
   return scenes;
 }

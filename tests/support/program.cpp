@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdio>
 
+#include "support/paths.hpp"
+
 namespace pliant {
 
 ProgramResult run_program(const std::string& arguments) {
-  std::FILE* pipe = popen((std::string(PLIANT_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* pipe = popen((program_path() + " " + arguments + " 2>&1").c_str(), "r");
   ProgramResult result;
   std::array<char, 4096> part{};
   while (std::size_t size = std::fread(part.data(), 1, part.size(), pipe)) result.output.append(part.data(), size);
@@ -17,6 +19,6 @@ ProgramResult run_program(const std::string& arguments) {
   return result;
 }
 
-std::string shipped_scene(const std::string& name) { return std::string(PLIANT_SOURCE_DIR "/scenes/") + name + ".toml"; }
+std::string shipped_scene(const std::string& name) { return source_dir() + "/scenes/" + name + ".toml"; }
 
 }  // namespace pliant
