@@ -110,10 +110,18 @@ void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   glNamedBufferSubData(id_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()), data.data());
 }
 
+// By way of a copy that the GPU makes: NVIDIA's driver 580 answers glGetNamedBufferSubData from a copy of its own, which it does
+// not renew after an indirect dispatch.
 void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
+  const auto size = static_cast<GLsizeiptr>(data.size());
+  GLuint copy = 0;
+  glCreateBuffers(1, &copy);
+  glNamedBufferStorage(copy, size, nullptr, 0);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetNamedBufferSubData(id_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()), data.data());
+  glCopyNamedBufferSubData(id_, copy, static_cast<GLintptr>(first_byte), 0, size);
+  glGetNamedBufferSubData(copy, 0, size, data.data());
+  glDeleteBuffers(1, &copy);
 }
 
 Program Program::compute(const FlatShader& source, std::string_view label) {

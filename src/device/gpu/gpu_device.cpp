@@ -41,7 +41,6 @@ class GpuDevice final : public Device {
     buffers_.at(buffer).write(first_byte, data);
   }
   void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) override {
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     storage(buffer).read(first_byte, data);
   }
 
