@@ -5,5 +5,7 @@
 layout(local_size_x = 64) in;
 layout(location = 8) uniform uint item_count;
 void main() {
-  if (gl_GlobalInvocationID.x < item_count) KERNEL(gl_GlobalInvocationID.x);
+  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;  // dispatches past max_groups have several rows
+  uint item = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+  if (item < item_count) KERNEL(item);
 }

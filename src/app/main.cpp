@@ -43,7 +43,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
   run->add_option("--threads", options.device.threads, "Threads of the CPU (default: one a processor)")
       ->check(CLI::Range(1, 4096));
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
-                           ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{4'000'000'000}));
+                           ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{300'000'000}));
   run->add_option("--duration", options.duration, "Simulated time [s]")->check(finite(0, "a number >= 0"))->excludes(steps);
   run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(finite(1e-30, "a number > 0"));
   run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them");

@@ -11,7 +11,6 @@ using physics::Control;
 
 // A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
 constexpr std::size_t candidate_capacity = std::size_t{1} << 18;
-constexpr std::uint32_t descent_threads_per_pair = 256;  // find_pairs.glsl: 16 subtrees of either tree
 
 std::vector<glm::uvec2> trees_of(const Forest& forest) {
   std::vector<glm::uvec2> trees;
@@ -49,8 +48,12 @@ Collider::Collider(Device& device, DeviceBodies& bodies, const Model& model, con
       marks_(device, bodies.vertex_count, "contact marks") {}
 
 std::uint32_t Collider::threads_per_pair() const {
-  if (description_.search == ContactSearch::tree) return descent_threads_per_pair;
+  if (description_.search == ContactSearch::tree) return physics::descent_threads;
   return physics::groups_for(largest_body_) * physics::group_size;
+}
+
+bool Collider::uses_trees() const {
+  return description_.search == ContactSearch::tree && bodies_.body_count > 1 && !forest_.leaves.empty();
 }
 
 std::vector<Pass> Collider::bounding_passes(std::uint32_t half) const {

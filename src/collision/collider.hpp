@@ -21,6 +21,8 @@ class Collider {
   /// Moves marked vertices of the other half back to `from_half`.
   [[nodiscard]] std::vector<Pass> response_passes(std::uint32_t from_half) const;
 
+  /// Whether contact_passes refits and searches trees: two bodies or more with triangles, and no brute force.
+  [[nodiscard]] bool uses_trees() const;
   [[nodiscard]] const Forest& forest() const { return forest_; }
   /// Of the latest search: places of two triangles in the forest's order, in no fixed order, as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> candidates() const;

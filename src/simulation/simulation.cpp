@@ -20,7 +20,7 @@ std::uint32_t body_of(const Model& model, std::uint32_t vertex) {
   return static_cast<std::uint32_t>(model.rest_positions[vertex].w);
 }
 
-void add_collision_counts(StepReport& report, const Control& control, std::size_t body_count) {
+void add_collision_counts(StepReport& report, const Control& control) {
   report.contact_steps = control.contact_steps;
   report.contact_pairs_max = control.contact_pairs_max;
   report.reverted_vertices = total(control, physics::reverted_vertices);
@@ -30,7 +30,6 @@ void add_collision_counts(StepReport& report, const Control& control, std::size_
   report.pairs_beyond_capacity = total(control, physics::pairs_beyond_capacity);
   report.frame_changes = total(control, physics::frame_changes);
   report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
-  report.refits_skipped = report.steps * body_count - total(control, physics::trees_refitted);
 }
 
 void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Frame>& frames) {
@@ -50,15 +49,15 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       model_(model),
       bodies_(device, model, start),
       stepper_(device, bodies_, *plan.integrator, law, plan.time_step),
-      collider_(device, bodies_, model, collision) {
-  for (std::uint32_t half = 0; half < 2; ++half)
-    schedules_[half] = schedule(half, collision.response == ContactResponse::reflect);
+      collider_(device, bodies_, model, collision),
+      responds_(collision.response == ContactResponse::reflect) {
+  for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
 }
 
-std::vector<Pass> Simulation::schedule(std::uint32_t from_half, bool responds) const {
+std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
   std::vector<Pass> passes = stepper_.passes(from_half);
   append(passes, collider_.bounding_passes(1 - from_half));
-  if (responds) {
+  if (responds_) {
     append(passes, collider_.contact_passes(1 - from_half));
     append(passes, collider_.response_passes(from_half));
   }
@@ -83,7 +82,9 @@ StepReport Simulation::report() {
     const std::uint32_t body = body_of(model_, control.non_finite_vertex);
     report.non_finite = NonFinite{control.non_finite_step, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
   }
-  add_collision_counts(report, control, model_.bodies.size());
+  add_collision_counts(report, control);
+  if (responds_ && collider_.uses_trees())
+    report.refits_skipped = report.steps * model_.bodies.size() - total(control, physics::trees_refitted);
   add_force_counts(report, model_, bodies_.frames.download());
   return report;
 }

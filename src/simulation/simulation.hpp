@@ -66,13 +66,14 @@ class Simulation {
 
  private:
   [[nodiscard]] std::uint32_t half();  // the one that holds the current state
-  [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half, bool responds) const;
+  [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
 
   Device& device_;
   const Model& model_;
   DeviceBodies bodies_;
   Stepper stepper_;
   Collider collider_;
+  bool responds_;                               // to contacts; else none are looked for
   std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
   std::uint64_t queued_steps_ = 0;
 };

@@ -12,7 +12,7 @@ namespace pliant {
 namespace {
 
 constexpr double safety = 0.9;
-constexpr double largest_step_count = 4e9;  // the clock on the device has 32 bits
+constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
 
 double largest_damping_rate(const ModelBody& body, DampingLaw law) {
   if (law == DampingLaw::none) return 0;
@@ -56,7 +56,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
   const double count = std::round(simulation.duration / plan.time_step);
   if (!steps && !(count <= largest_step_count))
-    throw Error(ErrorKind::input, scene.file.string(), "the scene takes more than 4e9 steps",
+    throw Error(ErrorKind::input, scene.file.string(), "the scene takes more than 3e8 steps",
                 "shorten simulation.duration or lengthen simulation.time_step");
   plan.steps = steps ? *steps : static_cast<std::uint64_t>(count);
   return plan;

@@ -21,7 +21,7 @@ struct TimePlan {
 };
 
 /// `steps` replaces the scene's duration. Throws Error (input) for an unknown integrator, for one that cannot meet the scene's
-/// damping, and for a number of steps beyond 4e9.
+/// damping, and for a number of steps beyond 3e8.
 [[nodiscard]] TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps = {});
 
 }  // namespace pliant

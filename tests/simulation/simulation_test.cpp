@@ -129,6 +129,26 @@ TEST_CASE("searching trees and searching all pairs simulate the same") {
   CHECK(by_tree.report.triangle_tests < by_force.report.triangle_tests / 20);
 }
 
+TEST_CASE("a crowd of more near pairs than one dispatch serves is searched completely", "[gl]") {
+  std::vector<BodySetup> setups;
+  for (int i = 0; i < 190; ++i) {
+    BodySetup setup = sphere(0);
+    setup.description.position = {0.01 * i, 0.013 * (i % 7), 0.007 * (i % 11)};
+    setups.push_back(setup);
+  }
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  for (const ContactSearch search : {ContactSearch::tree, ContactSearch::brute_force})
+    for (const TestDevice& test : all_devices()) {
+      CAPTURE(test.name, static_cast<int>(search));
+      CollisionDescription description;
+      description.search = search;
+      Simulation simulation(*test.device, start.model, start.state, plan_of(usual), usual.law, description);
+      const auto pairs = intersecting_pairs(start.model, simulation.world_positions(), TriangleTest::certified);
+      CHECK(190 * 189 / 2 > physics::pairs_at_once(physics::descent_threads));
+      CHECK(simulation.intersections().pairs == pairs.size());
+    }
+}
+
 TEST_CASE("bodies that stay apart do no tree work") {
   auto setups = colliding_spheres();
   setups[0].description.velocity = {-2, 0, 0};

@@ -18,13 +18,12 @@ PARAMETER(2, uint, triangle_test)
 PARAMETER(3, uint, candidate_capacity)
 #include "parts/mark_contact.glsl"
 
-const uint start_depth = 4u;
 const uint no_node = 0xffffffffu;
 
-// The node at start_depth on the path whose turns are the bits of `path`; a leaf above that depth belongs to the path of zeros.
+// The node at descent_depth on the path whose turns are the bits of `path`; a leaf above that depth belongs to the path of zeros.
 uint start_node(uint root, uint path) {
   uint n = root;
-  for (uint depth = 0u; depth < start_depth; ++depth) {
+  for (uint depth = 0u; depth < descent_depth; ++depth) {
     if (node[n].x == 0u) return path == 0u ? n : no_node;
     n = node[n].x + (path & 1u);
     path >>= 1u;
@@ -73,13 +72,11 @@ bool opens_first(uint a, uint b, Box box_a, Box box_b) {
   return (size_a.x + size_a.y) + size_a.z >= (size_b.x + size_b.y) + size_b.z;
 }
 
-void find_pairs(uint item) {
-  uint pair_index = item >> (2u * start_depth);
-  if (pair_index >= control[0].near_pair_count) return;
+// Returns how many pairs of nodes it tested.
+uint descend(uvec2 start) {
   uvec2 stack[130];  // a descent opens one node at a time and pushes two: at most the depths of both trees, 64 each, and one
   int top = 0;
-  stack[0] = uvec2(start_node(near_pair[pair_index].x, item & 15u), start_node(near_pair[pair_index].y, (item >> 4u) & 15u));
-  if (stack[0].x == no_node || stack[0].y == no_node) return;
+  stack[0] = start;
   uint tests = 0u;
   while (top >= 0) {
     uvec2 at = stack[top--];
@@ -97,5 +94,14 @@ void find_pairs(uint item) {
       stack[++top] = uvec2(at.x, node[at.y].x + 1u);
     }
   }
-  atomicAdd(control[0].count[node_tests], tests);
+  return tests;
+}
+
+void find_pairs(uint item) {
+  uint tests = 0u;
+  for (uint k = item / descent_threads; k < control[0].near_pair_count; k += pairs_at_once(descent_threads)) {
+    uvec2 start = uvec2(start_node(near_pair[k].x, item & 15u), start_node(near_pair[k].y, (item >> 4u) & 15u));
+    if (start.x != no_node && start.y != no_node) tests += descend(start);
+  }
+  if (tests != 0u) atomicAdd(control[0].count[node_tests], tests);
 }

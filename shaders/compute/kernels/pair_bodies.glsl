@@ -29,9 +29,10 @@ void pair_bodies(uint item) {
     return;
   }
   atomicAdd(control[0].count[body_pairs_near], 1u);
-  near_pair[atomicAdd(control[0].near_pair_count, 1u)] = uvec2(tree[a].x, tree[b].x);
+  uint at = atomicAdd(control[0].near_pair_count, 1u);
+  near_pair[at] = uvec2(tree[a].x, tree[b].x);
   ATOMIC_STORE(partner_step[a], control[0].step);
   ATOMIC_STORE(partner_step[b], control[0].step);
   atomicMax(control[0].refit_groups[0], groups_for(leaf_count));
-  atomicAdd(control[0].find_groups[0], threads_per_pair / group_size);
+  atomicMax(control[0].find_groups[0], min(at + 1u, pairs_at_once(threads_per_pair)) * (threads_per_pair / group_size));
 }

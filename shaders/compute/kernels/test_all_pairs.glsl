@@ -1,4 +1,4 @@
-// The search without trees, for comparison: one thread for each triangle of the first body of a near pair and 
+// The search without trees, for comparison: one thread for each triangle of the first body of a near pair and
 // every triangle of the second.
 #include "../physics/control.glsl"
 #include "../physics/collision/certified_triangles.glsl"
@@ -16,12 +16,12 @@ PARAMETER(3, uint, threads_per_pair)
 #include "parts/mark_contact.glsl"
 
 void test_all_pairs(uint item) {
-  uint pair_index = item / threads_per_pair;
-  if (pair_index >= control[0].near_pair_count) return;
-  uvec4 first = node[near_pair[pair_index].x];
-  uvec4 second = node[near_pair[pair_index].y];
-  uint s = first.z + item % threads_per_pair;
-  if (s >= first.w) return;
-  for (uint t = second.z; t < second.w; ++t) mark_contact(s, t);
-  atomicAdd(control[0].count[triangle_tests], second.w - second.z);
+  for (uint k = item / threads_per_pair; k < control[0].near_pair_count; k += pairs_at_once(threads_per_pair)) {
+    uvec4 first = node[near_pair[k].x];
+    uvec4 second = node[near_pair[k].y];
+    uint s = first.z + item % threads_per_pair;
+    if (s >= first.w) continue;
+    for (uint t = second.z; t < second.w; ++t) mark_contact(s, t);
+    atomicAdd(control[0].count[triangle_tests], second.w - second.z);
+  }
 }

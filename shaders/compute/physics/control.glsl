@@ -5,6 +5,9 @@
 SHARED_BEGIN
 
 const uint group_size = 64u;  // threads in a work group of every kernel
+const uint descent_depth = 4u;    // find_pairs begins at the nodes of this depth:
+const uint descent_threads = 256u;  // 16 of one tree with 16 of the other
+const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
 const uint no_vertex = 0xffffffffu;
 
 // What is counted in each step and summed over the run.
@@ -38,6 +41,9 @@ struct Control {
   uint total_low[10];      // of all steps before: 64 bits in two halves
   uint total_high[10];
 };
+
+// Of near body pairs, how many one dispatch serves; its threads go on to later ones in strides of this.
+FN uint pairs_at_once(uint threads_per_pair) { return max_groups / (threads_per_pair / group_size); }
 
 FN uint groups_for(uint item_count) { return (item_count + group_size - 1u) / group_size; }
 

@@ -58,9 +58,9 @@ class GpuDevice final : public Device {
   void run(const KernelCall& call, std::uint32_t item_count) override {
     if (item_count == 0) return;
     const std::uint32_t groups = physics::groups_for(item_count);
-    PLIANT_EXPECT(groups <= 65535);  // what OpenGL guarantees
+    const std::uint32_t rows = (groups + physics::max_groups - 1) / physics::max_groups;
     prepare(call, item_count);
-    glDispatchCompute(groups, 1, 1);
+    glDispatchCompute(std::min(groups, physics::max_groups), rows, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   }
   void run_indirect(const KernelCall& call, BufferId group_counts, std::size_t first_byte) override {

@@ -1,4 +1,4 @@
-// Contacts by brute force, without trees: what the searches are tested against, and what reports count at the end.
+// Contacts by brute force, without trees: what the searches are tested against.
 #pragma once
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
