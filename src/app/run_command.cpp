@@ -34,11 +34,13 @@ class Run {
         frames_(prepared, options.frames, folder / "frames") {}
 
   int execute() {
-    record(true);
+    record();
+    write_frame();
     for (std::uint64_t frame = 1; !finished(); ++frame) {
-      step_until(std::min(run_.plan.steps, run_.plan.step_of_frame(frame)));
-      const bool at_frame = report_.steps == run_.plan.step_of_frame(frame);
-      record(at_frame);
+      const std::uint64_t before = report_.steps, target = run_.plan.step_of_frame(frame);
+      step_until(std::min(run_.plan.steps, target));
+      if (report_.steps != before) record();  // a step longer than a frame serves several
+      if (report_.steps == target) write_frame();
     }
     history_.close();
     write_end();
@@ -58,8 +60,7 @@ class Run {
     }
   }
 
-  // A row of history, and a frame where one falls.
-  void record(bool at_frame) {
+  void record() {
     state_ = run_.simulation->state();
     now_ = measuring_.time([&] { return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_); });
     if (report_.steps == 0) first_ = now_;
@@ -74,7 +75,10 @@ class Run {
                      .angular_momentum = now_.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices});
-    if (at_frame) writing_.time([&] { frames_.write(state_); });
+  }
+
+  void write_frame() {
+    writing_.time([&] { frames_.write(state_); });
   }
 
   double energy_scale() const {

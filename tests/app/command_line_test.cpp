@@ -75,6 +75,17 @@ TEST_CASE("a run writes its summary, history and final state") {
   CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
 }
 
+TEST_CASE("a step longer than a frame gives several frames and one row of history") {
+  const ScratchFolder folder;
+  REQUIRE(run_program("run " + small_scene(folder).string() +
+                      " --device cpu --steps 3 --frames obj --quiet --set output.frame_rate=250 --out " + folder.path.string())
+              .exit_code == 0);
+  CHECK(line_count(text_of(folder.path / "history.csv")) == 1 + 4);
+  CHECK(text_of(folder.path / "frames/frame_0001.obj") ==
+        text_of(folder.path / "frames/frame_0002.obj"));  // 4 and 8 ms: the state at 10 ms
+  CHECK(text_of(folder.path / "frames/frame_0002.obj") != text_of(folder.path / "frames/frame_0003.obj"));
+}
+
 TEST_CASE("zero steps write the start") {
   const ScratchFolder folder;
   const std::string common =
