@@ -28,8 +28,8 @@ install_packages() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
 }
 
-# build PRESET: configures and builds it in build/PRESET.
+# build PRESET [CMAKE --BUILD ARGS]: configures and builds it in build/PRESET.
 build() {
   if [ ! -f "build/$1/build.ninja" ]; then cmake --preset "$1"; fi
-  cmake --build --preset "$1"
+  cmake --build --preset "$@"
 }
