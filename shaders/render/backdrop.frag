@@ -1,6 +1,6 @@
 #version 450
 // A studio backdrop: the ground, bright under the lights, runs without an edge into a gradient.
-#include "stage.glsl"
+#include "studio.glsl"
 #include "look.glsl"
 in vec2 place;
 in vec3 ray;

@@ -1,6 +1,6 @@
 #version 450
 // A soft plastic surface under a key light with shadows, a fill light, the sky, and light from the ground.
-#include "stage.glsl"
+#include "studio.glsl"
 #include "look.glsl"
 layout(binding = 1) uniform sampler2DShadow shadow_map;
 layout(location = 2) uniform bool shows_strain;

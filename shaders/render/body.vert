@@ -1,6 +1,6 @@
 #version 450
 // A body's vertex with its smooth normal, the sum over its triangles weighted by area, and its local strain.
-#include "stage.glsl"
+#include "studio.glsl"
 #include "surface.glsl"
 layout(std430, binding = 4) readonly buffer BodyColors { vec4 body_colors[]; };
 

@@ -1,7 +1,7 @@
 #version 450
 // Coverage, and how far below the map's ceiling the lowest surface lies; blended by maximum. Both average under mipmaps:
 // the mean height of what covers is ceiling - y / x.
-#include "stage.glsl"
+#include "studio.glsl"
 in float height;
 layout(location = 0) out vec2 footprint;
 

@@ -1,6 +1,6 @@
 #version 450
 // The bodies projected along a direction onto the ground, in the ground map's square.
-#include "stage.glsl"
+#include "studio.glsl"
 #include "surface.glsl"
 layout(location = 1) uniform vec3 direction;  // from the ground to the light, y > 0
 out float height;  // above the ground [m]

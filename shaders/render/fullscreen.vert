@@ -1,6 +1,6 @@
 #version 450
 // One triangle over the whole picture, and the camera's ray through each pixel.
-#include "stage.glsl"
+#include "studio.glsl"
 out vec2 place;  // 0 to 1
 out vec3 ray;    // from the eye to the far plane
 

@@ -1,7 +1,7 @@
 #version 450
 // Light that reaches each place of the ground: x the key light's share (a penumbra as wide as the casters are high), y the
 // sky's share (the solid angle that the bodies above leave open).
-#include "stage.glsl"
+#include "studio.glsl"
 layout(binding = 0) uniform sampler2D key_footprint;
 layout(binding = 1) uniform sampler2D above_footprint;
 in vec2 place;

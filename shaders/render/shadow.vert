@@ -1,6 +1,6 @@
 #version 450
 // Depth of the bodies seen from the key light.
-#include "stage.glsl"
+#include "studio.glsl"
 #include "surface.glsl"
 
 void main() {

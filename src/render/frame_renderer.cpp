@@ -11,7 +11,7 @@
 #include <glm/matrix.hpp>
 #include <span>
 
-#include "../../shaders/render/stage.glsl"
+#include "../../shaders/render/studio.glsl"
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "gl/targets.hpp"
@@ -40,16 +40,6 @@ gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
   return buffer;
 }
 
-/// Rest positions with the body's number in w.
-std::vector<glm::vec4> rest_positions_of(const Model& model) {
-  std::vector<glm::vec4> rest = model.rest_positions;
-  for (float number = 0; const ModelBody& body : model.bodies) {
-    for (auto& p : std::span(rest).subspan(body.first_vertex, body.vertex_count)) p.w = number;
-    ++number;
-  }
-  return rest;
-}
-
 std::vector<glm::vec4> colors_of(const Model& model) {
   std::vector<glm::vec4> colors;
   for (const ModelBody& body : model.bodies) colors.emplace_back(glm::vec3(body.color), 1.0f);
@@ -61,7 +51,7 @@ struct Surface {
   explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
   Surface(const Model& model, const IncidentTriangles& around)
       : indices(upload(model.triangles, "triangle corners")),
-        rest(upload(rest_positions_of(model), "rest positions for drawing")),
+        rest(upload(model.rest_positions, "rest positions for drawing")),
         first_incident(upload(around.first, "first incident triangle")),
         incident(upload(around.others, "incident triangles")),
         colors(upload(colors_of(model), "body colours")),
@@ -134,25 +124,25 @@ glm::mat4 key_projection_for(const SceneBox& scene, const glm::dvec3& direction)
   return glm::mat4(glm::ortho(-r, r, -r, r, 0.5 * r, 3.5 * r) * view);
 }
 
-Stage stage_for(const RenderOptions& options) {
+Studio studio_for(const RenderOptions& options) {
   const SceneBox& scene = options.scene;
   const glm::dvec3 centre = scene.centre(), key = key_direction_for(options.camera);
-  Stage stage{};
-  stage.key_projection = key_projection_for(scene, key);
-  stage.key_direction = glm::vec4(key, 0.0);
-  stage.centre = glm::vec4(centre, scene.radius());
-  if (!options.ground_height) return stage;
+  Studio studio{};
+  studio.key_projection = key_projection_for(scene, key);
+  studio.key_direction = glm::vec4(key, 0.0);
+  studio.centre = glm::vec4(centre, scene.radius());
+  if (!options.ground_height) return studio;
   // The map of the ground lies under the scene and reaches out to where its shadows fall.
   const glm::dvec3 away = -key * ((centre.y - *options.ground_height) / key.y);
-  stage.ground = glm::vec4(centre.x + 0.5 * away.x, *options.ground_height, centre.z + 0.5 * away.z, 2.2 * scene.radius());
-  return stage;
+  studio.ground = glm::vec4(centre.x + 0.5 * away.x, *options.ground_height, centre.z + 0.5 * away.z, 2.2 * scene.radius());
+  return studio;
 }
 
 }  // namespace
 
 struct FrameRenderer::Impl {
   Impl(const Model& model, const RenderOptions& render_options)
-      : options(render_options), stage(stage_for(render_options)), surface(model), picture(render_options.size) {}
+      : options(render_options), studio(studio_for(render_options)), surface(model), picture(render_options.size) {}
 
   void upload_camera(const CameraDescription& camera);
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
@@ -165,8 +155,8 @@ struct FrameRenderer::Impl {
   void resolve() const;
 
   RenderOptions options;
-  Stage stage;
-  gl::Buffer stage_buffer{sizeof(Stage), "stage"};
+  Studio studio;
+  gl::Buffer studio_buffer{sizeof(Studio), "studio"};
   Programs programs;
   Surface surface;
   gl::VertexArray no_vertices{nullptr};
@@ -177,17 +167,17 @@ struct FrameRenderer::Impl {
 void FrameRenderer::Impl::upload_camera(const CameraDescription& camera) {
   const double aspect = static_cast<double>(options.size.x) / options.size.y;
   const glm::dmat4 to_clip = view_projection(camera, aspect);
-  stage.view_projection = glm::mat4(to_clip);
-  stage.from_clip = glm::mat4(glm::inverse(to_clip));
-  stage.eye = glm::vec4(camera.eye, 1.0);
-  stage_buffer.write(0, std::as_bytes(std::span(&stage, 1)));
+  studio.view_projection = glm::mat4(to_clip);
+  studio.from_clip = glm::mat4(glm::inverse(to_clip));
+  studio.eye = glm::vec4(camera.eye, 1.0);
+  studio_buffer.write(0, std::as_bytes(std::span(&studio, 1)));
 }
 
 void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const {
   const std::uint32_t buffers[] = {positions_buffer, surface.rest.id(), surface.first_incident.id(), surface.incident.id(),
                                    surface.colors.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 5, buffers);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, stage_buffer.id());
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
   for (const gl::Program* program : {&programs.shadow, &programs.footprint, &programs.body}) {
     glProgramUniform1ui(program->id(), first_vertex_location, first_vertex);
   }
@@ -234,7 +224,7 @@ void FrameRenderer::Impl::draw_footprint(const gl::Framebuffer& target, const gl
 }
 
 void FrameRenderer::Impl::draw_ground_light() const {
-  draw_footprint(maps.key_footprint_target, maps.key_footprint, glm::vec3(stage.key_direction));
+  draw_footprint(maps.key_footprint_target, maps.key_footprint, glm::vec3(studio.key_direction));
   draw_footprint(maps.above_footprint_target, maps.above_footprint, {0, 1, 0});
   maps.ground_light_target.bind();
   glBindTextureUnit(0, maps.key_footprint.id());
@@ -290,7 +280,7 @@ void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_ver
   impl_->bind_bodies(positions_buffer, first_vertex);
   glEnable(GL_CLIP_DISTANCE0);
   impl_->draw_shadow_map();
-  if (impl_->stage.ground.w > 0) impl_->draw_ground_light();
+  if (impl_->studio.ground.w > 0) impl_->draw_ground_light();
   impl_->draw_picture();
   glDisable(GL_CLIP_DISTANCE0);
   impl_->resolve();
@@ -310,13 +300,6 @@ Image FrameRenderer::read() const {
                      image.pixels.begin() + static_cast<std::ptrdiff_t>(bottom * row));
   }
   return image;
-}
-
-void FrameRenderer::present(std::uint32_t framebuffer, const glm::uvec2& size) const {
-  const glm::uvec2 own = impl_->options.size;
-  glBlitNamedFramebuffer(impl_->picture.resolved_target.id(), framebuffer, 0, 0, static_cast<GLint>(own.x),
-                         static_cast<GLint>(own.y), 0, 0, static_cast<GLint>(size.x), static_cast<GLint>(size.y),
-                         GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 }  // namespace pliant::render

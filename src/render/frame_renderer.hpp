@@ -35,8 +35,6 @@ class FrameRenderer {
   void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex);
   /// Waits for the last draw() and reads its picture.
   [[nodiscard]] Image read() const;
-  /// Copies the last picture to another framebuffer (0: the window's), scaled to `size` [pixels].
-  void present(std::uint32_t framebuffer, const glm::uvec2& size) const;
 
   /// The lights stay where they are.
   void set_camera(const CameraDescription& camera);

@@ -1,15 +1,15 @@
 // What all drawing shaders share of one frame: camera, key light and ground. GLSL and C++ read the same declaration;
 // matrices and vec4 alone, which std140 and glm lay out alike.
-#ifndef STAGE_GLSL
-#define STAGE_GLSL
+#ifndef STUDIO_GLSL
+#define STUDIO_GLSL
 #ifdef __cplusplus
   #include <glm/mat4x4.hpp>
   #include <glm/vec4.hpp>
 namespace pliant::render {
 using glm::mat4, glm::vec4;
-struct Stage {
+struct Studio {
 #else
-layout(std140, binding = 0) uniform Stage {
+layout(std140, binding = 0) uniform Studio {
 #endif
   mat4 view_projection;      // world to clip space
   mat4 from_clip;            // and back
