@@ -100,7 +100,8 @@ std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std
   if (context == EGL_NO_CONTEXT) return refuse("no OpenGL 4.5 core context without a window");
   std::optional<OpenAdapter> found;
   if (make_current_and_load(display, context)) {
-    found = OpenAdapter{{0, gl_string(GL_RENDERER), gl_string(GL_VENDOR), gl_string(GL_VERSION), false}, display};
+    found = OpenAdapter{{0, gl_string(GL_RENDERER), gl_string(GL_VENDOR), gl_string(GL_VERSION), false, 0}, display};
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &found->adapter.largest_buffer);
     found->adapter.is_software = is_software_renderer(found->adapter.renderer);
   }
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);

@@ -1,5 +1,6 @@
 // An OpenGL 4.5 core context without a window, through EGL.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@ struct Adapter {
   std::string renderer;  // GL_RENDERER
   std::string vendor, version;
   bool is_software = false;  // llvmpipe, softpipe, swrast
+  std::int64_t largest_buffer = 0;  // that a shader can use [bytes]
 };
 
 /// Every EGL device (EGL_EXT_platform_device, then EGL_MESA_platform_surfaceless) that gives an OpenGL 4.5 core context;

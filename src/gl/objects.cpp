@@ -1,6 +1,7 @@
 // Buffers and programs, labelled for debug output and graphics debuggers.
 #include "gl/objects.hpp"
 
+#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <algorithm>
@@ -83,12 +84,31 @@ GLuint link(std::span<const Shader* const> shaders, const std::string& label) {
 
 }  // namespace
 
+namespace {
+
+void expect_within_limit(std::size_t bytes, std::string_view label) {
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (bytes > static_cast<std::size_t>(limit))
+    throw Error(ErrorKind::device, "GPU memory",
+                fmt::format("the buffer \"{}\" needs {} bytes, the driver allows {}", label, bytes, limit),
+                "use coarser meshes or --device cpu");
+}
+
+}  // namespace
+
 Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
+  expect_within_limit(bytes, label);
   glCreateBuffers(1, &id_);
   // Zeros are uploaded rather than cleared to: on NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued before
   // it and is lost. An empty buffer still gets storage, so that it can be bound.
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
+  glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(zeros.size()), zeros.data(), GL_DYNAMIC_STORAGE_BIT);
+  glEnable(GL_DEBUG_OUTPUT);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    throw Error(ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
+                "use coarser meshes or --device cpu");
   set_label(GL_BUFFER, id_, label);
 }
 

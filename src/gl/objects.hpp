@@ -9,7 +9,7 @@
 
 namespace pliant::gl {
 
-/// A buffer object with immutable, zero-filled storage.
+/// A buffer object with immutable, zero-filled storage. Throws Error (device) when the GPU has no room for it.
 class Buffer {
  public:
   Buffer() = default;
