@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/error.hpp"
+
 namespace pliant {
 namespace {
 
 using physics::Control;
+
+static_assert(static_cast<std::uint32_t>(TriangleTest::certified) == physics::certified_test);
+static_assert(static_cast<std::uint32_t>(TriangleTest::moller) == physics::moller_test);
 
 // A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
 constexpr std::size_t candidate_capacity = std::size_t{1} << 18;
@@ -45,7 +50,11 @@ Collider::Collider(Device& device, DeviceBodies& bodies, const Model& model, con
       partner_steps_(device, bodies.body_count, "partner steps"),
       near_pairs_(device, std::size_t{bodies.body_count} * (bodies.body_count - 1) / 2, "near pairs"),
       candidates_(device, candidate_capacity, "candidate pairs"),
-      marks_(device, bodies.vertex_count, "contact marks") {}
+      marks_(device, bodies.vertex_count, "contact marks") {
+  if (physics::pairs_at_once(threads_per_pair()) == 0)
+    throw Error(ErrorKind::input, "collision.search", "brute force takes bodies of up to 4,194,240 triangles",
+                "use search = \"tree\"");
+}
 
 std::uint32_t Collider::threads_per_pair() const {
   if (description_.search == ContactSearch::tree) return physics::descent_threads;

@@ -12,7 +12,10 @@ namespace pliant {
 class Collider {
  public:
   /// `device` and `bodies` must outlive the collider. The trees' structure comes from the rest positions.
+  /// Throws Error (input) when a body is too large for brute force.
   Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description);
+  Collider(const Collider&) = delete;
+  Collider& operator=(const Collider&) = delete;
 
   /// Bounds every body at `half`, and nothing more: for scenes without contacts.
   [[nodiscard]] std::vector<Pass> bounding_passes(std::uint32_t half) const;
@@ -30,6 +33,7 @@ class Collider {
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const { return node_boxes_.download(); }
   /// Of every vertex, the latest step in which it touched another body; 0: none.
   [[nodiscard]] std::vector<std::uint32_t> marks() const { return marks_.download(); }
+  void restore_marks(std::span<const std::uint32_t> marks) { marks_.upload(marks); }
 
  private:
   [[nodiscard]] std::vector<Pass> tree_passes(std::uint32_t first_position) const;

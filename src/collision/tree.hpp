@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "physics/control.glsl"
 
 namespace pliant {
 
-inline constexpr std::uint32_t no_node = 0xffffffffu;
+using physics::no_node;
 
 /// One binary tree per body, all in the same arrays. A body's nodes are contiguous and stand level by level, so children follow
 /// their parent and a sweep from the last node to the first meets children before parents.

@@ -1,5 +1,6 @@
 // A device holds arrays and runs kernels over items. A kernel is one file in shaders/compute/kernels, the same on every device.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,10 +30,9 @@ struct KernelCall {
 };
 
 struct DeviceInfo {
-  std::string kind;          // "cpu" or "gpu"
-  std::string name;          // model, and what its bits depend on
-  bool is_software = false;  // a "gpu" that is a CPU
-  unsigned threads = 1;      // of the CPU that run kernels
+  std::string kind;      // "cpu" or "gpu"
+  std::string name;      // model, and what its bits depend on
+  unsigned threads = 1;  // of the CPU that run kernels
 };
 
 /// Kernels run one after another, each after the one before has finished; run() may return earlier.

@@ -43,6 +43,12 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   world_positions.upload(rounded_world_positions(model, state));
 }
 
+void DeviceBodies::clear_boxes() {
+  std::vector<std::uint32_t> boxes;
+  for (std::uint32_t b = 0; b < body_count; ++b) boxes.insert(boxes.end(), {~0u, ~0u, ~0u, 0u, 0u, 0u});
+  body_boxes.upload(boxes);
+}
+
 State DeviceBodies::download(std::uint32_t half) const {
   return {.frames = frames.download(),
           .motion = motions.download(std::size_t{6} * half * vertex_count, std::size_t{6} * vertex_count)};

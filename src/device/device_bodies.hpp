@@ -23,6 +23,8 @@ struct DeviceBodies {
   DeviceArray<physics::Control> control;   // one
 
   [[nodiscard]] State download(std::uint32_t half) const;
+  /// Makes every body's box empty, as the first pass of a step does.
+  void clear_boxes();
 };
 
 }  // namespace pliant

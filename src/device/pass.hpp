@@ -1,5 +1,6 @@
 // One dispatch of a schedule, recorded once and run many times.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <span>

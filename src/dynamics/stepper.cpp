@@ -4,11 +4,16 @@
 #include <cstddef>
 
 #include "core/expect.hpp"
+#include "physics/damping.glsl"
 
 namespace pliant {
 namespace {
 
 using physics::Control;
+
+static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_none);
+static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);
+static_assert(static_cast<std::uint32_t>(DampingLaw::adaptive) == physics::damping_adaptive);
 
 // The rows that runge_kutta_stage.glsl reads: c, then position and velocity weights in turn.
 std::vector<double> interleaved(const NystromTableau& tableau) {
@@ -35,6 +40,7 @@ Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integra
   forces_ = DeviceArray<std::uint32_t>(device, count * words_of_real4, "spring forces");
   if (const auto* method = std::get_if<RungeKutta>(&integrator.method)) {
     const NystromTableau tableau = nystrom_tableau(*method);
+    PLIANT_EXPECT(tableau.c.front() == 0);  // the first stage is the step's start
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
     tableau_ = DeviceArray<double>(device, interleaved(tableau), "tableau");
     accelerations_ = DeviceArray<double>(device, 3 * count * stage_count_, "accelerations");
@@ -54,7 +60,7 @@ std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
 
 std::vector<Pass> Stepper::opening_passes(std::uint32_t from_half) const {
   const DeviceBodies& b = bodies_;
-  const std::uint32_t keep_velocity = law_ != 0 && tableau_.size() > 0 ? 1 : 0;
+  const std::uint32_t keep_velocity = law_ != physics::damping_none && tableau_.size() > 0 ? 1 : 0;
   return {make_pass(device_, "begin_bodies",
                     {b.control.id(), b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.motions.id(), b.body_boxes.id()},
                     {b.vertex_count, from_half}, b.body_count),

@@ -13,6 +13,8 @@ class Stepper {
  public:
   /// Expects allows_damping(integrator) unless the law is none. `device` and `bodies` must outlive the stepper.
   Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */);
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
 
   /// The passes that take the state in `from_half` one step on, into the other half.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t from_half) const;

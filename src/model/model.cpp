@@ -122,7 +122,7 @@ void check_start(std::span<const BodySetup> setups, const ModelAndState& built) 
   const std::vector<glm::dvec3> positions = built.state.world_positions(built.model);
   const std::vector<glm::dvec3> velocities = built.state.world_velocities(built.model);
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
-    const BodyDescription& body = setups[static_cast<std::size_t>(built.model.rest_positions[vertex].w)].description;
+    const BodyDescription& body = setups[built.model.body_index(vertex)].description;
     if (out_of_reach(positions[vertex]))
       fail(body, fmt::format("vertices stand beyond {} m", largest_coordinate), "use a smaller scale, stretch or position");
     if (out_of_reach(velocities[vertex]))
@@ -146,7 +146,7 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Frame& frame = frames[static_cast<std::size_t>(model.rest_positions[vertex].w)];
+    const physics::Frame& frame = frames[model.body_index(vertex)];
     positions.push_back(physics::to_world(frame, rest_position(model, vertex) + load(motion, 6 * vertex)));
   }
   return positions;
@@ -155,7 +155,7 @@ std::vector<glm::dvec3> State::world_positions(const Model& model) const {
 std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   std::vector<glm::dvec3> velocities;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Frame& frame = frames[static_cast<std::size_t>(model.rest_positions[vertex].w)];
+    const physics::Frame& frame = frames[model.body_index(vertex)];
     velocities.push_back(physics::rotate(frame, load(motion, 6 * vertex + 3)));
   }
   return velocities;

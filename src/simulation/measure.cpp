@@ -14,7 +14,7 @@ glm::dvec3 displacement_of(const State& state, std::uint32_t vertex) {
 
 // The energy of the springs from `i` to later vertices of its body.
 double elastic_energy(const Model& model, const State& state, std::uint32_t i) {
-  const ModelBody& body = model.bodies[static_cast<std::size_t>(model.rest_positions[i].w)];
+  const ModelBody& body = model.body_of(i);
   const glm::dvec3 rest(model.rest_positions[i]);
   const glm::dvec3 moved = displacement_of(state, i);
   double sum = 0;
@@ -37,7 +37,7 @@ Measurement measure(const Model& model, const State& state, const glm::dvec3& gr
   const std::vector<glm::dvec3> velocities = state.world_velocities(model);
   Measurement sum;
   for (std::uint32_t i = 0; i < model.vertex_count(); ++i) {
-    const double mass = model.bodies[static_cast<std::size_t>(model.rest_positions[i].w)].vertex_mass;
+    const double mass = model.body_of(i).vertex_mass;
     const glm::dvec3 momentum = mass * velocities[i];
     sum.elastic += elastic[i];
     sum.kinetic += 0.5 * glm::dot(momentum, velocities[i]);

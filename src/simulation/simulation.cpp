@@ -16,10 +16,6 @@ std::uint64_t total(const Control& control, std::uint32_t counter) {
   return (static_cast<std::uint64_t>(control.total_high[counter]) << 32) | control.total_low[counter];
 }
 
-std::uint32_t body_of(const Model& model, std::uint32_t vertex) {
-  return static_cast<std::uint32_t>(model.rest_positions[vertex].w);
-}
-
 void add_collision_counts(StepReport& report, const Control& control) {
   report.contact_steps = control.contact_steps;
   report.contact_pairs_max = control.contact_pairs_max;
@@ -79,7 +75,7 @@ StepReport Simulation::report() {
   StepReport report;
   report.steps = control.step - 1;
   if (control.non_finite_step != 0) {
-    const std::uint32_t body = body_of(model_, control.non_finite_vertex);
+    const std::uint32_t body = model_.body_index(control.non_finite_vertex);
     report.non_finite = NonFinite{control.non_finite_step, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
   }
   add_collision_counts(report, control);
@@ -98,22 +94,22 @@ std::vector<glm::vec4> Simulation::world_positions() {
 Intersections Simulation::intersections() {
   const Control saved = bodies_.control.download().front();
   Control probe = saved;
-  probe.step = 0xffffffffu;  // no step will ever take these marks for its own
+  probe.step = 0xffffffffu;  // no step's own
   probe.non_finite_step = 0;
   probe.non_finite_vertex = physics::no_vertex;
   const std::uint32_t current = half();
+  const std::vector<std::uint32_t> marks_before = collider_.marks();
   bodies_.control.upload(std::span(&probe, 1));
-  std::vector<std::uint32_t> boxes;
-  for (std::uint32_t b = 0; b < bodies_.body_count; ++b) boxes.insert(boxes.end(), {~0u, ~0u, ~0u, 0u, 0u, 0u});
-  bodies_.body_boxes.upload(boxes);
+  bodies_.clear_boxes();
   run_passes(device_, collider_.bounding_passes(current));
   run_passes(device_, collider_.contact_passes(current));
 
   Intersections result{.pairs = bodies_.control.download().front().count[physics::contact_pairs], .bodies = {}};
   const std::vector<std::uint32_t> marks = collider_.marks();
   for (std::uint32_t i = 0; i < marks.size(); ++i)
-    if (marks[i] == probe.step && (result.bodies.empty() || result.bodies.back() != body_of(model_, i)))
-      result.bodies.push_back(body_of(model_, i));
+    if (marks[i] == probe.step && (result.bodies.empty() || result.bodies.back() != model_.body_index(i)))
+      result.bodies.push_back(model_.body_index(i));
+  collider_.restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
   return result;
 }

@@ -49,6 +49,8 @@ class Simulation {
   /// `device` and `model` must outlive the simulation.
   Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, DampingLaw law,
              const CollisionDescription& collision);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps; they may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);

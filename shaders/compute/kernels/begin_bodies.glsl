@@ -41,7 +41,7 @@ dvec3 remaining_turn(uint b, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
 }
 
 void change_frame_of(uint b, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
-  Quaternion old = Quaternion(frame[b].quaternion[0], frame[b].quaternion[1], frame[b].quaternion[2], frame[b].quaternion[3]);
+  Quaternion old = quaternion(frame[b].quaternion[0], frame[b].quaternion[1], frame[b].quaternion[2], frame[b].quaternion[3]);
   Quaternion next = normalized(product(old, q));
   Quaternion back = conjugate(q);
   dvec3 shift = rotate_by(back, moved_mean) - rest_mean;
@@ -80,11 +80,11 @@ void follow_rotation(uint b) {
     rest_mean += sample_rest(b, k) / double(sample_count);
     moved_mean += (sample_rest(b, k) + sample_displacement(b, k)) / double(sample_count);
   }
-  Quaternion q = Quaternion(double(0), double(0), double(0), double(1));
+  Quaternion q = quaternion(double(0), double(0), double(0), double(1));
   dvec3 turn = remaining_turn(b, q, rest_mean, moved_mean);
   if (!(dot(turn, turn) > largest_turn * largest_turn)) return;
   for (uint iteration = 0u; iteration < 8u; ++iteration) {
-    Quaternion small = Quaternion(turn.x / double(2), turn.y / double(2), turn.z / double(2), double(1));
+    Quaternion small = quaternion(turn.x / double(2), turn.y / double(2), turn.z / double(2), double(1));
     q = normalized(product(small, q));
     turn = remaining_turn(b, q, rest_mean, moved_mean);
   }

@@ -16,9 +16,8 @@ PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, first_position)
 PARAMETER(2, uint, triangle_test)
 PARAMETER(3, uint, candidate_capacity)
+#include "parts/box_of_triangle.glsl"
 #include "parts/mark_contact.glsl"
-
-const uint no_node = 0xffffffffu;
 
 // The node at descent_depth on the path whose turns are the bits of `path`; a leaf above that depth belongs to the path of zeros.
 uint start_node(uint root, uint path) {
@@ -36,12 +35,6 @@ Box box_of_node(uint n) {
   box.lower = vec3(node_box[2u * n]);
   box.upper = vec3(node_box[2u * n + 1u]);
   return box;
-}
-
-Box box_of_triangle(uint t) {
-  return triangle_box(vec3(world_position[first_position + triangle[3u * t]]),
-                      vec3(world_position[first_position + triangle[3u * t + 1u]]),
-                      vec3(world_position[first_position + triangle[3u * t + 2u]]));
 }
 
 void list_candidate(uint first, uint second) {

@@ -13,8 +13,6 @@ READ(7, Partners, uint, partner_step)
 PARAMETER(0, uint, leaf_count)
 PARAMETER(1, uint, first_position)
 
-const uint no_node = 0xffffffffu;  // the parent of a root
-
 Box box_of_triangles(uint begin, uint end) {
   Box box = empty_box();
   for (uint corner = 3u * begin; corner < 3u * end; ++corner)

@@ -1,6 +1,7 @@
 // The search without trees, for comparison: one thread for each triangle of the first body of a near pair and
-// every triangle of the second.
+// every triangle of the second, boxes first, as the trees' leaves do.
 #include "../physics/control.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
 WRITE(0, Controls, Control, control)
@@ -13,6 +14,7 @@ PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, first_position)
 PARAMETER(2, uint, triangle_test)
 PARAMETER(3, uint, threads_per_pair)
+#include "parts/box_of_triangle.glsl"
 #include "parts/mark_contact.glsl"
 
 void test_all_pairs(uint item) {
@@ -21,7 +23,14 @@ void test_all_pairs(uint item) {
     uvec4 second = node[near_pair[k].y];
     uint s = first.z + item % threads_per_pair;
     if (s >= first.w) continue;
-    for (uint t = second.z; t < second.w; ++t) mark_contact(s, t);
-    atomicAdd(control[0].count[triangle_tests], second.w - second.z);
+    Box box = box_of_triangle(s);
+    uint tests = 0u;
+    for (uint t = second.z; t < second.w; ++t) {
+      if (!overlaps(box, box_of_triangle(t))) continue;
+      mark_contact(s, t);
+      ++tests;
+    }
+    atomicAdd(control[0].count[node_tests], second.w - second.z);
+    atomicAdd(control[0].count[triangle_tests], tests);
   }
 }

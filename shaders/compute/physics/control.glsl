@@ -4,15 +4,20 @@
 #include "language.glsl"
 SHARED_BEGIN
 
+// Values of the parameter `triangle_test`, as the scene's TriangleTest has them.
+const uint certified_test = 0u;
+const uint moller_test = 1u;
+
 const uint group_size = 64u;  // threads in a work group of every kernel
 const uint descent_depth = 4u;    // find_pairs begins at the nodes of this depth:
 const uint descent_threads = 256u;  // 16 of one tree with 16 of the other
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
 const uint no_vertex = 0xffffffffu;
+const uint no_node = 0xffffffffu;  // parent of a root; root of a body without triangles
 
 // What is counted in each step and summed over the run.
 const uint nodes_refitted = 0u;
-const uint node_tests = 1u;
+const uint node_tests = 1u;  // of two nodes' boxes, or without trees two triangles'
 const uint triangle_tests = 2u;
 const uint contact_pairs = 3u;
 const uint reverted_vertices = 4u;
@@ -37,9 +42,9 @@ struct Control {
   uint find_groups[3];     // find_pairs, or test_all_pairs
   uint test_groups[3];     // test_pairs
   uint respond_groups[3];  // respond
-  uint count[10];          // this step's, by the names above
-  uint total_low[10];      // of all steps before: 64 bits in two halves
-  uint total_high[10];
+  uint count[counter_count];       // this step's, by the names above
+  uint total_low[counter_count];   // of all steps before: 64 bits in two halves
+  uint total_high[counter_count];
 };
 
 // Of near body pairs, how many one dispatch serves; its threads go on to later ones in strides of this.

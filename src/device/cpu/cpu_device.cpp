@@ -25,7 +25,7 @@ class CpuDevice final : public Device {
  public:
   CpuDevice(unsigned threads, int precision)
       : pool_(threads), precision_(precision), kernels_(precision == 64 ? cpu::kernels_64() : cpu::kernels_32()) {
-    info_ = {.kind = "cpu", .name = processor_name(), .is_software = false, .threads = pool_.size()};
+    info_ = {.kind = "cpu", .name = processor_name(), .threads = pool_.size()};
   }
 
   const DeviceInfo& info() const override { return info_; }

@@ -18,7 +18,7 @@ class GpuDevice final : public Device {
  public:
   explicit GpuDevice(int index) : context_(index) {
     const gl::Adapter& adapter = context_.adapter();
-    info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .is_software = adapter.is_software, .threads = 1};
+    info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
   }
 
   const DeviceInfo& info() const override { return info_; }

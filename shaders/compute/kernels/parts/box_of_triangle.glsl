@@ -1,0 +1,6 @@
+// The box of the triangle at a place in leaf order.
+Box box_of_triangle(uint t) {
+  return triangle_box(vec3(world_position[first_position + triangle[3u * t]]),
+                      vec3(world_position[first_position + triangle[3u * t + 1u]]),
+                      vec3(world_position[first_position + triangle[3u * t + 2u]]));
+}
