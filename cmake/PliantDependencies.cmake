@@ -2,7 +2,6 @@
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)
 if(NOT TARGET glm::glm)
   add_library(glm::glm ALIAS glm)
 endif()

@@ -1,7 +1,7 @@
 # Puts every shader file into the library, so that the program runs from anywhere.
 function(pliant_embed_shaders target)
   set(shader_dir ${PROJECT_SOURCE_DIR}/shaders)
-  file(GLOB_RECURSE shader_files CONFIGURE_DEPENDS ${shader_dir}/*.glsl ${shader_dir}/*.comp ${shader_dir}/*.def
+  file(GLOB_RECURSE shader_files CONFIGURE_DEPENDS ${shader_dir}/*.glsl ${shader_dir}/*.comp
                                                    ${shader_dir}/*.vert ${shader_dir}/*.frag)
   set(embedded ${CMAKE_BINARY_DIR}/embedded_shaders.cpp)
   add_custom_command(OUTPUT ${embedded}

@@ -1,5 +1,5 @@
 # Script: writes OUTPUT, a C++ file that defines pliant::gl::embedded_shaders() from every file under SHADER_DIR.
-file(GLOB_RECURSE names RELATIVE ${SHADER_DIR} ${SHADER_DIR}/*.glsl ${SHADER_DIR}/*.comp ${SHADER_DIR}/*.def
+file(GLOB_RECURSE names RELATIVE ${SHADER_DIR} ${SHADER_DIR}/*.glsl ${SHADER_DIR}/*.comp
                                                ${SHADER_DIR}/*.vert ${SHADER_DIR}/*.frag)
 list(SORT names)
 set(code "#include \"gl/shader_source.hpp\"\nnamespace pliant::gl {\nstd::span<const ShaderFile> embedded_shaders() {\n")
