@@ -15,18 +15,6 @@ void expect_consistent(const DeviceChoice& choice) {
                 "add --device cpu or leave --precision out");
 }
 
-int adapter_index(const DeviceChoice& choice) {
-  std::string reason;
-  const auto adapters = gl::list_adapters(&reason);
-  if (adapters.empty())
-    throw Error(ErrorKind::device, "--device gpu", "no OpenGL 4.5 device: " + reason,
-                "install a graphics driver (Debian: libegl1 and libgl1-mesa-dri), or use --device cpu");
-  const int index = choice.gpu_index.value_or(0);
-  if (index < 0 || index >= static_cast<int>(adapters.size()))
-    throw Error(ErrorKind::device, "--gpu " + std::to_string(index), "there is no such GPU", "`pliant info` lists them");
-  return index;
-}
-
 bool has_hardware_gpu() {
   const auto adapters = gl::list_adapters();
   return !adapters.empty() && !adapters.front().is_software;
@@ -38,7 +26,7 @@ std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   expect_consistent(choice);
   const bool asked = choice.kind == DeviceKind::gpu || choice.gpu_index;
   const bool found = choice.kind == DeviceKind::automatic && choice.precision == 32 && !asked && has_hardware_gpu();
-  if (asked || found) return make_gpu_device(adapter_index(choice));
+  if (asked || found) return make_gpu_device(choice.gpu_index.value_or(0));
   return make_cpu_device(choice.threads, choice.precision);
 }
 

@@ -38,7 +38,8 @@ Json described_devices() {
                     {"renderer", adapter.renderer},
                     {"vendor", adapter.vendor},
                     {"driver", adapter.version},
-                    {"software", adapter.is_software}});
+                    {"software", adapter.is_software},
+                    {"largest_buffer_bytes", adapter.largest_buffer}});
   Json result = {{"version", PLIANT_VERSION}, {"cpu", {{"name", cpu.name}, {"threads", cpu.threads}}}, {"gpus", gpus}};
   if (gpus.empty()) result["missing"] = reason + "; " + remedy;
   return result;
@@ -56,8 +57,9 @@ void print_devices(const Json& devices) {
   fmt::print("pliant {}\n", devices["version"].get<std::string>());
   fmt::print("cpu:   {} ({} threads)\n", devices["cpu"]["name"].get<std::string>(), devices["cpu"]["threads"].get<unsigned>());
   for (const Json& gpu : devices["gpus"])
-    fmt::print("gpu {}: {}, driver {}{}\n", gpu["index"].get<int>(), gpu["renderer"].get<std::string>(),
-               gpu["driver"].get<std::string>(), gpu["software"].get<bool>() ? " (software: used only with --device gpu)" : "");
+    fmt::print("gpu {}: {}, driver {}, buffers up to {} MB{}\n", gpu["index"].get<int>(), gpu["renderer"].get<std::string>(),
+               gpu["driver"].get<std::string>(), gpu["largest_buffer_bytes"].get<std::int64_t>() / 1000000,
+               gpu["software"].get<bool>() ? " (software: used only with --device gpu)" : "");
   if (devices.contains("missing")) fmt::print("no gpu: {}\n", devices["missing"].get<std::string>());
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <new>
 
 #include "app/info_command.hpp"
 #include "app/run_command.hpp"
@@ -113,5 +114,11 @@ int main(int count, char** arguments) {
   } catch (const pliant::Error& error) {
     std::fprintf(stderr, "pliant: %s\n", error.what());
     return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "pliant: there is not enough memory; take smaller meshes or fewer bodies\n");
+    return static_cast<int>(pliant::ErrorKind::device);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pliant: unexpected error: %s; this is a bug, please report it\n", error.what());
+    return 1;
   }
 }

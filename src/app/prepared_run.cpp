@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -12,19 +11,15 @@ namespace {
 SceneDescription load_described_scene(const RunOptions& options) {
   SceneDescription scene = load_scene(options.scene, options.overrides);
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
-  if (options.time_step) scene.simulation.time_step = options.time_step;
-  if (options.duration) scene.simulation.duration = *options.duration;
-  return scene;
-}
-
-// A name from the command line is the command line's fault.
-TimePlan plan_for(const PreparedRun& run, const RunOptions& options) {
-  try {
-    return plan_time(run.scene, run.start.model, options.steps);
-  } catch (const Error& error) {
-    if (!options.integrator) throw;
-    throw Error(ErrorKind::command_line, "", error.what(), "");
+  if (options.time_step) {
+    scene.simulation.time_step = options.time_step;
+    scene.simulation.length_where = "--time-step";
   }
+  if (options.duration) {
+    scene.simulation.duration = *options.duration;
+    scene.simulation.length_where = "--duration";
+  }
+  return scene;
 }
 
 void warn_of_step(PreparedRun& run) {
@@ -50,12 +45,11 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.load_time.start();
   run.scene = load_described_scene(options);
   run.start = build_model(load_bodies(run.scene, &run.warnings), run.scene.simulation.gravity);
-  run.plan = plan_for(run, options);
+  run.plan = plan_time(run.scene, run.start.model, options.steps);
   run.load_time.stop();
   run.build_time.start();
   run.device = choose_device(options.device);
-  run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan,
-                                                run.scene.simulation.damping_law, run.scene.collision);
+  run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   warn_of_step(run);
   warn_of_overlap(run);
   run.build_time.stop();

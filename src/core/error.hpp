@@ -8,6 +8,11 @@ namespace pliant {
 /// What kind of thing went wrong; the values are the program's exit codes.
 enum class ErrorKind { command_line = 2, input = 3, device = 4 };
 
+/// Whose mistake it is: the command line's where an option is the place to blame ("--steps", "--set ..."), else the input's.
+inline ErrorKind fault_of(const std::string& where) {
+  return where.starts_with("--") ? ErrorKind::command_line : ErrorKind::input;
+}
+
 /// Thrown only while loading and building, never while stepping.
 class Error : public std::runtime_error {
  public:

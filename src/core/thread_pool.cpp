@@ -2,7 +2,10 @@
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <string>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 
 namespace pliant {
@@ -17,10 +20,19 @@ constexpr std::uint32_t item_of(std::uint64_t place) { return static_cast<std::u
 
 ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+  try {
+    for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+  } catch (const std::exception&) {
+    const std::string started = std::to_string(size());
+    stop();
+    throw Error(ErrorKind::device, "--threads", "the system gave " + started + " of " + std::to_string(threads) + " threads",
+                "ask for fewer");
+  }
 }
 
-ThreadPool::~ThreadPool() {
+ThreadPool::~ThreadPool() { stop(); }
+
+void ThreadPool::stop() {
   stopping_ = true;
   ++loop_;
   loop_.notify_all();

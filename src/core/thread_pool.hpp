@@ -14,7 +14,7 @@ class ThreadPool {
   /// Calls with the first item of a range and one past its last.
   using Body = std::function<void(std::uint32_t, std::uint32_t)>;
 
-  /// `threads` counts the calling one; 0: one a processor.
+  /// `threads` counts the calling one; 0: one a processor. Throws Error (device) when the system gives fewer.
   explicit ThreadPool(unsigned threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -27,6 +27,7 @@ class ThreadPool {
   void for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body);
 
  private:
+  void stop();
   void work();
   void take_ranges();
 

@@ -41,7 +41,7 @@ const Integrator& find_integrator(std::string_view name, const std::string& wher
   if (found != all.end()) return *found;
   std::vector<std::string_view> names;
   std::ranges::transform(all, std::back_inserter(names), &Integrator::name);
-  throw Error(ErrorKind::input, where, fmt::format("there is no integrator \"{}\"", name),
+  throw Error(fault_of(where), where, fmt::format("there is no integrator \"{}\"", name),
               fmt::format("choose one of {}", fmt::join(names, ", ")));
 }
 

@@ -34,7 +34,7 @@ struct Integrator {
 /// Every integrator, in the order `pliant info --integrators` lists them.
 [[nodiscard]] std::span<const Integrator> integrators();
 
-/// Throws Error (input) that lists the names; `where` is the place to blame, such as "file:line: field".
+/// Throws Error (fault_of(where)) that lists the names; `where` is the place to blame, such as "file:line: field".
 [[nodiscard]] const Integrator& find_integrator(std::string_view name, const std::string& where = "");
 
 /// Force evaluations of one step: stages that reach the result, or a splitting's drifts (its last acceleration is kept).

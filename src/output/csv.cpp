@@ -12,9 +12,9 @@
 namespace pliant {
 namespace {
 
-// A leading comma, so that numbers follow one another. No number carries a sign that is not one: fmt would write "-nan".
+// A leading comma, so that numbers follow one another.
 void append_number(std::string& line, double value) {
-  if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
   fmt::format_to(std::back_inserter(line), ",{:.17g}", value);
 }
 

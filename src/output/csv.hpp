@@ -1,4 +1,4 @@
-// The numbers of a run as CSV: 17 digits, which hold every bit of a double; what is not a number is `nan`.
+// The numbers of a run as CSV: 17 digits, which hold every bit of a double; what is not finite is `nan`.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -16,11 +16,16 @@ Json object(const std::vector<std::pair<std::string, Value>>& entries) {
   return json;
 }
 
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 Json device_json(const Summary& summary) { return {{"kind", summary.device.kind}, {"name", summary.device.name}}; }
 
 Json energy_json(const Summary& summary) {
   const auto& [initial, final, max_drift] = summary.energy;
-  return {{"initial", initial}, {"final", final}, {"max_drift", max_drift ? Json(*max_drift) : Json(nullptr)}};
+  return {{"initial", initial}, {"final", final}, {"max_drift", or_null(max_drift)}};
 }
 
 Json contacts_json(const Summary& summary) {
@@ -52,7 +57,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"steps_per_second", summary.steps_per_second},
                      {"energy", energy_json(summary)},
                      {"contacts", contacts_json(summary)},
-                     {"final_intersecting_pairs", summary.final_intersecting_pairs},
+                     {"final_intersecting_pairs", or_null(summary.final_intersecting_pairs)},
                      {"non_finite", summary.non_finite},
                      {"work", work_json(summary)},
                      {"skipped", object(summary.skipped)},

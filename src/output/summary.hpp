@@ -34,7 +34,7 @@ struct Summary {
     std::uint64_t pairs_max = 0;          // most triangle pairs in one step
     std::uint64_t reverted_vertices = 0;  // sum over the run
   } contacts;
-  std::uint64_t final_intersecting_pairs = 0;
+  std::optional<std::uint64_t> final_intersecting_pairs;  // empty where the state is not finite
   bool non_finite = false;
   struct {
     std::uint64_t force_evaluations = 0;  // all forces of one body, once

@@ -40,8 +40,8 @@ std::string place_of(const toml::node& node) {
 }
 
 [[noreturn]] void fail(const toml::node& node, const std::string& path, const std::string& what, const std::string& remedy) {
-  throw Error(is_override(node) ? ErrorKind::command_line : ErrorKind::input,
-              path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path), what, remedy);
+  throw Error(fault_of(place_of(node)), path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path), what,
+              remedy);
 }
 
 std::string type_name(const toml::node& node) {
@@ -97,6 +97,7 @@ constexpr Range fraction{0, 1, "a number from 0 to 1"};
 constexpr Range view_angle{1, 179, "a number from 1 to 179"};
 constexpr Range depth{1, 64, "a whole number from 1 to 64"};
 constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
+constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};
 constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
 
 template <typename Enum>
@@ -192,18 +193,27 @@ class TableReader {
   }
 
   void require(const char* key) const {
-    if (table_.get(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
+    if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
   }
 
   void allow_one_of(const char* first, const char* second) const {
-    const toml::node* node = table_.get(second);
-    if (table_.get(first) != nullptr && node != nullptr)
+    const toml::node* node = peek(second);
+    if (peek(first) != nullptr && node != nullptr)
       fail(*node, path_of(second), fmt::format("can't stand beside {}", first), "keep one of them");
   }
 
+  /// Null if the key is absent; does not make it a known one.
+  const toml::node* peek(const char* key) const { return table_.get(key); }
+
   const toml::node* find(const char* key) {
     known_.emplace_back(key);
-    return table_.get(key);
+    return peek(key);
+  }
+
+  /// Where the key stands, or nothing.
+  std::string where(const char* key) const {
+    const toml::node* node = peek(key);
+    return node == nullptr ? "" : fmt::format("{}: {}", place_of(*node), path_of(key));
   }
 
   void finish() const {
@@ -235,10 +245,12 @@ const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"def
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("integrator", simulation.integrator);
-  const toml::node* step = table.find("time_step");
-  const bool is_auto = step != nullptr && step->is_string() && step->as_string()->get() == "auto";
-  if (!is_auto) table.read("time_step", simulation.time_step, positive_or_auto);
+  const toml::node* time_step = table.find("time_step");
+  if (time_step != nullptr && time_step->value<std::string>() != "auto")
+    convert(*time_step, "simulation.time_step", simulation.time_step, positive_or_auto);
   table.read("duration", simulation.duration, not_negative);
+  const std::string step = table.where("time_step"), duration = table.where("duration");
+  simulation.length_where = duration.empty() || step.starts_with("--") ? step : duration;
   table.read("damping_law", simulation.damping_law, damping_laws);
   table.read("gravity", simulation.gravity, coordinate);
 }
@@ -262,10 +274,14 @@ void read_table(TableReader& table, CameraDescription& camera) {
   table.read("eye", camera.eye, coordinate);
   table.read("target", camera.target, coordinate);
   table.read("field_of_view", camera.field_of_view, view_angle);
+  const toml::node* target = table.peek("target");
+  if (camera.eye == camera.target)
+    fail(target != nullptr && is_override(*target) ? *target : *table.peek("eye"), "output.camera",
+         "eye and target are the same point", "move one of them");
 }
 
 void read_table(TableReader& table, OutputDescription& output) {
-  table.read("frame_rate", output.frame_rate, positive);
+  table.read("frame_rate", output.frame_rate, frames_per_second);
   table.read("size", output.size, pixel_count);
   table.section("camera", output.camera);
   table.read("coloring", output.coloring, colorings);

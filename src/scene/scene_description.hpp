@@ -27,6 +27,7 @@ struct SimulationDescription {
   Named integrator{"dop853", "simulation.integrator"};
   std::optional<double> time_step;  // [s]; empty: automatic
   double duration = 2.0;            // [s]
+  std::string length_where;         // of duration or time_step, an option before a line; empty where neither is given
   DampingLaw damping_law = DampingLaw::adaptive;
   glm::dvec3 gravity{0.0};  // [m/s^2]
 };

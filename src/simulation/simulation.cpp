@@ -39,12 +39,12 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
 
 }  // namespace
 
-Simulation::Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, DampingLaw law,
+Simulation::Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan,
                        const CollisionDescription& collision)
     : device_(device),
       model_(model),
       bodies_(device, model, start),
-      stepper_(device, bodies_, *plan.integrator, law, plan.time_step),
+      stepper_(device, bodies_, *plan.integrator, plan.damping_law, plan.time_step),
       collider_(device, bodies_, model, collision),
       responds_(collision.response == ContactResponse::reflect) {
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);

@@ -47,8 +47,7 @@ struct Intersections {
 class Simulation {
  public:
   /// `device` and `model` must outlive the simulation.
-  Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, DampingLaw law,
-             const CollisionDescription& collision);
+  Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, const CollisionDescription& collision);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

@@ -32,17 +32,33 @@ double automatic_step(double bound, double frame_rate) {
   return frame_time / std::max(1.0, std::ceil(frame_time / (safety * bound) - 1e-9));
 }
 
-void expect_method_damps(const Integrator& integrator, const SimulationDescription& simulation) {
-  if (simulation.damping_law == DampingLaw::none || allows_damping(integrator)) return;
-  throw Error(ErrorKind::input, simulation.integrator.where,
-              std::string(integrator.name) + " has kicks back in time, which damping makes unstable",
+DampingLaw effective_law(DampingLaw law, const Model& model) {
+  const bool damped = std::ranges::any_of(model.bodies, [](const ModelBody& body) { return body.damping > 0; });
+  return damped ? law : DampingLaw::none;
+}
+
+void expect_method_damps(const TimePlan& plan, const std::string& where) {
+  if (plan.damping_law == DampingLaw::none || allows_damping(*plan.integrator)) return;
+  throw Error(fault_of(where), where,
+              std::string(plan.integrator->name) + " has kicks back in time, which damping makes unstable",
               "set simulation.damping_law = \"none\" or choose another integrator, such as verlet");
+}
+
+std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
+  const double count = std::round(scene.simulation.duration / time_step);
+  const std::string& where = scene.simulation.length_where;
+  if (!(count <= largest_step_count))
+    throw Error(fault_of(where), where.empty() ? scene.file.string() : where, "the run takes more than 3e8 steps",
+                "shorten the duration or lengthen the time step");
+  return static_cast<std::uint64_t>(count);
 }
 
 }  // namespace
 
 std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
-  return static_cast<std::uint64_t>(std::ceil(static_cast<double>(frame) / (frame_rate * time_step) - 1e-6));
+  constexpr double rounding = 1e-12;  // relative: a frame on a step, but for the quotient's last digits, takes that step
+  const double step = static_cast<double>(frame) / (frame_rate * time_step);
+  return static_cast<std::uint64_t>(std::min(std::ceil(step * (1 - rounding)), 1e18));
 }
 
 TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps) {
@@ -50,15 +66,12 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   TimePlan plan{.integrator = &find_integrator(simulation.integrator.value, simulation.integrator.where),
                 .step_bound = std::numeric_limits<double>::infinity(),
                 .frame_rate = scene.output.frame_rate};
-  expect_method_damps(*plan.integrator, simulation);
+  plan.damping_law = effective_law(simulation.damping_law, model);
+  expect_method_damps(plan, simulation.integrator.where);
   for (const ModelBody& body : model.bodies)
-    plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, simulation.damping_law));
+    plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, plan.damping_law));
   plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
-  const double count = std::round(simulation.duration / plan.time_step);
-  if (!steps && !(count <= largest_step_count))
-    throw Error(ErrorKind::input, scene.file.string(), "the scene takes more than 3e8 steps",
-                "shorten simulation.duration or lengthen simulation.time_step");
-  plan.steps = steps ? *steps : static_cast<std::uint64_t>(count);
+  plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
   return plan;
 }
 

@@ -11,10 +11,11 @@
 #include <set>
 #include <sstream>
 
+#include "core/read_text.hpp"
 #include "gl/context.hpp"
-#include "output/scratch.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
+#include "support/scratch.hpp"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -26,16 +27,11 @@ namespace {
 
 using test::ScratchFolder;
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
 
-nlohmann::json summary_in(const std::filesystem::path& folder) { return nlohmann::json::parse(text_of(folder / "summary.json")); }
+nlohmann::json summary_in(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(read_text(folder / "summary.json"));
+}
 
 // A scene of two small spheres, quick to run; `more` goes into [simulation].
 std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "") {
@@ -70,8 +66,8 @@ TEST_CASE("a run writes its summary, history and final state") {
   CHECK(summary["integrator"] == "dop853");
   CHECK(summary["contacts"]["steps"] > 0);
   CHECK(summary["energy"]["max_drift"].is_null());
-  CHECK(line_count(text_of(out / "final_state.csv")) == 1 + 84);
-  CHECK(line_count(text_of(out / "history.csv")) == 1 + 1 + 12);  // t = 0, and frames at 60 per second until 0.2 s
+  CHECK(line_count(read_text(out / "final_state.csv")) == 1 + 84);
+  CHECK(line_count(read_text(out / "history.csv")) == 1 + 1 + 12);  // t = 0, and frames at 60 per second until 0.2 s
   CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
 }
 
@@ -80,10 +76,12 @@ TEST_CASE("a step longer than a frame gives several frames and one row of histor
   REQUIRE(run_program("run " + small_scene(folder).string() +
                       " --device cpu --steps 3 --frames obj --quiet --set output.frame_rate=250 --out " + folder.path.string())
               .exit_code == 0);
-  CHECK(line_count(text_of(folder.path / "history.csv")) == 1 + 4);
-  CHECK(text_of(folder.path / "frames/frame_0001.obj") ==
-        text_of(folder.path / "frames/frame_0002.obj"));  // 4 and 8 ms: the state at 10 ms
-  CHECK(text_of(folder.path / "frames/frame_0002.obj") != text_of(folder.path / "frames/frame_0003.obj"));
+  CHECK(line_count(read_text(folder.path / "history.csv")) == 1 + 4);
+  const std::filesystem::directory_iterator frames(folder.path / "frames");
+  CHECK(std::distance(begin(frames), end(frames)) == 8);  // 28 ms: the state at 30 ms, the last
+  CHECK(read_text(folder.path / "frames/frame_0001.obj") ==
+        read_text(folder.path / "frames/frame_0002.obj"));  // 4 and 8 ms: the state at 10 ms
+  CHECK(read_text(folder.path / "frames/frame_0002.obj") != read_text(folder.path / "frames/frame_0003.obj"));
 }
 
 TEST_CASE("zero steps write the start") {
@@ -92,8 +90,8 @@ TEST_CASE("zero steps write the start") {
       "run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet --out " + folder.path.string();
   REQUIRE(run_program(common).exit_code == 0);
   CHECK(summary_in(folder.path)["steps"] == 0);
-  CHECK(line_count(text_of(folder.path / "history.csv")) == 2);
-  std::istringstream rows(text_of(folder.path / "final_state.csv"));
+  CHECK(line_count(read_text(folder.path / "history.csv")) == 2);
+  std::istringstream rows(read_text(folder.path / "final_state.csv"));
   std::string row;
   double sum_x = 0, sum_vx = 0;
   std::getline(rows, row);
@@ -184,7 +182,7 @@ TEST_CASE("Ctrl-C ends a run early and writes what there is") {
     _exit(127);
   }
   int status = 0;
-  while (!std::filesystem::exists(folder.path / "history.csv") || line_count(text_of(folder.path / "history.csv")) < 3)
+  while (!std::filesystem::exists(folder.path / "history.csv") || line_count(read_text(folder.path / "history.csv")) < 3)
     REQUIRE(waitpid(child, &status, WNOHANG) == 0);
   kill(child, SIGINT);
   REQUIRE(waitpid(child, &status, 0) == child);
@@ -192,7 +190,7 @@ TEST_CASE("Ctrl-C ends a run early and writes what there is") {
   const auto summary = summary_in(folder.path);
   CHECK(summary["steps"] > 0);
   CHECK(summary["steps"] < 100000000);
-  CHECK(line_count(text_of(folder.path / "final_state.csv")) == 1 + 84);
+  CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
 }
 
 TEST_CASE("each format of frames has a file a frame") {
@@ -211,7 +209,7 @@ TEST_CASE("an existing folder is written into and never emptied") {
   std::ofstream(folder.path / "precious.txt") << "keep me";
   REQUIRE(run_program("run " + small_scene(folder).string() + " --device cpu --steps 1 --quiet --out " + folder.path.string())
               .exit_code == 0);
-  CHECK(text_of(folder.path / "precious.txt") == "keep me");
+  CHECK(read_text(folder.path / "precious.txt") == "keep me");
 }
 
 TEST_CASE("a step beyond the bound runs, with a warning that says by how much") {
@@ -243,10 +241,11 @@ TEST_CASE("a run that goes non-finite says where, writes what there is and exits
                                 Catch::Contains("shorten the time step"));
   CHECK(summary_in(folder.path)["non_finite"] == true);
   CHECK(summary_in(folder.path)["energy"]["final"].is_null());
-  CHECK_THAT(text_of(folder.path / "final_state.csv"), Catch::Contains("nan") || Catch::Contains("inf"));
+  CHECK(summary_in(folder.path)["final_intersecting_pairs"].is_null());
+  CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
 }
 
-TEST_CASE("--check validates and estimates without writing") {
+TEST_CASE("a check validates and estimates without writing") {
   const ScratchFolder folder;
   const auto out = folder.path / "none";
   const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --check --out " + out.string());
@@ -276,9 +275,34 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + scene + " --threads 0", 2, {"--threads"});
   check_fails("run " + scene + " --frames gif", 2, {"--frames"});
   check_fails("run " + scene + " --device cpu --integrator euler", 2, {"--integrator", "euler", "cv8"});
+  check_fails("run " + scene + " --device cpu --set simulation.integrator=euler", 2,
+              {"--set simulation.integrator=euler", "cv8"});
+  check_fails("run " + scene + " --device cpu --integrator srkn11b", 2, {"--integrator", "damping"});
+  check_fails("run " + scene + " --device cpu --duration 1e10", 2, {"--duration", "3e8 steps"});
+  check_fails("run " + scene + " --device cpu --time-step 1e-20", 2, {"--time-step", "3e8 steps"});
+  check_fails("run " + scene + " --device cpu --set simulation.duration=1e10", 2,
+              {"--set simulation.duration=1e10", "3e8 steps"});
+  check_fails("run " + scene + " --steps 300000001", 2, {"--steps"});
   check_fails("run " + scene + " --set simulation.time_stepp=1", 2, {"--set", "time_step"});
   check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"--out"});
 }
+
+TEST_CASE("a device that is not there exits with 4") {
+  const ScratchFolder folder;
+  check_fails("run " + small_scene(folder).string() + " --gpu 99 --out " + folder.path.string(), 4, {"; "});
+}
+
+#ifndef __SANITIZE_ADDRESS__  // whose own memory is beyond any limit
+#ifndef __SANITIZE_THREAD__
+TEST_CASE("more threads than the system gives exit with 4") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --threads 4000 --out " + folder.path.string();
+  const ProgramResult result = run_program(run, "ulimit -v 4000000; ");  // [KiB]
+  CHECK(result.exit_code == 4);
+  CHECK_THAT(result.output, Catch::Contains("--threads: the system gave"));
+}
+#endif
+#endif
 
 TEST_CASE("bad input exits with 3") {
   const ScratchFolder folder;
@@ -293,6 +317,8 @@ TEST_CASE("bad input exits with 3") {
   check_fails(
       "run --device cpu " + write("method.toml", "[simulation]\nintegrator = \"euler\"\n[[body]]\nmesh = \"icosphere:1\"\n"), 3,
       {"method.toml:2", "euler"});
+  const std::string long_scene = "[simulation]\nduration = 1e10\n[[body]]\nmesh = \"icosphere:1\"\n";
+  check_fails("run --device cpu --integrator rk4 " + write("long.toml", long_scene), 3, {"long.toml:2", "3e8 steps"});
   check_fails("mesh nowhere.obj", 3, {"nowhere.obj"});
   check_fails("mesh icosphere:9", 3, {"icosphere"});
   check_fails("mesh " + write("empty.obj", ""), 3, {"empty.obj"});

@@ -1,6 +1,7 @@
 // Conservation, symmetry and convergence of the integrators on a body in general motion.
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
 
 #include "core/thread_pool.hpp"
@@ -34,44 +35,55 @@ double error_at(Device& device, const ModelAndState& start, const Method& method
   return distance(evolve(device, start, method, steps).world_positions(start.model), exact);
 }
 
-// log2 of how much the error shrinks when the step is halved.
-double measured_order(const ModelAndState& start, const Integrator& integrator, DampingLaw law, double coarse_step) {
+std::vector<glm::dvec3> reference(const ModelAndState& start, DampingLaw law, double time_step, std::uint64_t steps) {
+  return evolve(*make_cpu_device(1, 64), start, {"vern8", time_step, law}, steps).world_positions(start.model);
+}
+
+// How fast the error shrinks with the step, by least squares: minus the slope of log2(error) over the halvings.
+double measured_order(const ModelAndState& start, const Method& coarse, double end_time, int halvings,
+                      const std::vector<glm::dvec3>& exact) {
   const auto device = make_cpu_device(1, 64);
-  const double end_time = 16 * coarse_step;
-  const Method reference{"vern8", coarse_step / 64, law};
-  const auto exact = evolve(*device, start, reference, 16 * 64).world_positions(start.model);
-  const double coarse = error_at(*device, start, {integrator.name, coarse_step, law}, end_time, exact);
-  const double fine = error_at(*device, start, {integrator.name, coarse_step / 2, law}, end_time, exact);
-  CAPTURE(coarse, fine);
-  CHECK(fine > 1e-14);  // above rounding, so that the slope means something
-  return std::log2(coarse / fine);
+  const double middle = halvings / 2.0;
+  double covariance = 0, variance = 0;
+  for (int k = 0; k <= halvings; ++k) {
+    const double error =
+        error_at(*device, start, {coarse.integrator, std::ldexp(coarse.time_step, -k), coarse.law}, end_time, exact);
+    CHECK(error > 2e-14);  // above rounding, so that the slope means something
+    covariance -= (k - middle) * std::log2(error);
+    variance += (k - middle) * (k - middle);
+  }
+  return covariance / variance;
 }
 
 TEST_CASE("halving the step shrinks the error as the method's order says") {
   const ModelAndState start = built(tumbling());
-  const double omega = stiffest_omega(start.model);
   for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant})
     for (const Integrator& integrator : integrators()) {
       if (law != DampingLaw::none && !allows_damping(integrator)) continue;
       CAPTURE(integrator.name, static_cast<int>(law));
+      // An order-8 error sinks into rounding before its slope has settled: 7.61 to 8.41 are measured. The others: within 0.03.
       const double z = integrator.order >= 8 ? 0.8 : integrator.order >= 6 ? 0.6 : 0.1;
-      CHECK(measured_order(start, integrator, law, z / omega) == Approx(integrator.order).margin(0.7));
+      const double step = z / stiffest_omega(start.model), end_time = 16 * step;
+      const auto exact = reference(start, law, step / 64, 16 * 64);
+      CHECK(measured_order(start, {integrator.name, step, law}, end_time, 1, exact) ==
+            Approx(integrator.order).margin(integrator.order >= 8 ? 0.45 : 0.1));
     }
 }
 
-TEST_CASE("the kinks of the adaptive law leave any method order two") {
-  BodySetup setup = tumbling();
+TEST_CASE("the kinks of the adaptive law leave any method order two", "[long]") {
+  BodySetup setup = sphere(1);
+  setup.description.stretch = {1.2, 0.85, 1};
   setup.description.stiffness = 100;  // forces on both sides of the kink at 100 N
   const ModelAndState start = built(setup);
-  const auto device = make_cpu_device(1, 64);
   const double step = 0.4 / stiffest_omega(start.model), end_time = 40 * step;
-  const auto exact = evolve(*device, start, {"vern8", step / 128, DampingLaw::adaptive}, 40 * 128).world_positions(start.model);
-  const double coarse = error_at(*device, start, {"cv8", step, DampingLaw::adaptive}, end_time, exact);
-  const double fine = error_at(*device, start, {"cv8", step / 16, DampingLaw::adaptive}, end_time, exact);
-  CAPTURE(coarse, fine);
-  const double order = std::log2(coarse / fine) / 4;
-  CHECK(order > 1.5);
-  CHECK(order < 3.5);
+  const auto exact = reference(start, DampingLaw::adaptive, step / 512, 40 * 512);
+  for (const Integrator& integrator : integrators()) {
+    if (!allows_damping(integrator)) continue;
+    CAPTURE(integrator.name);
+    // Where in a step a vertex meets the kink differs from step to step, so errors scatter about their slope; 2.01 to 2.10 are
+    // measured.
+    CHECK(measured_order(start, {integrator.name, step, DampingLaw::adaptive}, end_time, 5, exact) == Approx(2).margin(0.3));
+  }
 }
 
 TEST_CASE("momentum and angular momentum are conserved without damping", "[gl]") {
@@ -129,23 +141,38 @@ TEST_CASE("energy with gravity is conserved") {
   CHECK(measured(start.model, end, gravity).energy() == Approx(before).epsilon(1e-10));
 }
 
-TEST_CASE("a turned and moved start gives the turned and moved result", "[gl]") {
+// The tumbling body, turned by a scene's rotation [degrees] and moved, against the turned and moved result.
+double invariance_error(Device& device, const glm::dvec3& rotation, const glm::dvec3& position) {
+  const glm::dvec3 angle = glm::radians(rotation);
+  const glm::dmat3 turn =
+      glm::mat3_cast(glm::angleAxis(angle.z, glm::dvec3(0, 0, 1)) * glm::angleAxis(angle.y, glm::dvec3(0, 1, 0)) *
+                     glm::angleAxis(angle.x, glm::dvec3(1, 0, 0)));
   BodySetup moved = tumbling();
-  moved.description.rotation = {0, 0, 90};
-  moved.description.position = {1e4, -3e3, 500};
-  const auto turn = [](const glm::dvec3& p) { return glm::dvec3(-p.y, p.x, p.z); };
-  moved.description.spin = turn(moved.description.spin);
-  moved.description.velocity = turn(moved.description.velocity);
+  moved.description.rotation = rotation;
+  moved.description.position = position;
+  moved.description.spin = turn * moved.description.spin;
+  moved.description.velocity = turn * moved.description.velocity;
   const ModelAndState here = built(tumbling()), there = built(moved);
+  const Method method{"cv8", 0.3 / stiffest_omega(here.model), DampingLaw::adaptive};
+  std::vector<glm::dvec3> expected;
+  for (const glm::dvec3& p : evolve(device, here, method, 100).world_positions(here.model))
+    expected.push_back(turn * p + position);
+  return distance(evolve(device, there, method, 100).world_positions(there.model), expected);
+}
+
+// Frames turn with the body, so even forces in fp32 hardly notice a rotation.
+TEST_CASE("a turned start gives the turned result", "[gl]") {
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
-    const Method method{"cv8", 0.3 / stiffest_omega(here.model), DampingLaw::adaptive};
-    const auto a = evolve(*test.device, here, method, 100).world_positions(here.model);
-    const auto b = evolve(*test.device, there, method, 100).world_positions(there.model);
-    std::vector<glm::dvec3> expected;
-    for (const glm::dvec3& p : a) expected.push_back(turn(p) + moved.description.position);
-    // Rotation by 90 degrees and a shift of 1e4 m cost fp64 digits, never fp32's.
-    CHECK(distance(b, expected) < (test.rounding < 1e-12 ? 1e-10 : 5e-6));
+    CHECK(invariance_error(*test.device, {30, -50, 110}, {0, 0, 0}) < (test.rounding < 1e-12 ? 1e-12 : 1e-8));
+  }
+}
+
+// 1e4 m cost an fp64 position 1e-12; a force in fp32 next to the middle of two numbers may round the other way for that.
+TEST_CASE("a moved start gives the moved result, with no loss of fp32 digits far from the origin", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    CHECK(invariance_error(*test.device, {0, 0, 0}, {1e4, -3e3, 500}) < (test.rounding < 1e-12 ? 1e-10 : 1e-8));
   }
 }
 
@@ -174,7 +201,7 @@ TEST_CASE("changing a body's frame leaves its motion as it was", "[gl]") {
     CAPTURE(test.name);
     CollisionDescription apart;
     const double step = 0.1 / stiffest_omega(start.model);
-    Simulation simulation(*test.device, start.model, start.state, plan_of({"cv8", step}), DampingLaw::none, apart);
+    Simulation simulation(*test.device, start.model, start.state, plan_of({"cv8", step}), apart);
     simulation.advance(600);
     CHECK(simulation.report().frame_changes > 100);
     const Measurement after = measured(start.model, simulation.state());

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "dynamics/integrator.hpp"
+#include "support/evolve.hpp"
 
 namespace pliant {
 namespace {
@@ -94,7 +95,7 @@ long double worst(const Trees& trees, int order, const RungeKutta& method, const
   for (const auto& tree : trees.all()) {
     if (tree->order != order) continue;
     const Residual r = residual(*tree, method, b);
-    largest = std::max(largest, std::abs(r.value) / std::max(1.0L, r.scale));
+    largest = larger(largest, std::abs(r.value) / std::max(1.0L, r.scale));
   }
   return largest;
 }

@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/read_text.hpp"
 #include "mesh/obj.hpp"
-#include "scratch.hpp"
+#include "sample_model.hpp"
+#include "support/scratch.hpp"
 
 namespace pliant {
 namespace {

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "output/scratch.hpp"
 #include "support/expect_error.hpp"
+#include "support/scratch.hpp"
 
 using namespace pliant;
 

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "scratch.hpp"
+#include "core/read_text.hpp"
+#include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
@@ -77,6 +78,7 @@ TEST_CASE("what is not a finite number is null") {
   CHECK(json["energy"]["final"].is_null());
   CHECK(json["energy"]["max_drift"].is_null());
   CHECK(json["steps_per_second"].is_null());
+  CHECK(json["final_intersecting_pairs"].is_null());
 }
 
 TEST_CASE("a path that is no UTF-8 does not stop the summary") {

@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "output/scratch.hpp"
 #include "support/expect_error.hpp"
 #include "support/paths.hpp"
+#include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
@@ -146,6 +146,8 @@ TEST_CASE("an unknown key is an error that suggests the nearest known one") {
   check_input_error("titel = \"x\"\n" + smallest, 1, {"titel", "did you mean \"title\"?"});
   check_input_error("[colision]\n" + smallest, 1, {"colision", "did you mean \"collision\"?"});
   check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2, {"collision.tree.whatever", "split, max_depth, leaf_size"});
+  check_input_error("[simulation]\nwhatever = 1\n" + smallest, 2,
+                    {"known here: integrator, time_step, duration, damping_law, gravity"});
 }
 
 TEST_CASE("a value of the wrong type is an error that says what to write") {
@@ -172,7 +174,8 @@ TEST_CASE("a value out of range is an error that gives the range") {
         "simulation.duration = -1e-9", "simulation.duration = inf", "simulation.gravity = [0, nan, 0]",
         "collision.elasticity = -0.1", "collision.elasticity = 1.1", "collision.tree.max_depth = 0",
         "collision.tree.max_depth = 65", "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4", "output.frame_rate = 0",
-        "output.size = [0, 720]", "output.size = [1280, 99999]", "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
+        "output.frame_rate = 1e30", "output.frame_rate = 1e-30", "output.size = [0, 720]", "output.size = [1280, 99999]",
+        "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
     check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
   }
   for (const char* line :
@@ -199,6 +202,20 @@ TEST_CASE("keys that contradict each other are an error") {
   check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "beside vertex_mass"});
 }
 
+TEST_CASE("a camera looks at something other than itself") {
+  const std::string camera = "[output.camera]\neye = [1, 2, 3]\n";
+  check_input_error(camera + "target = [1, 2, 3]\n" + smallest, 2, {"output.camera", "same point", "move"});
+  check_override_error(camera + smallest, "output.camera.target=[1, 2, 3]", {"same point"});
+}
+
+TEST_CASE("a scene knows what to blame for its length: an option before a line, the duration before the step") {
+  const std::string text = "[simulation]\ntime_step = 0.5\nduration = 1\n" + smallest;
+  CHECK(load_text(smallest).simulation.length_where.empty());
+  CHECK_THAT(load_text(text).simulation.length_where, Catch::EndsWith("scene.toml:3: simulation.duration"));
+  CHECK(load_text(text, {"simulation.time_step=1"}).simulation.length_where ==
+        "--set simulation.time_step=1: simulation.time_step");
+}
+
 TEST_CASE("a scene needs bodies, each with a mesh and a name of its own") {
   check_says(error_of([] { return load_text("title = \"empty\"\n"); }), {"scene.toml", "no body", "[[body]]"});
   check_says(error_of([] { return load_text(""); }), {"scene.toml", "no body"});
@@ -216,6 +233,7 @@ TEST_CASE("text that is no TOML is an error that names its line") {
   check_input_error("title = \"x\"\ntitle = \"y\"\n", 2, {"TOML"});
   check_input_error("title = \"\xff\xfe\"\n", 1, {"TOML"});
   check_input_error("title = \n", 1, {"TOML"});
+  check_input_error("title = \"x\"\n[.a]\n" + smallest, 2, {"malformed key", "TOML"});
 }
 
 TEST_CASE("a missing scene and a folder are input errors that name the path") {

@@ -73,6 +73,29 @@ TEST_CASE("with a fixed step a frame is the first state at or after its time") {
   }
 }
 
+TEST_CASE("frames advance at every frame rate that a scene may have") {
+  for (const double frame_rate : {1e-6, 1.0, 1e6}) {
+    for (const double time_step : {1e-30, 1e-3, 1.0}) {
+      const TimePlan plan{.time_step = time_step, .frame_rate = frame_rate};
+      CAPTURE(frame_rate, time_step);
+      CHECK(plan.step_of_frame(0) == 0);
+      CHECK(plan.step_of_frame(1) >= 1);
+      CHECK(plan.step_of_frame(1) <= 1'000'000'000'000'000'000u);
+      for (const std::uint64_t frame : {3u, 7u, 299'999'999u})
+        if (frame_rate * time_step == 1) CHECK(plan.step_of_frame(frame) == frame);
+    }
+  }
+}
+
+TEST_CASE("bodies without damping are undamped under every law") {
+  BodySetup setup = sphere(0);
+  setup.description.damping = 0;
+  const Model model = built(setup).model;
+  CHECK(plan_time(scene_with("srkn11b", DampingLaw::adaptive), model).damping_law == DampingLaw::none);
+  setup.description.damping = 1e-3;
+  CHECK(plan_time(scene_with("cv8", DampingLaw::adaptive), built(setup).model).damping_law == DampingLaw::adaptive);
+}
+
 TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an input error where the scene names it") {
   const Model model = built(sphere(0)).model;
   const auto unknown = error_of([&] { return plan_time(scene_with("euler", DampingLaw::none), model); });
@@ -84,10 +107,16 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
   CHECK_NOTHROW(plan_time(scene_with("srkn11b", DampingLaw::none), model));
 }
 
-TEST_CASE("more steps than the device's clock counts is an input error") {
+TEST_CASE("more steps than the device's clock counts are the fault of who set the length") {
   SceneDescription scene = scene_with("cv8", DampingLaw::none);
   scene.simulation.time_step = 1e-12;
-  CHECK(error_of([&] { return plan_time(scene, built(sphere(0)).model); }).kind() == ErrorKind::input);
+  const Model model = built(sphere(0)).model;
+  const auto failure = [&] { return error_of([&] { return plan_time(scene, model); }); };
+  CHECK(failure().kind() == ErrorKind::input);
+  check_says(failure(), {"scene.toml: ", "3e8"});
+  scene.simulation.length_where = "--duration";
+  CHECK(failure().kind() == ErrorKind::command_line);
+  check_says(failure(), {"--duration: "});
 }
 
 }  // namespace

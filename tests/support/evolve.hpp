@@ -1,5 +1,9 @@
 // Small bodies, and a run of a few steps on a device: what the tests of dynamics need.
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -42,6 +46,7 @@ inline TimePlan plan_of(const Method& method) {
   TimePlan plan;
   plan.integrator = &find_integrator(method.integrator);
   plan.time_step = method.time_step;
+  plan.damping_law = method.law;
   return plan;
 }
 
@@ -49,7 +54,7 @@ inline TimePlan plan_of(const Method& method) {
 inline State evolve(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps) {
   CollisionDescription apart;
   apart.response = ContactResponse::none;
-  Simulation simulation(device, start.model, start.state, plan_of(method), method.law, apart);
+  Simulation simulation(device, start.model, start.state, plan_of(method), apart);
   simulation.advance(steps);
   return simulation.state();
 }
@@ -58,6 +63,12 @@ inline State evolve(Device& device, const ModelAndState& start, const Method& me
 inline double stiffest_omega(const Model& model) {
   const ModelBody& body = model.bodies.front();
   return std::sqrt(body.vertex_count * body.stiffness / body.vertex_mass);
+}
+
+/// The larger of two numbers, infinite where one is NaN: a largest error that a NaN cannot slip through.
+template <std::floating_point T>
+T larger(T a, T b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::infinity() : std::max(a, b);
 }
 
 /// Root of the sum over vertices of |a - b|^2.

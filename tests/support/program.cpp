@@ -9,8 +9,8 @@
 
 namespace pliant {
 
-ProgramResult run_program(const std::string& arguments) {
-  std::FILE* pipe = popen((program_path() + " " + arguments + " 2>&1").c_str(), "r");
+ProgramResult run_program(const std::string& arguments, const std::string& before) {
+  std::FILE* pipe = popen((before + program_path() + " " + arguments + " 2>&1").c_str(), "r");
   ProgramResult result;
   std::array<char, 4096> part{};
   while (std::size_t size = std::fread(part.data(), 1, part.size(), pipe)) result.output.append(part.data(), size);

@@ -10,8 +10,8 @@ struct ProgramResult {
   std::string output;  // standard output and error together
 };
 
-/// `arguments` is a shell command line behind the program's name.
-ProgramResult run_program(const std::string& arguments);
+/// `arguments` is a shell command line behind the program's name; `before` stands before it, such as "ulimit -v 1000;".
+ProgramResult run_program(const std::string& arguments, const std::string& before = "");
 
 std::string shipped_scene(const std::string& name);  // its path
 

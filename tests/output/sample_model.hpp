@@ -1,29 +1,11 @@
-// What the tests of the writers share: a folder of their own, and a small model.
+// What the tests of the writers write: a small model.
 #pragma once
-#include <filesystem>
 #include <random>
-#include <string>
+#include <vector>
 
-#include "core/read_text.hpp"
 #include "model/model.hpp"
 
 namespace pliant::test {
-
-/// A fresh folder, removed at the end.
-struct ScratchFolder {
-  std::filesystem::path path;
-  ScratchFolder() {
-    std::random_device random;
-    do path = std::filesystem::temp_directory_path() / ("pliant_test_" + std::to_string(random()));
-    while (!std::filesystem::create_directory(path));
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-};
 
 /// A tetrahedron and a triangle; what the files hold comes from the arguments of the writers.
 inline Model two_bodies() {
