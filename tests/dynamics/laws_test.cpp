@@ -168,11 +168,12 @@ TEST_CASE("a turned start gives the turned result", "[gl]") {
   }
 }
 
-// 1e4 m cost an fp64 position 1e-12; a force in fp32 next to the middle of two numbers may round the other way for that.
+// 1e4 m cost an fp64 position 1e-12; a force in fp32 next to the middle of two numbers may round the other way for that, and
+// the trajectory carries it on: 1e-9 on a CPU, 4e-8 on an H200. Positions rounded to fp32 there would show 6e-4.
 TEST_CASE("a moved start gives the moved result, with no loss of fp32 digits far from the origin", "[gl]") {
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
-    CHECK(invariance_error(*test.device, {0, 0, 0}, {1e4, -3e3, 500}) < (test.rounding < 1e-12 ? 1e-10 : 1e-8));
+    CHECK(invariance_error(*test.device, {0, 0, 0}, {1e4, -3e3, 500}) < (test.rounding < 1e-12 ? 1e-10 : 3e-7));
   }
 }
 
