@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
 #include "app/frame_sink.hpp"
 #include "app/prepared_run.hpp"
@@ -100,7 +101,7 @@ class Run {
     write_final_state(folder_ / "final_state.csv", model, state_.world_positions(model), state_.world_velocities(model));
     write_summary(folder_ / "summary.json", summary());
     if (!options_.quiet) show_end();
-    if (report_.non_finite) show_non_finite();
+    if (const auto what = instability()) fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
   }
 
   Summary summary() {
@@ -130,6 +131,8 @@ class Run {
                     {"step", 1e3 * stepping_.seconds()},
                     {"measure", 1e3 * measuring_.seconds()},
                     {"frames", 1e3 * writing_.seconds()}};
+    s.warnings = run_.warnings;
+    if (const auto what = instability()) s.warnings.push_back(*what);
     s.version = PLIANT_VERSION;
     return s;
   }
@@ -153,13 +156,19 @@ class Run {
     if (frames_.count() > 0) fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
   }
 
-  void show_non_finite() const {
-    const NonFinite& where = *report_.non_finite;
-    const bool beyond = run_.plan.time_step > run_.plan.step_bound;
-    fmt::print(stderr, "pliant: the simulation became non-finite in step {} at vertex {} of body \"{}\"; {}\n", where.step,
-               where.vertex, run_.start.model.bodies[where.body].name,
-               beyond ? fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound)
-                      : std::string("shorten the time step, or lower stiffness, damping or velocities"));
+  // What went wrong, for people and for the summary; the step beyond its bound is among the warnings from before the run.
+  std::optional<std::string> instability() const {
+    if (report_.non_finite) {
+      const NonFinite& where = *report_.non_finite;
+      return fmt::format("the simulation became non-finite in step {} at vertex {} of body \"{}\"; {}", where.step, where.vertex,
+                         run_.start.model.bodies[where.body].name,
+                         run_.plan.time_step > run_.plan.step_bound
+                             ? fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound)
+                             : std::string("shorten the time step, or lower stiffness, damping or velocities"));
+    }
+    const double growth = now_.energy() / first_.energy();
+    if (first_.energy() > 0 && growth > 2) return fmt::format("the energy has grown {:.3g}-fold: the motion is unstable", growth);
+    return {};
   }
 
   const RunOptions& options_;

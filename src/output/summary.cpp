@@ -59,6 +59,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"contacts", contacts_json(summary)},
                      {"final_intersecting_pairs", or_null(summary.final_intersecting_pairs)},
                      {"non_finite", summary.non_finite},
+                     {"warnings", summary.warnings},
                      {"work", work_json(summary)},
                      {"skipped", object(summary.skipped)},
                      {"timings_ms", object(summary.timings_ms)},

@@ -43,6 +43,7 @@ struct Summary {
     std::uint64_t node_tests = 0;
     std::uint64_t triangle_tests = 0;
   } work;
+  std::vector<std::string> warnings;  // before and after the run
   std::vector<Count> skipped;
   std::vector<Duration> timings_ms;
   std::string version;

@@ -60,7 +60,7 @@ TEST_CASE("a run writes its summary, history and final state") {
   const auto summary = summary_in(out);
   for (const char* key : {"scene", "device", "precision", "threads", "integrator", "time_step", "steps", "simulated_seconds",
                           "wall_seconds", "steps_per_second", "energy", "contacts", "final_intersecting_pairs", "non_finite",
-                          "work", "skipped", "timings_ms", "version"})
+                          "warnings", "work", "skipped", "timings_ms", "version"})
     CHECK(summary.contains(key));
   CHECK(summary["steps"] == 20);
   CHECK(summary["integrator"] == "dop853");
@@ -221,6 +221,16 @@ TEST_CASE("a step beyond the bound runs, with a warning that says by how much") 
   CHECK_THAT(result.output, Catch::Contains("warning") && Catch::Contains("2.05 times"));  // omega = sqrt(42 40), bound 2 / omega
 }
 
+TEST_CASE("a run that blows up but stays finite says so in its summary") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + shipped_scene("bunnies_overdamped") + " --device cpu --steps 2 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  const std::string warnings = summary_in(folder.path)["warnings"].dump();
+  CHECK_THAT(warnings, Catch::Contains("1.08 times the stability bound") && Catch::Contains("the energy has grown"));
+  CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
+}
+
 TEST_CASE("bodies that overlap at the start are named in a warning") {
   const ScratchFolder folder;
   const ProgramResult result =
@@ -240,6 +250,8 @@ TEST_CASE("a run that goes non-finite says where, writes what there is and exits
   CHECK_THAT(result.output, Catch::Contains("non-finite in step") && Catch::Contains("body \"left\"") &&
                                 Catch::Contains("shorten the time step"));
   CHECK(summary_in(folder.path)["non_finite"] == true);
+  CHECK_THAT(summary_in(folder.path)["warnings"].dump(),
+             Catch::Contains("times the stability bound") && Catch::Contains("non-finite in step"));
   CHECK(summary_in(folder.path)["energy"]["final"].is_null());
   CHECK(summary_in(folder.path)["final_intersecting_pairs"].is_null());
   CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));

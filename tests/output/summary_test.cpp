@@ -34,7 +34,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
   using Names = std::vector<std::string>;
   CHECK(keys(json) == Names{"scene", "device", "precision", "threads", "integrator", "time_step", "steps", "simulated_seconds",
                             "wall_seconds", "steps_per_second", "energy", "contacts", "final_intersecting_pairs", "non_finite",
-                            "work", "skipped", "timings_ms", "version"});
+                            "warnings", "work", "skipped", "timings_ms", "version"});
   CHECK(keys(json["device"]) == Names{"kind", "name"});
   CHECK(keys(json["energy"]) == Names{"initial", "final", "max_drift"});
   CHECK(keys(json["contacts"]) == Names{"steps", "pairs_max", "reverted_vertices"});
