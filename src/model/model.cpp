@@ -17,6 +17,7 @@ namespace pliant {
 namespace {
 
 constexpr double largest_coordinate = 1e9;  // [m]
+constexpr double smallest_radius = 1e-6;    // [m]
 
 glm::dvec3 load(const std::vector<double>& array, std::size_t first) {
   return {array[first], array[first + 1], array[first + 2]};
@@ -137,6 +138,9 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
   const glm::dvec3 centroid = mean(positions);
   const glm::dquat rotation = rotation_of(description.rotation);
   append_shape(setup, positions, centroid, built.model);
+  if (const double radius = built.model.bodies.back().radius; radius > 0 && radius < smallest_radius)
+    fail(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
+         "use a larger scale, with other units if need be");
   built.state.frames.push_back(make_frame(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
   append_motion(description, built.model, built.state);
 }

@@ -171,4 +171,12 @@ TEST_CASE("a point cloud without triangles is a body") {
   CHECK(built.model.bodies[0].radius == 1);
 }
 
+TEST_CASE("a body too small for forces in fp32 is an input error") {
+  BodySetup setup = lopsided();
+  setup.description.scale = 1e-7;
+  const Error error = error_of([&] { return build(setup); });
+  CHECK(error.kind() == ErrorKind::input);
+  check_says(error, {"lopsided", "1e-06 m", "scale"});
+}
+
 }  // namespace pliant

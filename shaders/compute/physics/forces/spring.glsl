@@ -6,13 +6,15 @@
 #include "../language.glsl"
 REAL_BEGIN
 
-// (|x| - L) x / |x| [m]: the spring's elongation as a vector. Zero where b or x is zero.
+// (|x| - L) x / |x| [m]: the spring's elongation as a vector, at most L long while it is compressed. Where x or b is zero and has
+// no direction it is zero; below 1e-12 L it falls to zero with x.
 FN real3 spring_elongation(real3 b, real3 d) {
-  real growth = (d.x * (b.x + b.x + d.x) + d.y * (b.y + b.y + d.y)) + d.z * (b.z + b.z + d.z);
+  real3 x = b + d;
+  real growth = (d.x * (b.x + x.x) + d.y * (b.y + x.y)) + d.z * (b.z + x.z);
   real rest_squared = (b.x * b.x + b.y * b.y) + b.z * b.z;
-  real length_squared = max(rest_squared + growth, real(0));
-  real ratio = growth / max(length_squared + sqrt(length_squared * rest_squared), real(1e-37));
-  return ratio * (b + d);
+  real length_squared = (x.x * x.x + x.y * x.y) + x.z * x.z;  // not rest_squared + growth, which cancels under compression
+  real scale = max(length_squared + sqrt(length_squared * rest_squared), real(1e-12) * rest_squared);
+  return (growth / max(scale, real(1e-37))) * x;
 }
 
 REAL_END
