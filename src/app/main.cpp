@@ -25,19 +25,26 @@ CLI::Validator finite(double lowest, const char* range) {
   return {complaint, range};
 }
 
+// An option that takes one of a few words.
+template <class T>
+void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std::pair<std::string, T>>& choices,
+                const char* help) {
+  std::vector<std::string> words;
+  for (const auto& [word, meaning] : choices) words.push_back(word);
+  const auto set = [&value, choices](const std::string& text) {
+    for (const auto& [word, meaning] : choices)
+      if (word == text) value = meaning;
+  };
+  app.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words));
+}
+
 void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
-  const std::map<std::string, app::DeviceKind> devices = {
-      {"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}};
-  const std::map<std::string, FrameFormat> formats = {{"none", FrameFormat::none},
-                                                      {"png", FrameFormat::png},
-                                                      {"obj", FrameFormat::obj},
-                                                      {"ply", FrameFormat::ply},
-                                                      {"vtk", FrameFormat::vtk}};
   run->add_option("scene", options.scene, "Scene file (TOML)")->required();
-  run->add_option("--device", options.device.kind, "Where to simulate (default auto: a hardware GPU, else the CPU)")
-      ->transform(CLI::CheckedTransformer(devices))
-      ->option_text("auto|cpu|gpu");
+  add_choice<app::DeviceKind>(
+      *run, "--device", options.device.kind,
+      {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
+      "Where to simulate (default auto: a hardware GPU, else the CPU)");
   run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")->check(CLI::NonNegativeNumber);
   run->add_option("--precision", options.device.precision, "Bits of the forces; 64 on the CPU alone")
       ->check(CLI::IsMember({32, 64}));
@@ -52,9 +59,13 @@ void add_run(CLI::App& program, app::RunOptions& options) {
       ->allow_extra_args(false)
       ->take_all();
   run->add_option("--out", options.out, "Folder to write (default out/SCENE)");
-  run->add_option("--frames", options.frames, "What to write for each frame (default none)")
-      ->transform(CLI::CheckedTransformer(formats))
-      ->option_text("none|png|obj|ply|vtk");
+  add_choice<FrameFormat>(*run, "--frames", options.frames,
+                          {{"none", FrameFormat::none},
+                           {"png", FrameFormat::png},
+                           {"obj", FrameFormat::obj},
+                           {"ply", FrameFormat::ply},
+                           {"vtk", FrameFormat::vtk}},
+                          "What to write for each frame (default none)");
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
 }
@@ -110,7 +121,11 @@ int execute(int count, char** arguments) {
 
 int main(int count, char** arguments) {
   try {
-    return execute(count, arguments);
+    const int code = execute(count, arguments);
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+    std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
+    return code != 0 ? code : static_cast<int>(pliant::ErrorKind::command_line);
   } catch (const pliant::Error& error) {
     std::fprintf(stderr, "pliant: %s\n", error.what());
     return static_cast<int>(error.kind());

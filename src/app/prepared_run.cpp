@@ -29,6 +29,11 @@ void warn_of_step(PreparedRun& run) {
                   run.plan.time_step, run.plan.time_step / run.plan.step_bound, run.plan.integrator->name, run.plan.step_bound));
 }
 
+void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
+  if (run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
+    run.warnings.push_back("the duration is shorter than half a step, so no step is made");
+}
+
 void warn_of_overlap(PreparedRun& run) {
   const Intersections overlap = run.simulation->intersections();
   if (overlap.pairs == 0) return;
@@ -51,6 +56,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.device = choose_device(options.device);
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   warn_of_step(run);
+  warn_of_no_step(run, options);
   warn_of_overlap(run);
   run.build_time.stop();
   return prepared;

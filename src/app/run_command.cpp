@@ -119,7 +119,10 @@ class Run {
     s.energy = {first_.energy(), now_.energy(), {}};
     if (run_.plan.damping_law == DampingLaw::none && report_.contact_steps == 0) s.energy.max_drift = largest_drift_;
     s.contacts = {report_.contact_steps, report_.contact_pairs_max, report_.reverted_vertices};
-    if (!report_.non_finite) s.final_intersecting_pairs = run_.simulation->intersections().pairs;
+    if (report_.non_finite)
+      s.energy.final = std::nan("");  // the step that broke, whatever a sum of it gives
+    else
+      s.final_intersecting_pairs = run_.simulation->intersections().pairs;
     s.non_finite = report_.non_finite.has_value();
     s.work = {report_.force_evaluations, report_.pair_interactions, report_.nodes_refitted, report_.node_tests,
               report_.triangle_tests};

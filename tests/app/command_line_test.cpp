@@ -285,7 +285,8 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + scene + " --duration -1", 2, {"--duration"});
   check_fails("run " + scene + " --duration inf", 2, {"--duration"});
   check_fails("run " + scene + " --threads 0", 2, {"--threads"});
-  check_fails("run " + scene + " --frames gif", 2, {"--frames"});
+  check_fails("run " + scene + " --frames gif", 2, {"--frames", "png"});
+  check_fails("run " + scene + " --frames 2", 2, {"--frames"});
   check_fails("run " + scene + " --device cpu --integrator euler", 2, {"--integrator", "euler", "cv8"});
   check_fails("run " + scene + " --device cpu --set simulation.integrator=euler", 2,
               {"--set simulation.integrator=euler", "cv8"});
@@ -332,6 +333,7 @@ TEST_CASE("bad input exits with 3") {
   const std::string long_scene = "[simulation]\nduration = 1e10\n[[body]]\nmesh = \"icosphere:1\"\n";
   check_fails("run --device cpu --integrator rk4 " + write("long.toml", long_scene), 3, {"long.toml:2", "3e8 steps"});
   check_fails("mesh nowhere.obj", 3, {"nowhere.obj"});
+  check_fails("mesh /dev/zero", 3, {"/dev/zero", "plain file"});
   check_fails("mesh icosphere:9", 3, {"icosphere"});
   check_fails("mesh " + write("empty.obj", ""), 3, {"empty.obj"});
   check_fails("mesh " + write("binary.obj", std::string("v 0 0 0\n\0\1\2", 11)), 3, {"binary.obj"});
@@ -339,6 +341,19 @@ TEST_CASE("bad input exits with 3") {
   check_fails("mesh " + write("huge.obj", "v 0 0 0\nv 1e400 0 0\nv 0 1 0\nf 1 2 3\n"), 3, {"huge.obj:2"});
   check_fails("mesh " + write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), 3, {"range.obj:4"});
   check_fails("mesh " + write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), 3, {"points.obj"});
+}
+
+TEST_CASE("output that cannot be written is not a success") {
+  for (const char* arguments : {"info --integrators", "mesh icosphere:2 --json", "--help"})
+    check_fails(std::string(arguments) + " > /dev/full", 2, {});
+}
+
+TEST_CASE("a duration too short for one step is warned of") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --quiet --time-step 1e6 --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("no step is made"));
 }
 
 TEST_CASE("mesh reports counts as text and as JSON") {
