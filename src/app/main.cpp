@@ -66,6 +66,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
                            {"ply", FrameFormat::ply},
                            {"vtk", FrameFormat::vtk}},
                           "What to write for each frame (default none)");
+  run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
 }

@@ -60,7 +60,11 @@ class Run {
   void step_until(std::uint64_t target) {
     while (report_.steps < target && !stopped()) {
       stepping_.start();
-      run_.simulation->advance(std::min(steps_at_once, target - report_.steps));
+      const std::uint64_t steps = std::min(steps_at_once, target - report_.steps);
+      if (options_.timings)
+        run_.simulation->advance_timed(steps);
+      else
+        run_.simulation->advance(steps);
       report_ = run_.simulation->report();
       stepping_.stop();
       show_progress();
@@ -134,6 +138,8 @@ class Run {
                     {"step", 1e3 * stepping_.seconds()},
                     {"measure", 1e3 * measuring_.seconds()},
                     {"frames", 1e3 * writing_.seconds()}};
+    for (const auto& [pass, seconds] : run_.simulation->pass_seconds())
+      s.timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
     s.warnings = run_.warnings;
     if (const auto what = instability()) s.warnings.push_back(*what);
     s.version = PLIANT_VERSION;
@@ -155,8 +161,19 @@ class Run {
                stepping_.seconds(), report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(),
                run_.device->info().kind, run_.device->info().name);
     fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
+    show_timings();
     fmt::print("summary: {}\n", (folder_ / "summary.json").string());
     if (frames_.count() > 0) fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
+  }
+
+  void show_timings() const {
+    if (!options_.timings || report_.steps == 0) return;
+    double all = 0;
+    for (const auto& [pass, seconds] : run_.simulation->pass_seconds()) all += seconds;
+    fmt::print("{:<20} {:>12} {:>8}\n", "pass", "us a step", "share");
+    for (const auto& [pass, seconds] : run_.simulation->pass_seconds())
+      fmt::print("{:<20} {:>12.2f} {:>6.1f} %\n", pass, 1e6 * seconds / static_cast<double>(report_.steps), 100 * seconds / all);
+    fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(report_.steps));
   }
 
   // What went wrong, for people and for the summary; the step beyond its bound is among the warnings from before the run.

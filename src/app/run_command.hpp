@@ -23,7 +23,8 @@ struct RunOptions {
   std::vector<std::string> overrides;  // section.key=value
   std::filesystem::path out;           // empty: out/SCENE
   FrameFormat frames = FrameFormat::none;
-  bool check = false;  // validate and estimate only
+  bool timings = false;  // of each kind of pass
+  bool check = false;    // validate and estimate only
   bool quiet = false;
 };
 

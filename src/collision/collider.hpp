@@ -1,5 +1,6 @@
 // Records the dispatches that find and answer contacts between bodies at the end of a step.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "collision/tree.hpp"
@@ -12,14 +13,16 @@ namespace pliant {
 class Collider {
  public:
   /// `device` and `bodies` must outlive the collider. The trees' structure comes from the rest positions.
-  /// Throws Error (input) when a body is too large for brute force.
-  Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description);
+  /// Searches are cut for so many threads at once; else for as many as keep the device busy.
+  Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
+           std::optional<std::uint32_t> parallel_items = {});
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
 
-  /// Bounds every body at `half`, and nothing more: for scenes without contacts.
+  /// Bounds every body at `half`. A step does that itself as it ends.
   [[nodiscard]] std::vector<Pass> bounding_passes(std::uint32_t half) const;
-  /// Finds the triangles of different bodies that touch at `half` and marks their vertices. Follows bounding_passes.
+  /// Finds the triangles of different bodies that touch at `half` and marks their vertices, between bodies whose boxes overlap. A
+  /// pass that changes neither world positions nor what is the collider's own may run beside any of them but the first.
   [[nodiscard]] std::vector<Pass> contact_passes(std::uint32_t half) const;
   /// Moves marked vertices of the other half back to `from_half`.
   [[nodiscard]] std::vector<Pass> response_passes(std::uint32_t from_half) const;
@@ -27,6 +30,8 @@ class Collider {
   /// Whether contact_passes refits and searches trees: two bodies or more with triangles, and no brute force.
   [[nodiscard]] bool uses_trees() const;
   [[nodiscard]] const Forest& forest() const { return forest_; }
+  /// Searches start from the nodes at this depth; boxes of those above are not kept.
+  [[nodiscard]] unsigned start_depth() const { return start_depth_; }
   /// Of the latest search: places of two triangles in the forest's order, in no fixed order, as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> candidates() const;
   /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
@@ -38,12 +43,13 @@ class Collider {
  private:
   [[nodiscard]] std::vector<Pass> tree_passes(std::uint32_t first_position) const;
   [[nodiscard]] std::vector<Pass> brute_force_passes(std::uint32_t first_position) const;
-  [[nodiscard]] std::uint32_t threads_per_pair() const;
+  [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t threads_per_pair) const;
 
   Device& device_;
   DeviceBodies& bodies_;
   CollisionDescription description_;
   Forest forest_;
+  unsigned start_depth_;           // of the nodes that searches start from
   std::uint32_t largest_body_;     // triangles
   DeviceArray<glm::uvec2> trees_;  // [body]: root, number of leaves
   DeviceArray<glm::uvec2> leaves_;

@@ -154,6 +154,20 @@ void add_tree(Forest& forest, const Model& model, std::uint32_t body, std::span<
 
 }  // namespace
 
+std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, unsigned depth) {
+  std::vector<std::uint32_t> nodes{forest.roots[body]};
+  for (unsigned level = 0; level < depth; ++level) {
+    std::vector<std::uint32_t> below;
+    for (const std::uint32_t node : nodes) {
+      const std::uint32_t left = node == no_node ? 0 : forest.nodes[node].x;
+      below.push_back(left == 0 ? node : left);
+      below.push_back(left == 0 ? no_node : left + 1);
+    }
+    nodes = std::move(below);
+  }
+  return nodes;
+}
+
 Forest build_forest(const Model& model, std::span<const glm::vec4> positions, const TreeDescription& description) {
   PLIANT_EXPECT(positions.size() == model.rest_positions.size());
   PLIANT_EXPECT(description.leaf_size > 0);

@@ -28,6 +28,10 @@ struct Forest {
   unsigned depth = 0;                                   // of the deepest node; a root has depth 0
 };
 
+/// The nodes of a body from which a search starts, 2^depth: those at `depth`, and leaves above it, each at a place of its own.
+/// The other places hold no_node.
+[[nodiscard]] std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, unsigned depth);
+
 /// Builds all trees, top-down: a node of more than leaf_size triangles above max_depth is split; one that cannot be split is a
 /// leaf, whatever its size. `positions` are those of the model's vertices (rest or world) [m], finite; w is ignored.
 [[nodiscard]] Forest build_forest(const Model& model, std::span<const glm::vec4> positions, const TreeDescription& description);

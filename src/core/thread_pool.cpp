@@ -2,8 +2,13 @@
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <string>
+#ifdef __linux__
+#include <pthread.h>
+#include <sched.h>
+#endif
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
@@ -16,12 +21,51 @@ constexpr std::uint32_t closed = 0xffffffffu;
 constexpr std::uint64_t place(std::uint32_t loop, std::uint32_t item) { return (static_cast<std::uint64_t>(loop) << 32) | item; }
 constexpr std::uint32_t item_of(std::uint64_t place) { return static_cast<std::uint32_t>(place); }
 
+constexpr std::chrono::microseconds longest_spin{50};
+
+// Tells the processor that this is a waiting loop.
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+#ifdef __linux__
+// The processors that this thread may run on, the one it is on last.
+std::vector<int> allowed_processors() {
+  cpu_set_t allowed;
+  std::vector<int> processors;
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return processors;
+  for (int k = 0; k < CPU_SETSIZE; ++k)
+    if (CPU_ISSET(k, &allowed)) processors.push_back(k);
+  std::stable_partition(processors.begin(), processors.end(), [here = sched_getcpu()](int k) { return k != here; });
+  return processors;
+}
+
+void keep_on(std::thread& thread, int processor) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(processor, &only);
+  pthread_setaffinity_np(thread.native_handle(), sizeof(only), &only);  // without it the loops are slower, and right
+}
+#else
+std::vector<int> allowed_processors() { return std::vector<int>(std::thread::hardware_concurrency()); }
+void keep_on(std::thread&, int) {}
+#endif
+
 }  // namespace
 
 ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  const std::vector<int> processors = allowed_processors();
+  own_processors_ = threads <= processors.size();
   try {
-    for (unsigned k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
+    for (unsigned k = 1; k < threads; ++k) {
+      workers_.emplace_back([this] { work(); });
+      if (own_processors_) keep_on(workers_.back(), processors[k - 1]);
+    }
   } catch (const std::exception&) {
     const std::string started = std::to_string(size());
     stop();
@@ -55,7 +99,7 @@ void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body
   loop_ = loop;
   loop_.notify_all();
   take_ranges();
-  for (std::uint32_t done = done_; done != count; done = done_) done_.wait(done);
+  for (std::uint32_t done = done_; done != count; done = done_) await_change(done_, done);
   next_ = place(loop, closed);
 }
 
@@ -63,22 +107,38 @@ void ThreadPool::work() {
   std::uint32_t seen = 0;
   while (!stopping_) {
     take_ranges();
-    loop_.wait(seen);
+    await_change(loop_, seen);
     seen = loop_;
   }
 }
 
+void ThreadPool::await_change(const std::atomic<std::uint32_t>& value, std::uint32_t from) const {
+  if (own_processors_) {
+    const auto end = std::chrono::steady_clock::now() + longest_spin;
+    do {
+      for (int k = 0; k < 16; ++k) {
+        if (value != from) return;
+        pause();
+      }
+    } while (std::chrono::steady_clock::now() < end);
+  }
+  value.wait(from);
+}
+
 void ThreadPool::take_ranges() {
   std::uint64_t next = next_;
+  std::uint32_t loop_count = 0, own_done = 0;
   while (true) {
     const std::uint32_t count = count_, first = item_of(next);
-    if (first >= count) return;
+    if (first >= count) break;
     const std::uint32_t size = std::min<std::uint32_t>(grain_, count - first);
     if (!next_.compare_exchange_weak(next, next + size)) continue;
     (*body_)(first, first + size);
-    if ((done_ += size) == count) done_.notify_one();
+    loop_count = count;
+    own_done += size;
     next = next_;
   }
+  if (own_done > 0 && (done_ += own_done) == loop_count) done_.notify_one();
 }
 
 }  // namespace pliant

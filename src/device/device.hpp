@@ -19,7 +19,7 @@ using BufferId = std::uint32_t;  // 0: none
 using KernelId = std::uint32_t;
 using Parameter = std::variant<std::uint32_t, double>;
 
-inline constexpr std::size_t max_buffers = 8;  // what OpenGL guarantees a shader
+inline constexpr std::size_t max_buffers = 9;  // eight, what OpenGL guarantees a shader, and one of constants (CONSTANTS)
 inline constexpr std::size_t max_parameters = 8;
 
 /// A kernel with its buffers and parameters, by slot.
@@ -29,13 +29,27 @@ struct KernelCall {
   std::array<Parameter, max_parameters> parameters{};
 };
 
+/// One dispatch, recorded once and run many times.
+struct Pass {
+  std::string_view name;  // the kernel's
+  KernelCall call;
+  std::uint32_t item_count = 0;
+  bool beside_next = false;  // the next pass need not wait for this one: neither writes what the other uses
+};
+
+/// One way of summing springs that a device knows: its name says how.
+struct ForceVariant {
+  std::string name;
+  std::uint32_t share_size = 0;  // vertices that one item of a force kernel serves, at most
+};
+
 struct DeviceInfo {
   std::string kind;      // "cpu" or "gpu"
   std::string name;      // model, and what its bits depend on
   unsigned threads = 1;  // of the CPU that run kernels
 };
 
-/// Kernels run one after another, each after the one before has finished; run() may return earlier.
+/// Passes run one after another, each after the one before has finished; run() may return earlier.
 /// One thread at a time may use a device.
 class Device {
  public:
@@ -57,12 +71,21 @@ class Device {
 
   /// `name` is the file's and its function's: kernels/NAME.glsl. Throws Error (device) when it does not build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
-  virtual void run(const KernelCall& call, std::uint32_t item_count) = 0;
-  /// Runs as many groups of physics::group_size items as the three uints at `first_byte` say (x, 1, 1). The kernel checks
-  /// the item's bound itself.
-  virtual void run_indirect(const KernelCall& call, BufferId group_counts, std::size_t first_byte) = 0;
+  /// Kernels that sum springs (kernels/parts/force_kernel.glsl) come in variants; their items are shares of bodies.
+  [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant) = 0;
+  [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
+  /// The variant that is fastest for so many vertices in all.
+  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
+  virtual void run(std::span<const Pass> passes) = 0;
+  /// Items that keep the device busy: how finely a search is best cut.
+  [[nodiscard]] virtual std::uint32_t parallel_items() const = 0;
   /// Waits until everything has run.
   virtual void finish() = 0;
+
+  /// Queues a look at the device's own clock, taken when all kernels before it have finished.
+  virtual void mark_time() = 0;
+  /// The marked times since the last call [s], from any origin. Waits for them.
+  [[nodiscard]] virtual std::vector<double> take_times() = 0;
 };
 
 /// An owned array of `count` elements on a device, which must outlive it.

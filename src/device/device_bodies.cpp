@@ -1,14 +1,39 @@
 // Upload and download of model and state.
 #include "device/device_bodies.hpp"
 
+#include <algorithm>
+
 namespace pliant {
 namespace {
 
+physics::Body body_of(const ModelBody& body) {
+  const double unit = body.unit_of_length();
+  return {.inverse_unit = 1 / unit,
+          .unit_force = body.stiffness * unit,
+          .inverse_mass = 1 / body.vertex_mass,
+          .damping = body.damping,
+          .first_vertex = body.first_vertex,
+          .vertex_count = body.vertex_count};
+}
+
 std::vector<physics::Body> bodies_of(const Model& model) {
   std::vector<physics::Body> bodies;
-  for (const ModelBody& body : model.bodies)
-    bodies.push_back({body.stiffness, body.vertex_mass, body.damping, body.first_vertex, body.vertex_count});
+  for (const ModelBody& body : model.bodies) bodies.push_back(body_of(body));
   return bodies;
+}
+
+std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_size) {
+  std::vector<physics::Share> shares;
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    for (std::uint32_t first = 0; first < body.vertex_count; first += std::min(share_size, body.vertex_count - first))
+      shares.push_back({.body = body_of(body),
+                        .body_index = b,
+                        .first_vertex = body.first_vertex + first,
+                        .vertex_count = std::min(share_size, body.vertex_count - first),
+                        .padding = 0});
+  }
+  return shares;
 }
 
 std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& state) {
@@ -21,32 +46,38 @@ physics::Control first_control() {
   physics::Control control{};
   control.step = 1;
   control.non_finite_vertex = physics::no_vertex;
-  for (auto* groups : {control.turn_groups, control.refresh_groups, control.refit_groups, control.find_groups,
-                       control.test_groups, control.respond_groups})
-    groups[1] = groups[2] = 1;
   return control;
 }
 
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
+    : DeviceBodies(device, model, state, device.best_force_variant(model.vertex_count())) {}
+
+DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t variant)
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
+      force_variant(variant),
       bodies(device, bodies_of(model), "bodies"),
+      shares(device, shares_of(model, device.force_variants()[variant].share_size), "shares"),
       frames(device, state.frames, "frames"),
       rest_positions(device, model.rest_positions, "rest positions"),
       motions(device, std::size_t{12} * vertex_count, "motions"),
       world_positions(device, std::size_t{2} * vertex_count, "world positions"),
-      body_boxes(device, std::size_t{6} * body_count, "body boxes"),
+      placements(device, std::size_t{2} * physics::slot_count * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
+                 "placements"),
       control(device, std::vector{first_control()}, "control") {
   motions.upload(state.motion);
   world_positions.upload(rounded_world_positions(model, state));
 }
 
 void DeviceBodies::clear_boxes() {
-  std::vector<std::uint32_t> boxes;
-  for (std::uint32_t b = 0; b < body_count; ++b) boxes.insert(boxes.end(), {~0u, ~0u, ~0u, 0u, 0u, 0u});
-  body_boxes.upload(boxes);
+  std::vector<physics::Frame> cleared = frames.download();
+  for (physics::Frame& frame : cleared) {
+    std::fill_n(frame.box, 3, ~0u);
+    std::fill_n(frame.box + 3, 3, 0u);
+  }
+  frames.upload(cleared);
 }
 
 State DeviceBodies::download(std::uint32_t half) const {

@@ -11,19 +11,23 @@ namespace pliant {
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
 struct DeviceBodies {
+  /// Cut into shares for the device's best force variant, or for the given one.
   DeviceBodies(Device& device, const Model& model, const State& state);
+  DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant);
 
   std::uint32_t vertex_count = 0, body_count = 0;
+  std::size_t force_variant;
   DeviceArray<physics::Body> bodies;
+  DeviceArray<physics::Share> shares;  // of all bodies, what one item of a force kernel serves
   DeviceArray<physics::Frame> frames;
   DeviceArray<glm::vec4> rest_positions;   // w: body index
   DeviceArray<double> motions;             // [half][vertex][6]: u [m], w [m/s]
   DeviceArray<glm::vec4> world_positions;  // [half][vertex], written once a step [m]
-  DeviceArray<std::uint32_t> body_boxes;   // [body][6]: lower, upper, as ordered bits
+  DeviceArray<std::uint32_t> placements;   // real4 [slot][2][vertex]: position, displacement in units of the body's length
   DeviceArray<physics::Control> control;   // one
 
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes every body's box empty, as the first pass of a step does.
+  /// Makes every body's box empty, as the last pass of a step does.
   void clear_boxes();
 };
 

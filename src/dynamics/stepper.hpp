@@ -1,5 +1,6 @@
 // Records the dispatches of one step of an integrator, for every body together.
 #pragma once
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "device/device_bodies.hpp"
@@ -16,11 +17,18 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
-  /// The passes that take the state in `from_half` one step on, into the other half.
+  /// Once, before the first step.
+  [[nodiscard]] std::vector<Pass> first_passes() const;
+  /// The passes that take the state in `from_half` one step on, into the other half, and bound every body there.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t from_half) const;
+  /// After passes(): frames follow their bodies' rotation. Each may run beside a pass that uses neither frames nor motions.
+  [[nodiscard]] std::vector<Pass> following_passes(std::uint32_t from_half) const;
+  /// Sums the spring forces at the step's start, of bodies whose kept ones are stale. Part of a splitting's step.
+  [[nodiscard]] Pass refresh_pass() const;
 
  private:
-  [[nodiscard]] std::vector<Pass> opening_passes(std::uint32_t from_half) const;
+  [[nodiscard]] Pass force_pass(std::string_view name, std::initializer_list<BufferId> buffers,
+                                std::initializer_list<Parameter> parameters) const;
   [[nodiscard]] std::vector<Pass> runge_kutta_passes(std::uint32_t from_half) const;
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
@@ -30,10 +38,9 @@ class Stepper {
   std::uint32_t law_;
   double time_step_;
   std::uint32_t stage_count_;
-  DeviceArray<std::uint32_t> stages_;  // real4, two halves of a vertex each: displacements where forces are taken [m]
-  DeviceArray<std::uint32_t> forces_;  // real4 a vertex: a splitting's kept spring forces [N]
+  DeviceArray<double> forces_;         // [vertex][3]: a splitting's kept spring forces [N]
   DeviceArray<double> accelerations_;  // [stage][vertex][3]
-  DeviceArray<double> tableau_;
+  DeviceArray<glm::dvec2> tableau_;
 };
 
 }  // namespace pliant

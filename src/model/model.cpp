@@ -55,6 +55,8 @@ physics::Frame make_frame(const glm::dvec3& origin, const glm::dquat& q, const g
     for (int column = 0; column < 3; ++column) frame.rotation[3 * row + column] = rotation[column][row];
   for (int i = 0; i < 3; ++i) frame.turn[4 * i] = 1.0;
   frame.force_stale = 1;
+  frame.non_finite_vertex = physics::no_vertex;
+  std::fill_n(frame.box, 3, ~0u);  // empty
   return frame;
 }
 
@@ -92,13 +94,14 @@ void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positio
 /// Appends the motion of the body that was added last: stretched, moving and spinning about its world centroid.
 void append_motion(const BodyDescription& description, const Model& model, State& state) {
   const ModelBody& body = model.bodies.back();
-  const physics::Frame& frame = state.frames.back();
+  physics::Frame& frame = state.frames.back();
   std::vector<glm::dvec3> displacements, world;
   for (std::size_t i = 0; i < body.vertex_count; ++i) {
     const glm::dvec3 rest = rest_position(model, body.first_vertex + i);
     displacements.push_back((description.stretch - 1.0) * rest);
     world.push_back(physics::to_world(frame, rest + displacements.back()));
   }
+  STORE3(frame.reference, 0, displacements.front());
   const glm::dvec3 centroid = mean(world);
   const glm::dquat q(frame.quaternion[3], frame.quaternion[0], frame.quaternion[1], frame.quaternion[2]);
   const glm::dmat3 to_frame = glm::transpose(glm::mat3_cast(q));
@@ -146,6 +149,8 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
 }
 
 }  // namespace
+
+double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::round(std::log2(radius))) : 1.0; }
 
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;

@@ -23,6 +23,9 @@ struct ModelBody {
   double damping = 0;      // c [kg/s]
   double radius = 0;       // largest distance of a rest position from the centroid [m]
   glm::dvec3 color{1.0};   // linear RGB
+
+  /// In which springs are summed: a power of two near the radius [m], so that changing to it is exact.
+  [[nodiscard]] double unit_of_length() const;
 };
 
 struct Model {

@@ -15,15 +15,17 @@ glm::dvec3 displacement_of(const State& state, std::uint32_t vertex) {
 // The energy of the springs from `i` to later vertices of its body.
 double elastic_energy(const Model& model, const State& state, std::uint32_t i) {
   const ModelBody& body = model.body_of(i);
+  const double unit = body.unit_of_length();
   const glm::dvec3 rest(model.rest_positions[i]);
   const glm::dvec3 moved = displacement_of(state, i);
   double sum = 0;
   for (std::uint32_t j = i + 1; j < body.first_vertex + body.vertex_count; ++j) {
-    const glm::dvec3 elongation =
-        physics64::spring_elongation(rest - glm::dvec3(model.rest_positions[j]), moved - displacement_of(state, j));
+    const glm::dvec3 d = (moved - displacement_of(state, j)) / unit;
+    const glm::dvec3 x = (rest - glm::dvec3(model.rest_positions[j])) / unit + d;
+    const glm::dvec3 elongation = physics64::spring_strain(x, d) * x;
     sum += glm::dot(elongation, elongation);
   }
-  return 0.5 * body.stiffness * sum;
+  return 0.5 * body.stiffness * unit * unit * sum;
 }
 
 }  // namespace

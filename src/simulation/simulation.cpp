@@ -24,7 +24,6 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.node_tests = total(control, physics::node_tests);
   report.triangle_tests = total(control, physics::triangle_tests);
   report.pairs_beyond_capacity = total(control, physics::pairs_beyond_capacity);
-  report.frame_changes = total(control, physics::frame_changes);
   report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
 }
 
@@ -33,11 +32,31 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
     const std::uint64_t vertices = model.bodies[b].vertex_count;
     report.force_evaluations += frames[b].force_evaluations;
     report.forces_skipped += frames[b].forces_skipped;
+    report.frame_changes += frames[b].frame_changes;
     report.pair_interactions += frames[b].force_evaluations * vertices * (vertices - 1);
   }
 }
 
 }  // namespace
+
+std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
+                              std::uint32_t from_half) {
+  std::vector<Pass> passes = stepper.passes(from_half);
+  std::vector<Pass> contacts;
+  if (collider != nullptr) contacts = collider->contact_passes(1 - from_half);
+  // Frames follow beside the last two passes of the search, which use none of what changes.
+  const std::vector<Pass> following = stepper.following_passes(from_half);
+  const bool beside = contacts.size() >= following.size();
+  for (std::size_t k = 0; k < following.size(); ++k) {
+    const auto place = contacts.end() - static_cast<std::ptrdiff_t>(beside ? following.size() - k : 0);
+    contacts.insert(place, beside ? beside_next(following[k]) : following[k]);
+  }
+  append(passes, std::move(contacts));
+  if (collider != nullptr) append(passes, collider->response_passes(from_half));
+  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
+                                         std::max(bodies.body_count, physics::counter_count))));
+  return passes;
+}
 
 Simulation::Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan,
                        const CollisionDescription& collision)
@@ -47,22 +66,20 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       stepper_(device, bodies_, *plan.integrator, plan.damping_law, plan.time_step),
       collider_(device, bodies_, model, collision),
       responds_(collision.response == ContactResponse::reflect) {
+  device.run(stepper_.first_passes());
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
-  std::vector<Pass> passes = stepper_.passes(from_half);
-  append(passes, collider_.bounding_passes(1 - from_half));
-  if (responds_) {
-    append(passes, collider_.contact_passes(1 - from_half));
-    append(passes, collider_.response_passes(from_half));
-  }
-  passes.push_back(make_pass(device_, "finish_step", {bodies_.control.id()}, {}, 1));
-  return passes;
+  return step_passes(device_, bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half);
 }
 
 void Simulation::advance(std::uint64_t steps) {
-  for (std::uint64_t k = 0; k < steps; ++k) run_passes(device_, schedules_[queued_steps_++ & 1]);
+  for (std::uint64_t k = 0; k < steps; ++k) device_.run(schedules_[queued_steps_++ & 1]);
+}
+
+void Simulation::advance_timed(std::uint64_t steps) {
+  for (std::uint64_t k = 0; k < steps; ++k) run_timed(device_, schedules_[queued_steps_++ & 1], pass_seconds_);
 }
 
 std::uint32_t Simulation::half() {
@@ -101,8 +118,8 @@ Intersections Simulation::intersections() {
   const std::vector<std::uint32_t> marks_before = collider_.marks();
   bodies_.control.upload(std::span(&probe, 1));
   bodies_.clear_boxes();
-  run_passes(device_, collider_.bounding_passes(current));
-  run_passes(device_, collider_.contact_passes(current));
+  device_.run(collider_.bounding_passes(current));
+  device_.run(collider_.contact_passes(current));
 
   Intersections result{.pairs = bodies_.control.download().front().count[physics::contact_pairs], .bodies = {}};
   const std::vector<std::uint32_t> marks = collider_.marks();

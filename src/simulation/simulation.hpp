@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,10 @@ struct Intersections {
   std::vector<std::uint32_t> bodies;  // that take part
 };
 
+/// One step in order, from `from_half` into the other. A null collider: no contacts.
+[[nodiscard]] std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper,
+                                            const Collider* collider, std::uint32_t from_half);
+
 class Simulation {
  public:
   /// `device` and `model` must outlive the simulation.
@@ -53,6 +58,10 @@ class Simulation {
 
   /// Queues steps; they may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
+  /// As advance(), but waits, and notes what each kind of pass takes. Slower: see run_timed.
+  void advance_timed(std::uint64_t steps);
+  /// Device time of advance_timed() so far by kernel [s].
+  [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
   /// Waits for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
@@ -77,6 +86,7 @@ class Simulation {
   bool responds_;                               // to contacts; else none are looked for
   std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
   std::uint64_t queued_steps_ = 0;
+  std::map<std::string_view, double> pass_seconds_;
 };
 
 }  // namespace pliant

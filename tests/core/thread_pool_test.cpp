@@ -1,6 +1,7 @@
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -33,6 +34,17 @@ TEST_CASE("thousands of short loops follow each other, each with the body and it
     wrong += static_cast<std::uint64_t>(std::count_if(seen.begin(), seen.end(), [loop](std::uint32_t n) { return n != loop; }));
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("pools stand beside each other, and wake up after others have worked for long") {
+  ThreadPool first(2), second(2), many(64);
+  std::atomic<std::uint64_t> items = 0;
+  for (int round = 0; round < 3; ++round)
+    for (ThreadPool* pool : {&first, &second, &many})
+      pool->for_ranges(1000, 1, [&](std::uint32_t begin, std::uint32_t end) {
+        for (int k = 0; k < 1000; ++k) items += end - begin;
+      });
+  CHECK(items == 9'000'000);
 }
 
 }  // namespace

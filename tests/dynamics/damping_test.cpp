@@ -32,10 +32,11 @@ TEST_CASE("a kick back in time undoes the kick forward") {
 
 TEST_CASE("the adaptive law's rate grows with the force up to ten times c / m") {
   using namespace physics;
-  CHECK(damping_rate(damping_none, 3, 2, 50) == 0);
-  CHECK(damping_rate(damping_constant, 3, 2, 50) == 1.5);
-  CHECK(damping_rate(damping_adaptive, 3, 2, 5) == Approx(0.75));
-  CHECK(damping_rate(damping_adaptive, 3, 2, 1e9) == 15);
+  CHECK(damping_rate(damping_none, 3, 0.5, 50 * 50) == 0);
+  CHECK(damping_rate(damping_constant, 3, 0.5, 50 * 50) == 1.5);
+  CHECK(damping_rate(damping_adaptive, 3, 0.5, 5 * 5) == Approx(0.75));
+  CHECK(damping_rate(damping_adaptive, 3, 0.5, 1e18) == 15);
+  CHECK(damping_rate(damping_adaptive, 3, 0.5, 0) == 0);
 }
 
 }  // namespace

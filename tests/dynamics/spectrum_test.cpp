@@ -22,8 +22,8 @@ Eigen::MatrixXd stiffness_matrix(const Model& model) {
                                 glm::dvec3(model.rest_positions[static_cast<std::size_t>(j)]);
         glm::dvec3 move(0.0);
         move[axis] = step;
-        const glm::dvec3 change =
-            (physics64::spring_elongation(rest, move) - physics64::spring_elongation(rest, -move)) / (2 * step);
+        const auto elongation = [&](const glm::dvec3& d) { return physics64::spring_strain(rest + d, d) * (rest + d); };
+        const glm::dvec3 change = (elongation(move) - elongation(-move)) / (2 * step);
         for (int k = 0; k < 3; ++k) {
           matrix(3 * i + k, 3 * i + axis) += change[k];
           matrix(3 * i + k, 3 * j + axis) -= change[k];

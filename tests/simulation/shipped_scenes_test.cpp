@@ -53,8 +53,8 @@ PairSet pairs_by_tree(Device& device, const ModelAndState& start, const Collisio
   Collider collider(device, bodies, start.model, description);
   bodies.world_positions.upload(positions);
   bodies.clear_boxes();
-  run_passes(device, collider.bounding_passes(0));
-  run_passes(device, collider.contact_passes(0));
+  device.run(collider.bounding_passes(0));
+  device.run(collider.contact_passes(0));
   const Forest& forest = collider.forest();
   const PairSet all = as_set(intersecting_pairs(start.model, positions, description.triangle_test));
   PairSet listed;

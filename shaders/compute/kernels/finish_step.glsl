@@ -1,26 +1,43 @@
-// One thread: adds this step's counts to the run's, and moves the clock.
+// One thread a body and one a counter: empties the body's box for the next step; adds this step's count to the run's. The first one
+// moves the clock.
+#include "../physics/body.glsl"
 #include "../physics/control.glsl"
 WRITE(0, Controls, Control, control)
+WRITE(1, Frames, Frame, frame)
+PARAMETER(0, uint, body_count)
+
+void empty_box_of(uint b) {
+  for (uint k = 0u; k < 3u; ++k) {
+    frame[b].box[k] = 0xffffffffu;
+    frame[b].box[3u + k] = 0u;
+  }
+}
+
+void add_count(uint k) {
+  uint count = control[0].count[k];
+  if (k == triangle_tests) {
+    count += control[0].candidate_count;
+    control[0].candidate_count = 0u;
+  }
+  if (k == contact_pairs) {
+    if (count != 0u) control[0].contact_steps += 1u;
+    control[0].contact_pairs_max = max(control[0].contact_pairs_max, count);
+  }
+  uint sum = control[0].total_low[k] + count;
+  if (sum < count) control[0].total_high[k] += 1u;
+  control[0].total_low[k] = sum;
+  control[0].count[k] = 0u;
+}
+
+void move_clock() {
+  control[0].near_pair_count = 0u;
+  if (control[0].non_finite_step != 0u) return;
+  if (control[0].non_finite_vertex != no_vertex) control[0].non_finite_step = control[0].step;
+  control[0].step += 1u;
+}
 
 void finish_step(uint item) {
-  if (item != 0u || control[0].non_finite_step != 0u) return;
-  control[0].count[triangle_tests] += control[0].candidate_count;
-  if (control[0].non_finite_vertex != no_vertex) control[0].non_finite_step = control[0].step;
-  if (control[0].count[contact_pairs] != 0u) control[0].contact_steps += 1u;
-  control[0].contact_pairs_max = max(control[0].contact_pairs_max, control[0].count[contact_pairs]);
-  for (uint k = 0u; k < counter_count; ++k) {
-    uint before = control[0].total_low[k];
-    control[0].total_low[k] = before + control[0].count[k];
-    if (control[0].total_low[k] < before) control[0].total_high[k] += 1u;
-    control[0].count[k] = 0u;
-  }
-  control[0].turn_groups[0] = 0u;
-  control[0].refresh_groups[0] = 0u;
-  control[0].refit_groups[0] = 0u;
-  control[0].find_groups[0] = 0u;
-  control[0].test_groups[0] = 0u;
-  control[0].respond_groups[0] = 0u;
-  control[0].near_pair_count = 0u;
-  control[0].candidate_count = 0u;
-  control[0].step += 1u;
+  if (item < body_count) empty_box_of(item);
+  if (item < counter_count) add_count(item);
+  if (item == 0u) move_clock();
 }

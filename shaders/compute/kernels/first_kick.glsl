@@ -2,10 +2,10 @@
 #include "../physics/body.glsl"
 #include "../physics/damping.glsl"
 READ(0, Bodies, Body, body)
-READ(1, Frames, Frame, frame)
+WRITE(1, Frames, Frame, frame)
 READ(2, RestPositions, vec4, rest_position)
-WRITE(3, Stages, real4, stage)
-READ(4, Forces, real4, force)
+WRITE(3, Placements, real, placement)
+READ(4, Forces, double, force)
 WRITE(5, Motions, double, motion)
 PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, from_half)
@@ -13,18 +13,21 @@ PARAMETER(2, uint, damping_law)
 PARAMETER(3, double, kick_time)   // [s]
 PARAMETER(4, double, drift_time)  // [s]
 #include "parts/kick.glsl"
+#include "parts/place.glsl"
 
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
   if (frame[b].halted != 0u) return;
-  uint before = 6u * (from_half * vertex_count + i);
-  uint after = 6u * ((1u - from_half) * vertex_count + i);
-  uint reference = 6u * (from_half * vertex_count + body[b].first_vertex);
-  dvec3 u = LOAD3(motion, before);
-  dvec3 w = kicked(b, real3(force[i]), LOAD3(motion, before + 3u), kick_time);
-  dvec3 relative = (u - LOAD3(motion, reference)) + drift_time * (w - LOAD3(motion, reference + 3u));
-  dvec3 drifted = u + drift_time * w;
-  stage[i] = real4(real3(relative), 0);
-  STORE3(motion, after, drifted)
-  STORE3(motion, after + 3u, w)
+  if (i == body[b].first_vertex) frame[b].force_stale = 0u;  // refresh_force has seen to it
+  dvec3 spring_force = LOAD3(force, 3u * i);
+  uint before = 6u * (from_half * vertex_count + i), after = 6u * ((1u - from_half) * vertex_count + i);
+  uint first = 6u * (from_half * vertex_count + body[b].first_vertex);
+  for (uint k = 0u; k < 3u; ++k) {
+    double velocity = kicked(body[b], frame[b].gravity[k], force[3u * i + k], dot(spring_force, spring_force),
+                             motion[before + 3u + k], kick_time);
+    double relative = (motion[before + k] - motion[first + k]) + drift_time * (velocity - motion[first + 3u + k]);
+    place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
+    motion[after + k] = motion[before + k] + drift_time * velocity;
+    motion[after + 3u + k] = velocity;
+  }
 }

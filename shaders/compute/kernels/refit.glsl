@@ -1,22 +1,27 @@
-// One thread a leaf: its box from its triangles, then up the tree. Of two siblings the one that arrives second goes on to the
+// One thread a leaf: its box from its triangles, then up its subtree. Of two siblings the one that arrives second goes on to the
 // parent, so no thread ever waits and one dispatch refits every tree.
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
 WRITE(0, Controls, Control, control)
 READ(1, Leaves, uvec2, leaf)                  // node, body
-READ(2, Nodes, uvec4, node)                   // left child (right = left + 1; 0: a leaf), parent, first triangle, end
+READ(2, Nodes, uvec4, node)                   // left child (right = left + 1; 0: a leaf), parent or no_node, first triangle, end
 SHARED_WRITE(3, NodeBoxes, vec4, node_box)    // lower, upper of each node
 READ(4, Triangles, uint, triangle)            // three vertices each, in leaf order
 READ(5, WorldPositions, vec4, world_position)
 WRITE(6, Arrivals, uint, arrival)
 READ(7, Partners, uint, partner_step)
-PARAMETER(0, uint, leaf_count)
-PARAMETER(1, uint, first_position)
+PARAMETER(0, uint, first_position)
+
+#include "parts/box_of_triangle.glsl"
+
+Box joined(Box a, Box b) { return grow(grow(a, b.lower), b.upper); }
 
 Box box_of_triangles(uint begin, uint end) {
   Box box = empty_box();
-  for (uint corner = 3u * begin; corner < 3u * end; ++corner)
-    box = grow(box, vec3(world_position[first_position + triangle[corner]]));
+  for (uint t = begin; t < end; t += 4u) {
+    FourBoxes four = four_boxes(t, end);
+    box = joined(box, joined(joined(four.first, four.second), joined(four.third, four.fourth)));
+  }
   return box;
 }
 
@@ -33,7 +38,7 @@ Box box_of_children(uint left) {
 }
 
 void refit(uint item) {
-  if (item >= leaf_count || partner_step[leaf[item].y] != control[0].step) return;
+  if (partner_step[leaf[item].y] != control[0].step) return;
   uint n = leaf[item].x;
   store_box(n, box_of_triangles(node[n].z, node[n].w));
   uint refitted = 1u;
@@ -47,6 +52,6 @@ void refit(uint item) {
     ++refitted;
     parent = node[parent].y;
   }
-  if (parent == no_node) atomicAdd(control[0].count[trees_refitted], 1u);
+  if (item == 0u || leaf[item - 1u].y != leaf[item].y) atomicAdd(control[0].count[trees_refitted], 1u);
   atomicAdd(control[0].count[nodes_refitted], refitted);
 }

@@ -1,17 +1,30 @@
-// One thread a vertex: sums the spring forces again where a contact has moved vertices since they were kept.
+// A force kernel: sums the spring forces again where a contact has moved vertices since they were kept.
 #include "../physics/body.glsl"
 #include "../physics/forces/spring.glsl"
-READ(0, Bodies, Body, body)
+READ(0, Shares, Share, share)
 WRITE(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-READ(3, Stages, real4, stage)
-WRITE(4, Forces, real4, force)
+READ(2, PlacementsBefore, real4, placed)
+WRITE(3, Forces, double, force)
 PARAMETER(0, uint, vertex_count)
-#include "parts/net_force.glsl"
+#include "parts/force_kernel.glsl"
 
-void refresh_force(uint i) {
-  if (i >= vertex_count) return;
-  uint b = uint(rest_position[i].w);
-  if (frame[b].halted != 0u || frame[b].refresh_force == 0u) return;
-  force[i] = real4(body_spring_force(i, b, 0u), 0);
+bool runs(IN(Share) s) { return !halted(s) && frame[s.body_index].force_stale != 0u; }
+uint placement_slot() { return start_slot; }
+
+struct Pending {
+  bool nothing;
+};
+
+Pending before_force(uint i, uint k, IN(Share) s) {
+  Pending p;
+  p.nothing = true;
+  return p;
 }
+
+double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
+  force[3u * i + k] = spring_force;
+  return double(0);
+}
+
+bool settles() { return false; }
+void settle(uint i, uint k, IN(Share) s, IN(dvec3) position) {}

@@ -1,19 +1,24 @@
-// One thread a vertex, where any triangles touch: a vertex in contact goes back to where the step began, bit for bit, and its
-// velocity is reversed and scaled (the paper's response).
+// One thread a vertex: a vertex in contact goes back to where the step began, bit for bit, and its velocity is reversed and
+// scaled (the paper's response).
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 WRITE(0, Controls, Control, control)
-READ(1, RestPositions, vec4, rest_position)
-READ(2, Marks, uint, mark)
-WRITE(3, Frames, Frame, frame)
-WRITE(4, Motions, double, motion)
-WRITE(5, WorldPositions, vec4, world_position)
+READ(1, Bodies, Body, body)
+WRITE(2, Frames, Frame, frame)
+READ(3, RestPositions, vec4, rest_position)
+READ(4, Marks, uint, mark)
+WRITE(5, Placements, real, placement)
+WRITE(6, Motions, double, motion)
+WRITE(7, WorldPositions, vec4, world_position)
 PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, from_half)
 PARAMETER(2, double, elasticity)
+#include "parts/place.glsl"
 
 void respond(uint i) {
-  if (i >= vertex_count || mark[i] != control[0].step) return;
+  if (mark[i] != control[0].step) return;
+  uint b = uint(rest_position[i].w);
+  if (frame[b].halted != 0u) return;
   uint before = from_half * vertex_count + i;
   uint after = (1u - from_half) * vertex_count + i;
   dvec3 displacement = LOAD3(motion, 6u * before);
@@ -21,6 +26,9 @@ void respond(uint i) {
   STORE3(motion, 6u * after, displacement)
   STORE3(motion, 6u * after + 3u, velocity)
   world_position[after] = world_position[before];
-  ATOMIC_STORE(frame[uint(rest_position[i].w)].force_stale, 1u);
+  for (uint k = 0u; k < 3u; ++k)
+    place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - frame[b].reference[k]);
+  ATOMIC_STORE(frame[b].force_stale, 1u);
+  ATOMIC_STORE(frame[b].deformed, 1u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }

@@ -1,61 +1,89 @@
-// One thread a vertex, once a stage: the acceleration at this stage, then the position of the next stage, or the step's end.
+// A force kernel, once a stage: the acceleration at this stage, then the placement for the next stage, or the step's end.
 // Second-order form: with abar = A A and bbar = b A, x_s = x + c_s h v + h^2 sum abar_sj a_j, so only accelerations are kept.
 #include "../physics/body.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
-READ(0, Bodies, Body, body)
+READ(0, Shares, Share, share)
 WRITE(1, Frames, Frame, frame)
 READ(2, RestPositions, vec4, rest_position)
-WRITE(3, Stages, real4, stage)                  // two halves of vertex_count: read one, write the other
-WRITE(4, Accelerations, double, acceleration)   // [stage][vertex][3]; a stage's velocity stands there until its acceleration does
-WRITE(5, Motions, double, motion)               // two halves: the state before the step and after it
-WRITE(6, WorldPositions, vec4, world_position)  // two halves likewise
-READ(7, Tableau, double, tableau)               // rows 1 to stage_count: c_s, then abar_sj and a_sj in turn; the last row: 1, bbar_j, b_j
+READ(3, PlacementsBefore, real4, placed)        // the slots that are read: readable only, which GPUs cache better
+WRITE(4, Placements, real, placement)
+WRITE(5, Accelerations, double, acceleration)   // [stage][vertex][3]; a stage's velocity stands there until its acceleration does
+WRITE(6, Motions, double, motion)               // two halves: the state before the step and after it
+WRITE(7, WorldPositions, float, world_position)  // two halves likewise
+CONSTANTS(8, Tableau, dvec2, tableau, tableau_size)  // a row for each next stage, the last for the end: see next_row()
 PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, from_half)
 PARAMETER(2, uint, damping_law)
 PARAMETER(3, uint, stage_index)
 PARAMETER(4, uint, stage_count)
 PARAMETER(5, double, time_step)
-#include "parts/net_force.glsl"
+#include "parts/force_kernel.glsl"
+#include "parts/place.glsl"
 #include "parts/end_step.glsl"
 
-dvec3 stage_acceleration(uint i, uint b) {
-  uint at = 3u * (stage_index * vertex_count + i);
-  dvec3 net_force = dvec3(body_spring_force(i, b, (stage_index & 1u) * vertex_count));
-  dvec3 result = net_force / body[b].vertex_mass + LOAD3(frame[b].gravity, 0u);
-  if (damping_law != damping_none)
-    result -= damping_rate(damping_law, body[b].damping, body[b].vertex_mass, length(net_force)) * LOAD3(acceleration, at);
-  STORE3(acceleration, at, result)
-  return result;
+bool runs(IN(Share) s) { return !halted(s); }
+uint placement_slot() { return stage_index == 0u ? start_slot : stage_index & 1u; }
+
+bool is_last() { return stage_index + 1u == stage_count; }
+
+// All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
+struct Pending {
+  double rest;
+  double gravity;
+  double stage_velocity;   // at this stage
+  double displacement;     // for the next stage, or at the end; position_weight a is missing
+  double velocity;         // likewise
+  double reference;        // that the next placement is relative to
+  double position_weight;  // [s^2]
+  double velocity_weight;  // [s]
+};
+
+// The row of the stage that comes next: its c; then weights for position (h^2) and velocity (h), this stage's first, then those of
+// earlier stages in turn, with zeros up to a multiple of four.
+uint next_row() { return stage_index * (2u + ((stage_count + 3u) & ~3u)); }
+uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
+
+// Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
+double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
+dvec2 weights(uint j) { return tableau[next_row() + 2u + j]; }
+
+Pending before_force(uint i, uint k, IN(Share) s) {
+  dvec2 sums = dvec2(0);  // for position and velocity
+  for (uint j = 0u; j < stage_index; j += 4u) {
+    double a = earlier(i, k, j), b = earlier(i, k, j + 1u), c = earlier(i, k, j + 2u), d = earlier(i, k, j + 3u);
+    sums += (a * weights(j) + b * weights(j + 1u)) + (c * weights(j + 2u) + d * weights(j + 3u));
+  }
+  uint before = 6u * (from_half * vertex_count + i) + k, first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
+  double elapsed = tableau[next_row()].x * time_step;
+  Pending p;
+  p.rest = double(rest_position[i][int(k)]);
+  p.gravity = frame[s.body_index].gravity[k];
+  p.stage_velocity = motion[before + 3u];
+  if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
+  p.displacement = motion[before] + elapsed * motion[before + 3u] + (time_step * time_step) * sums.x;
+  p.velocity = motion[before + 3u] + time_step * sums.y;
+  p.reference = motion[first] + elapsed * motion[first + 3u];
+  p.position_weight = time_step * time_step * tableau[next_row() + 1u].x;
+  p.velocity_weight = time_step * tableau[next_row() + 1u].y;
+  return p;
 }
 
-void runge_kutta_stage(uint i) {
-  uint b = uint(rest_position[i].w);
-  if (frame[b].halted != 0u) return;
-  stage_acceleration(i, b);
-  bool last = stage_index + 1u == stage_count;
-  bool needs_velocity = last || damping_law != damping_none;
-  uint row = (stage_index + 1u) * (1u + 2u * stage_count);
-  dvec3 position_sum = dvec3(0);
-  dvec3 velocity_sum = dvec3(0);
-  for (uint j = 0u; j <= stage_index; ++j) {
-    dvec3 a = LOAD3(acceleration, 3u * (j * vertex_count + i));
-    position_sum += tableau[row + 1u + 2u * j] * a;
-    if (needs_velocity) velocity_sum += tableau[row + 2u + 2u * j] * a;
-  }
-  uint before = 6u * (from_half * vertex_count + i);
-  dvec3 u = LOAD3(motion, before);
-  dvec3 w = LOAD3(motion, before + 3u);
-  dvec3 push = (time_step * time_step) * position_sum;
-  dvec3 velocity = w + time_step * velocity_sum;
-  if (last) {
-    end_step(i, b, u + time_step * w + push, velocity);
-    return;
-  }
-  uint reference = 6u * (from_half * vertex_count + body[b].first_vertex);
-  double elapsed = tableau[row] * time_step;
-  dvec3 relative = (u - LOAD3(motion, reference)) + elapsed * (w - LOAD3(motion, reference + 3u)) + push;
-  stage[((stage_index + 1u) & 1u) * vertex_count + i] = real4(real3(relative), 0);
-  if (needs_velocity) STORE3(acceleration, 3u * ((stage_index + 1u) * vertex_count + i), velocity)
+double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
+  double a = spring_force * s.body.inverse_mass + p.gravity;
+  if (damping_law != damping_none)
+    a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;
+  acceleration[accelerations_of(stage_index, i) + k] = a;
+  double displacement = p.displacement + p.position_weight * a;
+  double velocity = p.velocity + p.velocity_weight * a;
+  place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
+  if (is_last())
+    end_step(i, k, s, displacement, velocity, p.reference);
+  else if (damping_law != damping_none)
+    acceleration[accelerations_of(stage_index + 1u, i) + k] = velocity;
+  return p.rest + displacement;
 }
+
+bool settles() { return is_last(); }
+void settle(uint i, uint k, IN(Share) s, IN(dvec3) position) { end_in_world(i, k, s.body_index, position); }

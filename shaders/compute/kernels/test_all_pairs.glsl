@@ -10,17 +10,18 @@ READ(2, Nodes, uvec4, node)
 READ(3, Triangles, uint, triangle)
 READ(4, WorldPositions, vec4, world_position)
 WRITE(5, Marks, uint, mark)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, first_position)
-PARAMETER(2, uint, triangle_test)
-PARAMETER(3, uint, threads_per_pair)
+READ(6, Trees, uvec2, tree)
+PARAMETER(0, uint, first_position)
+PARAMETER(1, uint, triangle_test)
+PARAMETER(2, uint, threads_per_pair)
+PARAMETER(3, uint, pairs_at_once)
 #include "parts/box_of_triangle.glsl"
 #include "parts/mark_contact.glsl"
 
 void test_all_pairs(uint item) {
-  for (uint k = item / threads_per_pair; k < control[0].near_pair_count; k += pairs_at_once(threads_per_pair)) {
-    uvec4 first = node[near_pair[k].x];
-    uvec4 second = node[near_pair[k].y];
+  for (uint k = item / threads_per_pair; k < control[0].near_pair_count; k += pairs_at_once) {
+    uvec4 first = node[tree[near_pair[k].x].x];
+    uvec4 second = node[tree[near_pair[k].y].x];
     uint s = first.z + item % threads_per_pair;
     if (s >= first.w) continue;
     Box box = box_of_triangle(s);

@@ -6,11 +6,21 @@
 SHARED_BEGIN
 
 struct Body {
-  double stiffness;    // k of every pair's spring [N/m]
-  double vertex_mass;  // [kg]
-  double damping;      // c [kg/s]
+  double inverse_unit;  // [1/m]; forces are summed with lengths in a unit of the body's own, a power of two near its radius
+  double unit_force;    // of a spring that is one unit too long: k times the unit [N]
+  double inverse_mass;  // of a vertex [1/kg]
+  double damping;       // c [kg/s]
   uint first_vertex;
   uint vertex_count;
+};
+
+// Some vertices of one body: what one work group of a force kernel serves.
+struct Share {
+  Body body;
+  uint body_index;
+  uint first_vertex;  // of the share
+  uint vertex_count;
+  uint padding;
 };
 
 // A vertex stands at world position = origin + R (X + u): X the rest position, u the displacement in the body's frame.
@@ -22,21 +32,40 @@ struct Frame {
   double gravity[3];     // the scene's gravity in this frame [m/s^2]
   double turn[9];        // the latest change of frame, R_old = R_new turn, row by row
   double shift[3];       // ... and what it subtracts from every turned position [m]
-  uint turned;             // 1: this step began with a change of frame
+  double reference[3];   // the displacement that those at the next step's start are relative to [m]
+  uint box[6];             // of the world positions at the step's end: lower and upper corner, as ordered bits
+  uint non_finite_vertex;  // the body's first one at the step's end, or no_vertex
+  uint turned;             // 1: this step ends with a change of frame
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
-  uint refresh_force;      // 1: this step begins with a new sum of them
   uint force_evaluations;  // sums over all pairs of the body, so far
   uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
-  uint halted;             // 1: an earlier step went non-finite; nothing moves any more
-  uint padding;
+  uint frame_changes;      // so far
+  uint halted;             // 1: a step went non-finite; nothing moves any more
 };
 
+const uint tableau_size = 1024u;  // room for 27 stages
+
+const uint no_vertex = 0xffffffffu;
+
+// Placements, where forces are taken, have three slots of all vertices: stages use the first two in turn.
+const uint start_slot = 2u;  // the step's start, from the end of the step before
+const uint slot_count = 3u;
+
+// Where a vertex's position stands among the placements, and its displacement.
+FN uint position_at(uint slot, uint vertex_count, uint i) { return 2u * slot * vertex_count + i; }
+FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (2u * slot + 1u) * vertex_count + i; }
+
+// A row of a matrix times p.
+FN double row_times(double x, double y, double z, IN(dvec3) p) {
+  EXACT double sum = (x * p.x + y * p.y) + z * p.z;
+  return sum;
+}
+
 FN dvec3 rotate(IN(Frame) frame, dvec3 p) {
-  EXACT dvec3 q = dvec3((frame.rotation[0] * p.x + frame.rotation[1] * p.y) + frame.rotation[2] * p.z,
-                        (frame.rotation[3] * p.x + frame.rotation[4] * p.y) + frame.rotation[5] * p.z,
-                        (frame.rotation[6] * p.x + frame.rotation[7] * p.y) + frame.rotation[8] * p.z);
-  return q;
+  return dvec3(row_times(frame.rotation[0], frame.rotation[1], frame.rotation[2], p),
+               row_times(frame.rotation[3], frame.rotation[4], frame.rotation[5], p),
+               row_times(frame.rotation[6], frame.rotation[7], frame.rotation[8], p));
 }
 
 FN dvec3 to_world(IN(Frame) frame, dvec3 p) {

@@ -1,4 +1,4 @@
-// The simulation's clock, its counters and the sizes of the dispatches that depend on what earlier passes found.
+// The simulation's clock and its counters.
 #ifndef CONTROL_GLSL
 #define CONTROL_GLSL
 #include "language.glsl"
@@ -9,10 +9,7 @@ const uint certified_test = 0u;
 const uint moller_test = 1u;
 
 const uint group_size = 64u;  // threads in a work group of every kernel
-const uint descent_depth = 4u;    // find_pairs begins at the nodes of this depth:
-const uint descent_threads = 256u;  // 16 of one tree with 16 of the other
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
-const uint no_vertex = 0xffffffffu;
 const uint no_node = 0xffffffffu;  // parent of a root; root of a body without triangles
 
 // What is counted in each step and summed over the run.
@@ -24,9 +21,8 @@ const uint reverted_vertices = 4u;
 const uint body_pairs_near = 5u;
 const uint body_pairs_skipped = 6u;  // root boxes apart: no tree work
 const uint trees_refitted = 7u;      // a body without a partner keeps its old boxes
-const uint frame_changes = 8u;
-const uint pairs_beyond_capacity = 9u;  // tested by the thread that found them, for want of room
-const uint counter_count = 10u;
+const uint pairs_beyond_capacity = 8u;  // tested by the thread that found them, for want of room
+const uint counter_count = 9u;
 
 struct Control {
   uint step;               // the step being made, from 1
@@ -36,19 +32,10 @@ struct Control {
   uint contact_pairs_max;  // most triangle pairs in one step
   uint near_pair_count;    // body pairs whose boxes overlap, this step
   uint candidate_count;    // triangle pairs to test, this step; may pass the list's capacity
-  uint turn_groups[3];     // indirect dispatch sizes: change_frame
-  uint refresh_groups[3];  // refresh_force
-  uint refit_groups[3];    // refit
-  uint find_groups[3];     // find_pairs, or test_all_pairs
-  uint test_groups[3];     // test_pairs
-  uint respond_groups[3];  // respond
   uint count[counter_count];       // this step's, by the names above
   uint total_low[counter_count];   // of all steps before: 64 bits in two halves
   uint total_high[counter_count];
 };
-
-// Of near body pairs, how many one dispatch serves; its threads go on to later ones in strides of this.
-FN uint pairs_at_once(uint threads_per_pair) { return max_groups / (threads_per_pair / group_size); }
 
 FN uint groups_for(uint item_count) { return (item_count + group_size - 1u) / group_size; }
 

@@ -16,25 +16,29 @@
   namespace pliant::physics {}
   #if defined(REAL_BITS) && REAL_BITS == 64
     #define REAL_NAMESPACE pliant::physics64
-    namespace pliant::physics64 { using namespace pliant::physics; using real = double; }
+    namespace pliant::physics64 { using namespace pliant::physics; using real = double; inline constexpr real real_epsilon = 0x1p-52; }
   #else
     #define REAL_NAMESPACE pliant::physics32
-    namespace pliant::physics32 { using namespace pliant::physics; using real = float; }
+    namespace pliant::physics32 { using namespace pliant::physics; using real = float; inline constexpr real real_epsilon = 0x1p-23f; }
   #endif
   #define REAL_BEGIN namespace REAL_NAMESPACE { using real3 = glm::vec<3, real>; using real4 = glm::vec<4, real>;
   #define REAL_END }
   #define FN inline
   #define IN(T) const T&
   #define OUT(T) T&
+  #define INOUT(T) T&
   #define IN_ARRAY(T, name, n) const T (&name)[n]
   #define EXACT
+  #define FUSED(a, b, c) ((a) * (b) + (c))
   #define READ(slot, block, T, name) const T* const name = arguments.read<T>(slot);
   #define WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
   #define SHARED_WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
+  #define CONSTANTS(slot, block, T, name, count) const T* const name = arguments.read<T>(slot);
   #define PARAMETER(slot, T, name) const T name = arguments.parameter<T>(slot);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
 #else
   #define real float
+  #define real_epsilon 1.1920929e-7  // 2^-23
   #define real3 vec3
   #define real4 vec4
   #define SHARED_BEGIN
@@ -44,11 +48,14 @@
   #define FN
   #define IN(T) in T
   #define OUT(T) out T
+  #define INOUT(T) inout T
   #define IN_ARRAY(T, name, n) in T name[n]
   #define EXACT precise                 // every operation rounds by itself, in the order written
+  #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
   #define READ(slot, block, T, name) layout(std430, binding = slot) readonly buffer block { T name[]; };
   #define WRITE(slot, block, T, name) layout(std430, binding = slot) buffer block { T name[]; };
   #define SHARED_WRITE(slot, block, T, name) layout(std430, binding = slot) coherent buffer block { T name[]; };
+  #define CONSTANTS(slot, block, T, name, count) layout(std140, binding = slot) uniform block { T name[count]; };
   #define PARAMETER(slot, T, name) layout(location = slot) uniform T name;
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
 #endif
@@ -64,8 +71,8 @@
 
 SHARED_BEGIN
 #ifdef __cplusplus
-using glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec3;
-using glm::abs, glm::cross, glm::dot, glm::length, glm::max, glm::min;
+using glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec2, glm::dvec3;
+using glm::abs, glm::cross, glm::dot, glm::inversesqrt, glm::length, glm::max, glm::min;
 using std::abs, std::sqrt;
 FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }  // glm's branches on every sign
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
@@ -85,6 +92,7 @@ FN uint atomicMax(uint& target, uint value) {
   return before;
 }
 FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
+FN int bitCount(uint bits) { return std::popcount(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 #endif

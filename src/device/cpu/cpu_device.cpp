@@ -1,13 +1,18 @@
 // The CPU as a device: buffers are heap memory, kernels are functions over ranges of items.
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <unordered_map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/thread_pool.hpp"
 #include "device/cpu/kernel_arguments.hpp"
+#include "device/cpu/spring_sums.hpp"
 #include "device/device.hpp"
 #include "physics/control.glsl"
 
@@ -21,11 +26,26 @@ std::string processor_name() {
   return "CPU";
 }
 
+// What the bits of fp32 and fp64 sums depend on.
+std::string title_of(cpu::Isa isa) {
+  constexpr std::array<std::string_view, 3> titles{"baseline vectors", "AVX2", "AVX-512"};
+  return std::string(titles[static_cast<std::size_t>(isa)]);
+}
+
+constexpr std::uint32_t whole_bodies = 0xffffffffu;
+
 class CpuDevice final : public Device {
  public:
   CpuDevice(unsigned threads, int precision)
       : pool_(threads), precision_(precision), kernels_(precision == 64 ? cpu::kernels_64() : cpu::kernels_32()) {
-    info_ = {.kind = "cpu", .name = processor_name(), .threads = pool_.size()};
+    for (const cpu::Isa isa : cpu::available_isas()) {
+      variants_.push_back({std::string(cpu::name_of(isa)), whole_bodies});
+      if (precision == 64)
+        sums_64_.emplace_back(isa);
+      else
+        sums_32_.emplace_back(isa);
+    }
+    info_ = {.kind = "cpu", .name = processor_name() + ", " + title_of(cpu::available_isas().back()), .threads = pool_.size()};
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -55,26 +75,107 @@ class CpuDevice final : public Device {
     throw Error(ErrorKind::device, std::string(name), "no such kernel on the CPU", "");
   }
 
-  void run(const KernelCall& call, std::uint32_t item_count) override {
+  KernelId force_kernel(std::string_view name, std::size_t variant) override {
+    return kernel(name) + static_cast<KernelId>(variant * kernels_.size());
+  }
+  std::span<const ForceVariant> force_variants() const override { return variants_; }
+  std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
+
+  void run(std::span<const Pass> passes) override {
+    for (const Pass& pass : passes) run(pass.call, pass.item_count);
+  }
+  void run(const KernelCall& call, std::uint32_t item_count) {
     cpu::KernelArguments arguments;
     arguments.parameters = &call.parameters;
     for (std::size_t slot = 0; slot < max_buffers; ++slot)
       if (call.buffers[slot] != 0) arguments.buffers[slot] = bytes_of(call.buffers[slot]);
-    const cpu::KernelFunction function = kernels_[call.kernel].function;
-    pool_.for_ranges(item_count, 16, [&](std::uint32_t first, std::uint32_t end) { function(arguments, first, end); });
+    const cpu::KernelEntry& entry = kernels_[call.kernel % kernels_.size()];
+    if (entry.function == nullptr) {
+      run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
+      return;
+    }
+    pool_.for_ranges(item_count, entry.grain,
+                     [&](std::uint32_t first, std::uint32_t end) { entry.function(arguments, first, end); });
   }
-  void run_indirect(const KernelCall& call, BufferId group_counts, std::size_t first_byte) override {
-    std::uint32_t groups = 0;
-    read(group_counts, first_byte, std::as_writable_bytes(std::span(&groups, 1)));
-    run(call, groups * physics::group_size);
-  }
+  std::uint32_t parallel_items() const override { return 256; }
   void finish() override {}
+  void mark_time() override {
+    times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
+  }
+  std::vector<double> take_times() override { return std::exchange(times_, {}); }
 
  private:
   struct alignas(64) Line {
     std::byte bytes[64];
   };
   using Storage = std::vector<Line>;
+
+  // Vertices `first` to `end` - 1 of a share.
+  struct Range {
+    std::uint32_t share, first, end;
+  };
+
+  void run_forces(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
+                  std::uint32_t share_count) {
+    tasks_.clear();
+    std::size_t vertex_count = 0;
+    for (std::uint32_t share = 0; share < share_count; ++share) {
+      tasks_.push_back(force.task(arguments, share));
+      vertex_count += tasks_.back().vertex_count;
+    }
+    sums_.assign(vertex_count, glm::dvec3(0.0));
+    if (variant == 0)
+      sum_plainly();
+    else if (precision_ == 64)
+      sum_in_vectors(sums_64_[variant - 1]);
+    else
+      sum_in_vectors(sums_32_[variant - 1]);
+    finish_forces(force, arguments);
+  }
+
+  // Calls with every share that runs, and its sums.
+  template <class F>
+  void for_shares(F&& visit) {
+    glm::dvec3* sums = sums_.data();
+    for (std::uint32_t share = 0; share < tasks_.size(); sums += tasks_[share++].vertex_count)
+      if (tasks_[share].runs) visit(share, tasks_[share], sums);
+  }
+
+  void sum_plainly() {
+    for_shares([&](std::uint32_t, const cpu::ShareTask& task, glm::dvec3* sums) {
+      const cpu::PlainSum sum = precision_ == 64 ? cpu::sum_plainly_64 : cpu::sum_plainly_32;
+      if (!task.deformed) return;
+      pool_.for_ranges(task.vertex_count, 16, [&](std::uint32_t first, std::uint32_t end) { sum(task, sums, first, end); });
+    });
+  }
+
+  template <class Real>
+  void sum_in_vectors(cpu::SpringSums<Real>& spring_sums) {
+    std::vector<cpu::SpringBody<Real>> bodies;
+    for_shares([&](std::uint32_t, const cpu::ShareTask& task, glm::dvec3* sums) {
+      if (task.deformed)
+        bodies.push_back({static_cast<const glm::vec<4, Real>*>(task.positions),
+                          static_cast<const glm::vec<4, Real>*>(task.displacements), task.vertex_count, sums});
+    });
+    spring_sums.sum(pool_, bodies);
+  }
+
+  void finish_forces(const cpu::ForceFunctions& force, const cpu::KernelArguments& arguments) {
+    constexpr std::uint32_t range_length = 64;
+    ranges_.clear();
+    share_sums_.assign(tasks_.size(), nullptr);
+    for_shares([&](std::uint32_t share, const cpu::ShareTask& task, const glm::dvec3* sums) {
+      share_sums_[share] = sums;
+      for (std::uint32_t first = 0; first < task.vertex_count; first += range_length)
+        ranges_.push_back({share, first, std::min(first + range_length, task.vertex_count)});
+    });
+    pool_.for_ranges(static_cast<std::uint32_t>(ranges_.size()), 2, [&](std::uint32_t first, std::uint32_t end) {
+      for (; first < end; ++first) {
+        const Range& range = ranges_[first];
+        force.finish(arguments, range.share, share_sums_[range.share], range.first, range.end);
+      }
+    });
+  }
 
   std::byte* bytes_of(BufferId buffer) {
     const auto found = buffers_.find(buffer);
@@ -86,6 +187,14 @@ class CpuDevice final : public Device {
   int precision_;
   std::span<const cpu::KernelEntry> kernels_;
   DeviceInfo info_;
+  std::vector<ForceVariant> variants_{{"plain", whole_bodies}};
+  std::vector<cpu::SpringSums<float>> sums_32_;  // one an instruction set, in the precision of this device alone
+  std::vector<cpu::SpringSums<double>> sums_64_;
+  std::vector<cpu::ShareTask> tasks_;  // of the shares of the force kernel that runs
+  std::vector<glm::dvec3> sums_;       // of all their vertices
+  std::vector<const glm::dvec3*> share_sums_;
+  std::vector<Range> ranges_;
+  std::vector<double> times_;
   std::unordered_map<BufferId, Storage> buffers_;
   BufferId next_buffer_ = 1;
 };

@@ -1,6 +1,7 @@
 // OpenGL compute as a device: buffers are SSBOs, kernels are programs made of shaders/compute/main.comp around the kernel's file.
 #include "device/gpu/gpu_device.hpp"
 
+#include <fmt/format.h>
 #include <glad/gl.h>
 
 #include <unordered_map>
@@ -13,12 +14,29 @@ namespace pliant {
 namespace {
 
 constexpr GLint item_count_location = 8;
+constexpr std::size_t constants_slot = 8;
+
+// How force.comp cuts its work.
+struct Lanes {
+  std::uint32_t lanes, vertices, teams, unroll;
+  std::uint32_t most_vertices;  // of all bodies together, up to which this is the fastest
+
+  std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
+};
+// The first is for processors that run shaders. The others were measured on an H200: few vertices need many lanes each, and where
+// there are many a lane serves several with what it loads. Small groups do worse: the compiler then takes so many registers a
+// thread that few of them fit.
+constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 0},           {64, 1, 10, 4, 2600}, {64, 2, 10, 3, 12000},
+                                  {64, 4, 7, 3, 0xffffffffu}, {128, 4, 3, 2, 0},    {128, 4, 1, 2, 0}};
 
 class GpuDevice final : public Device {
  public:
   explicit GpuDevice(int index) : context_(index) {
     const gl::Adapter& adapter = context_.adapter();
     info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
+    for (const Lanes& choice : lane_choices)
+      variants_.push_back({fmt::format("{} x {} lanes, {} vertices", choice.teams, choice.lanes, choice.vertices),
+                           choice.teams * choice.vertices});
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -45,39 +63,67 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override {
+    return build(std::string(name), "compute/main.comp",
+                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+  }
+  KernelId force_kernel(std::string_view name, std::size_t variant) override {
+    const Lanes& lanes = lane_choices[variant];
+    return build(fmt::format("{}, {}", name, variants_[variant].name), "compute/force.comp",
+                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
+                  {"LANES", std::to_string(lanes.lanes)},
+                  {"VERTICES", std::to_string(lanes.vertices)},
+                  {"TEAMS", std::to_string(lanes.teams)},
+                  {"KEEPERS", std::to_string(lanes.keepers())},
+                  {"UNROLL", std::to_string(lanes.unroll)}});
+  }
+  std::span<const ForceVariant> force_variants() const override { return variants_; }
+  std::size_t best_force_variant(std::uint32_t vertex_count) const override {
+    if (context_.adapter().is_software) return 0;
+    std::size_t best = 1;
+    while (vertex_count > lane_choices[best].most_vertices) ++best;
+    return best;
+  }
+
+  void run(std::span<const Pass> passes) override {
+    bound_.fill(0);  // others may have bound theirs since
+    for (const Pass& pass : passes) dispatch(pass);
+  }
+  std::uint32_t parallel_items() const override { return context_.adapter().is_software ? 256 : 65536; }
+  void finish() override { glFinish(); }
+  void mark_time() override {
+    glGenQueries(1, &marks_.emplace_back());
+    glQueryCounter(marks_.back(), GL_TIMESTAMP);
+  }
+  std::vector<double> take_times() override {
+    std::vector<double> times;
+    for (const GLuint mark : marks_) {
+      GLuint64 nanoseconds = 0;
+      glGetQueryObjectui64v(mark, GL_QUERY_RESULT, &nanoseconds);
+      times.push_back(1e-9 * static_cast<double>(nanoseconds));
+    }
+    glDeleteQueries(static_cast<GLsizei>(marks_.size()), marks_.data());
+    marks_.clear();
+    return times;
+  }
+
+ private:
+  struct Kernel {
+    std::string name;
+    bool items_are_groups;
+    gl::Program program;
+    std::array<bool, max_parameters + 1> parameter_exists;
+    std::array<Parameter, max_parameters + 1> parameters;  // as last set; program uniforms start as zero
+  };
+
+  KernelId build(const std::string& name, std::string_view frame, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
-    const gl::Define defines[] = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}};
-    Kernel made{std::string(name), gl::Program::compute("compute/main.comp", defines), {}, {}};
+    Kernel made{name, frame == "compute/force.comp", gl::Program::compute(frame, defines), {}, {}};
     made.parameter_exists[max_parameters] = true;
     for (std::size_t slot = 0; slot < max_parameters; ++slot) made.parameter_exists[slot] = has_location(made.program.id(), slot);
     kernels_.push_back(std::move(made));
     return static_cast<KernelId>(kernels_.size() - 1);
   }
-
-  void run(const KernelCall& call, std::uint32_t item_count) override {
-    if (item_count == 0) return;
-    const std::uint32_t groups = physics::groups_for(item_count);
-    const std::uint32_t rows = (groups + physics::max_groups - 1) / physics::max_groups;
-    prepare(call, item_count);
-    glDispatchCompute(std::min(groups, physics::max_groups), rows, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  }
-  void run_indirect(const KernelCall& call, BufferId group_counts, std::size_t first_byte) override {
-    prepare(call, 0xffffffffu);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, storage(group_counts).id());
-    glDispatchComputeIndirect(static_cast<GLintptr>(first_byte));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-  }
-  void finish() override { glFinish(); }
-
- private:
-  struct Kernel {
-    std::string name;
-    gl::Program program;
-    std::array<bool, max_parameters + 1> parameter_exists;
-    std::array<Parameter, max_parameters + 1> parameters;  // as last set; program uniforms start as zero
-  };
 
   static bool has_location(GLuint program, std::size_t slot) {
     GLint count = 0;
@@ -93,12 +139,27 @@ class GpuDevice final : public Device {
 
   const gl::Buffer& storage(BufferId buffer) const { return buffers_.at(buffer); }
 
+  void dispatch(const Pass& pass) {
+    if (pass.item_count == 0) return;
+    const std::uint32_t groups =
+        kernels_[pass.call.kernel].items_are_groups ? pass.item_count : physics::groups_for(pass.item_count);
+    const std::uint32_t rows = (groups + physics::max_groups - 1) / physics::max_groups;
+    prepare(pass.call, pass.item_count);
+    glDispatchCompute(std::min(groups, physics::max_groups), rows, 1);
+    if (!pass.beside_next) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void bind(std::size_t slot, BufferId buffer) {
+    if (buffer == 0 || bound_[slot] == buffer) return;
+    bound_[slot] = buffer;
+    glBindBufferBase(slot == constants_slot ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot),
+                     gl_buffer(buffer));
+  }
+
   void prepare(const KernelCall& call, std::uint32_t item_count) {
     Kernel& kernel = kernels_[call.kernel];
     glUseProgram(kernel.program.id());
-    for (std::size_t slot = 0; slot < max_buffers; ++slot)
-      if (call.buffers[slot] != 0)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(call.buffers[slot]));
+    for (std::size_t slot = 0; slot < max_buffers; ++slot) bind(slot, call.buffers[slot]);
     for (std::size_t slot = 0; slot < max_parameters; ++slot) set_parameter(kernel, slot, call.parameters[slot]);
     set_parameter(kernel, static_cast<std::size_t>(item_count_location), item_count);
   }
@@ -115,6 +176,9 @@ class GpuDevice final : public Device {
 
   gl::Context context_;
   DeviceInfo info_;
+  std::vector<ForceVariant> variants_;
+  std::vector<GLuint> marks_;
+  std::array<BufferId, max_buffers> bound_{};
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::vector<Kernel> kernels_;
   BufferId next_buffer_ = 1;

@@ -1,7 +1,19 @@
-// Writes the step's end: displacement and velocity in the body's frame, and the world position, rounded once.
-void end_step(uint i, uint b, dvec3 displacement, dvec3 velocity) {
+// The step's end, axis k: writes displacement and velocity in the body's frame, and what the next placement is relative to.
+#include "bound.glsl"
+void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity, double reference) {
+  uint after = 6u * ((1u - from_half) * vertex_count + i);
+  motion[after + k] = displacement;
+  motion[after + 3u + k] = velocity;
+  if (!is_finite(float(velocity))) atomicMin(frame[s.body_index].non_finite_vertex, i);
+  if (i == s.body.first_vertex) frame[s.body_index].reference[k] = reference;
+}
+
+// ... and the world position, rounded once, of a vertex that stands at `position` in the body's frame.
+void end_in_world(uint i, uint k, uint b, dvec3 position) {
+  double turned =
+      row_times(frame[b].rotation[3u * k], frame[b].rotation[3u * k + 1u], frame[b].rotation[3u * k + 2u], position);
+  EXACT double coordinate = turned + frame[b].origin[k];
   uint after = (1u - from_half) * vertex_count + i;
-  STORE3(motion, 6u * after, displacement)
-  STORE3(motion, 6u * after + 3u, velocity)
-  world_position[after] = vec4(vec3(to_world(frame[b], dvec3(vec3(rest_position[i])) + displacement)), 1);
+  world_position[4u * after + k] = float(coordinate);
+  bound(i, b, k, float(coordinate));
 }

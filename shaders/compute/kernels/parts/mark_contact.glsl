@@ -16,5 +16,4 @@ void mark_contact(uint first, uint second) {
     ATOMIC_STORE(mark[triangle[3u * second + k]], control[0].step);
   }
   atomicAdd(control[0].count[contact_pairs], 1u);
-  atomicMax(control[0].respond_groups[0], groups_for(vertex_count));
 }

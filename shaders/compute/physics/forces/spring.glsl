@@ -1,20 +1,22 @@
-// The spring between two vertices, Hooke's law: F = -k (|x| - L) x / |x| with x = b + d, b the rest vector, L = |b|, and d the
-// change of x. Written without cancellation, so that small strains keep all digits in fp32:
-//   |x|^2 - L^2 = d.(2 b + d)   and   (|x| - L) / |x| = (|x|^2 - L^2) / (|x|^2 + |x| L).
+// The spring between two vertices, Hooke's law: F = -k (|x| - L) x / |x|, with x from one vertex to the other and L = |x| at rest.
+// With d the change of x since then, written without cancellation, so that small strains keep all digits in fp32:
+//   |x|^2 - L^2 = d.(2 x - d)   and   (|x| - L) / |x| = (|x|^2 - L^2) / (|x|^2 + |x| L).
 #ifndef SPRING_GLSL
 #define SPRING_GLSL
 #include "../language.glsl"
 REAL_BEGIN
 
-// (|x| - L) x / |x| [m]: the spring's elongation as a vector, at most L long while it is compressed. Where x or b is zero and has
-// no direction it is zero; below 1e-12 L it falls to zero with x.
-FN real3 spring_elongation(real3 b, real3 d) {
-  real3 x = b + d;
-  real growth = (d.x * (b.x + x.x) + d.y * (b.y + x.y)) + d.z * (b.z + x.z);
-  real rest_squared = (b.x * b.x + b.y * b.y) + b.z * b.z;
-  real length_squared = (x.x * x.x + x.y * x.y) + x.z * x.z;  // not rest_squared + growth, which cancels under compression
-  real scale = max(length_squared + sqrt(length_squared * rest_squared), real(1e-12) * rest_squared);
-  return (growth / max(scale, real(1e-37))) * x;
+// (|x| - L) / |x|, for lengths in a unit near the body's radius. Below about real_epsilon units |x| counts as that, so vertices in
+// one place exert no force on each other. Multiply-adds are written out because a shader compiler does not form them where
+// anything later is EXACT.
+FN real spring_strain(IN(real3) x, IN(real3) d) {
+  const real two = real(2);
+  real3 e = real3(FUSED(two, x.x, -d.x), FUSED(two, x.y, -d.y), FUSED(two, x.z, -d.z));
+  real growth = FUSED(d.x, e.x, FUSED(d.y, e.y, d.z * e.z));
+  real length_squared = FUSED(x.x, x.x, FUSED(x.y, x.y, FUSED(x.z, x.z, real_epsilon * real_epsilon)));
+  const real least_square = real_epsilon * real_epsilon;
+  real product = max(length_squared * (length_squared - growth), least_square * least_square);  // |x|^2 L^2; 0 rounded where |x| >> L
+  return growth * (real(1) / FUSED(product, inversesqrt(product), length_squared));
 }
 
 REAL_END

@@ -1,0 +1,164 @@
+// The frame around a force kernel: one work group a share, of TEAMS teams. LANES threads of a team share VERTICES vertices: each takes
+// every LANES-th other vertex of the body and tries it on all of its own, so that what is loaded once serves VERTICES pairs. Lanes'
+// sums meet in shared memory. Beside them a warp of keepers, one a coordinate, loads meanwhile what else is needed, and then finishes the vertices.
+// With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
+#version 450
+#include "physics/language.glsl"
+#include "@kernel"
+
+// Copies for each of a thread's vertices. Arrays would end up in memory: compilers index them before they unroll.
+#if VERTICES == 1
+#define EACH(f) f(0)
+#elif VERTICES == 2
+#define EACH(f) f(0) f(1)
+#else
+#define EACH(f) f(0) f(1) f(2) f(3)
+#endif
+
+#if LANES == 1
+layout(local_size_x = TEAMS) in;
+#else
+const uint runs_of_lanes = 8u;
+layout(local_size_x = LANES * TEAMS + KEEPERS) in;
+shared vec3 partial_sum[VERTICES * TEAMS * LANES];  // by vertex, then lane
+#endif
+layout(location = 8) uniform uint item_count;  // shares
+
+// Kahan's summation. `excess` is what the total holds beyond the sum, by rounding.
+void add(inout vec3 total, inout vec3 excess, vec3 sum) {
+  EXACT vec3 added = sum - excess;
+  EXACT vec3 grown = total + added;
+  EXACT vec3 rounding = (grown - total) - added;
+  excess = rounding;
+  total = grown;
+}
+
+void add_spring(inout vec3 sum, vec3 x, vec3 d, float weight) {
+  float strain = weight * spring_strain(x, d);
+  sum = vec3(FUSED(strain, x.x, sum.x), FUSED(strain, x.y, sum.y), FUSED(strain, x.z, sum.z));
+}
+
+uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.vertex_count - 1u); }
+
+// Teams of one thread take neighbours together, so that their loads are neighbours too.
+#if LANES == 1
+#define PLACE(k) (team + uint(k) * TEAMS)
+#else
+#define PLACE(k) (team * VERTICES + uint(k))
+#endif
+#define OWN(k)                                                      \
+  uint own##k = base + vertex_of(s, PLACE(k));                      \
+  vec3 x##k = placed[own##k].xyz, u##k = placed[own##k + vertex_count].xyz, total##k = vec3(0), excess##k = vec3(0), sum##k;
+#define CLEAR(k) sum##k = vec3(0);
+#define PAIR(k) add_spring(sum##k, x##k - other_x, u##k - other_u, weight);
+#define CLOSE(k) add(total##k, excess##k, sum##k);
+
+// The spring to vertex j, if there is one before `stop`.
+#define WHOLE(q)                                                                                    \
+  {                                                                                                 \
+    const float weight = 1.0;                                                                       \
+    vec3 other_x = placed[j + q * LANES].xyz, other_u = placed[j + q * LANES + vertex_count].xyz;   \
+    EACH(PAIR)                                                                                      \
+  }
+#define PART(q)                                                                                     \
+  {                                                                                                 \
+    uint other = min(j + q * LANES, stop - 1u);                                                     \
+    float weight = j + q * LANES < stop ? 1.0 : 0.0;                                                \
+    vec3 other_x = placed[other].xyz, other_u = placed[other + vertex_count].xyz;                   \
+    EACH(PAIR)                                                                                      \
+  }
+#if UNROLL == 2
+#define UNROLLED(f) f(0u) f(1u)
+#elif UNROLL == 3
+#define UNROLLED(f) f(0u) f(1u) f(2u)
+#elif UNROLL == 4
+#define UNROLLED(f) f(0u) f(1u) f(2u) f(3u)
+#elif UNROLL == 6
+#define UNROLLED(f) f(0u) f(1u) f(2u) f(3u) f(4u) f(5u)
+#else
+#define UNROLLED(f) f(0u) f(1u) f(2u) f(3u) f(4u) f(5u) f(6u) f(7u)
+#endif
+
+// Sums over every LANES-th vertex of the body from `lane` on: 16 springs or so plainly, those sums by Kahan. UNROLL springs at a
+// time, so that their loads overlap; the last ones too, if need be with some left out.
+#define SUM_SPRINGS                                                                                 \
+  const uint stride = (16u + UNROLL - 1u) / UNROLL * UNROLL * LANES;                                \
+  uint end = base + s.body.first_vertex + s.body.vertex_count;                                      \
+  for (uint begin = base + s.body.first_vertex + lane; begin < end; begin += stride) {              \
+    uint stop = min(begin + stride, end), j = begin;                                                \
+    EACH(CLEAR)                                                                                     \
+    for (; j + (UNROLL - 1u) * LANES < stop; j += UNROLL * LANES) { UNROLLED(WHOLE) }               \
+    if (j < stop) { UNROLLED(PART) }                                                                \
+    EACH(CLOSE)                                                                                     \
+  }
+
+#if LANES == 1
+void finish(uint i, Share s, dvec3 force) {
+  dvec3 position;
+  for (uint k = 0u; k < 3u; ++k) position[k] = after_force(i, k, s, force[k], dot(force, force), before_force(i, k, s));
+  for (uint k = 0u; k < 3u && settles(); ++k) settle(i, k, s, position);
+}
+
+#define FINISH(k) \
+  if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * dvec3(total##k));
+void serve(Share s, uint base) {
+  const uint lane = 0u;
+  uint team = gl_LocalInvocationID.x;
+  bool sums = deformed(s);
+  if (!runs(s)) return;
+  if (team == 0u && s.first_vertex == s.body.first_vertex) count_force(s, sums);
+  EACH(OWN)
+  if (sums) { SUM_SPRINGS }
+  EACH(FINISH)
+}
+#else
+shared double settled[3 * VERTICES * TEAMS];
+
+#define STORE(k) partial_sum[PLACE(k) * LANES + lane] = total##k;
+void sum_lanes(Share s, bool sums, uint base, uint team, uint lane) {
+  EACH(OWN)
+  if (sums) { SUM_SPRINGS }
+  EACH(STORE)
+}
+
+// Adds `count` partial sums, `stride` apart.
+vec3 sum_partials(uint first, uint count, uint stride) {
+  vec3 total = vec3(0), excess = vec3(0);
+  for (uint k = 0u; k < count; ++k) add(total, excess, partial_sum[first + k * stride]);
+  return total;
+}
+
+void serve(Share s, uint base) {
+  uint thread = gl_LocalInvocationID.x;
+  uint keeper = thread - LANES * TEAMS;
+  uint place = keeper / 3u, k = keeper % 3u, i = s.first_vertex + place;
+  bool keeps = thread >= LANES * TEAMS && place < s.vertex_count;
+  bool going = runs(s), sums = deformed(s);  // both asked for before either is needed
+  Pending pending;
+  if (keeps) pending = before_force(i, k, s);
+  if (thread < LANES * TEAMS) sum_lanes(s, sums, base, thread / LANES, thread % LANES);
+  barrier();
+  if (thread < runs_of_lanes * VERTICES * TEAMS) {
+    uint first = thread / runs_of_lanes * LANES + thread % runs_of_lanes;
+    partial_sum[first] = sum_partials(first, LANES / runs_of_lanes, runs_of_lanes);
+  }
+  barrier();
+  keeps = keeps && going;
+  if (keeps) {
+    if (keeper == 0u && i == s.body.first_vertex) count_force(s, sums);
+    dvec3 force = (-s.body.unit_force) * dvec3(sum_partials(place * LANES, runs_of_lanes, 1u));
+    double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
+    settled[keeper] = after_force(i, k, s, component, dot(force, force), pending);
+  }
+  if (!settles()) return;
+  barrier();
+  if (keeps) settle(i, k, s, dvec3(settled[3u * place], settled[3u * place + 1u], settled[3u * place + 2u]));
+}
+#endif
+
+void main() {
+  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  if (group >= item_count) return;
+  Share s = share[group];
+  serve(s, position_at(placement_slot(), vertex_count, 0u));
+}

@@ -1,0 +1,127 @@
+// One thread a body, at the step's end: stops the run at a number that is not finite, and decides whether the body's frame
+// follows its rotation.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/rotation.glsl"
+WRITE(0, Controls, Control, control)
+READ(1, Bodies, Body, body)
+WRITE(2, Frames, Frame, frame)
+READ(3, RestPositions, vec4, rest_position)
+READ(4, Motions, double, motion)
+PARAMETER(0, uint, vertex_count)
+PARAMETER(1, uint, from_half)
+PARAMETER(2, uint, body_count)
+
+// Sixteen vertices, evenly spaced in the body's list, stand for it: any rotation near the body's own is good enough.
+const uint sample_count = 16u;
+
+// The samples' rest positions and where they are in the frame, relative to a point that moves with the body.
+struct Samples {
+  dvec3 rest_mean;
+  dvec3 moved_mean;
+  dvec3 correlation_x;  // sum of (moved - moved_mean) (rest - rest_mean).x; likewise y, z
+  dvec3 correlation_y;
+  dvec3 correlation_z;
+};
+
+uint sample_vertex(uint b, uint k) { return body[b].first_vertex + k * body[b].vertex_count / sample_count; }
+dvec3 sample_rest(uint b, uint k) { return dvec3(vec3(rest_position[sample_vertex(b, k)])); }
+dvec3 sample_displacement(uint b, uint k) {
+  return LOAD3(motion, 6u * ((1u - from_half) * vertex_count + sample_vertex(b, k)));
+}
+
+// Adds a sample. `moved` is relative to a point that moves with the body. Means come later.
+void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
+  s.rest_mean += rest;
+  s.moved_mean += moved;
+  s.correlation_x += rest.x * moved;
+  s.correlation_y += rest.y * moved;
+  s.correlation_z += rest.z * moved;
+}
+
+Samples take_samples(uint b, dvec3 origin) {
+  Samples s;
+  s.rest_mean = s.moved_mean = s.correlation_x = s.correlation_y = s.correlation_z = dvec3(0);
+  for (uint k = 0u; k < sample_count; k += 4u) {  // four at a time, so that their loads overlap
+    dvec3 r0 = sample_rest(b, k), r1 = sample_rest(b, k + 1u), r2 = sample_rest(b, k + 2u), r3 = sample_rest(b, k + 3u);
+    dvec3 u0 = sample_displacement(b, k), u1 = sample_displacement(b, k + 1u), u2 = sample_displacement(b, k + 2u),
+          u3 = sample_displacement(b, k + 3u);
+    add_sample(s, r0, r0 + (u0 - origin));
+    add_sample(s, r1, r1 + (u1 - origin));
+    add_sample(s, r2, r2 + (u2 - origin));
+    add_sample(s, r3, r3 + (u3 - origin));
+  }
+  s.rest_mean /= double(sample_count);
+  s.correlation_x -= s.rest_mean.x * s.moved_mean;
+  s.correlation_y -= s.rest_mean.y * s.moved_mean;
+  s.correlation_z -= s.rest_mean.z * s.moved_mean;
+  s.moved_mean /= double(sample_count);
+  return s;
+}
+
+// Mueller and others (2016), "A robust method to extract the rotational part of deformations": the turn that reduces the
+// samples' misfit to the rest shape turned by q.
+dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
+  dvec3 x = rotate_by(q, dvec3(1, 0, 0)), y = rotate_by(q, dvec3(0, 1, 0)), z = rotate_by(q, dvec3(0, 0, 1));
+  dvec3 torque = cross(x, s.correlation_x) + cross(y, s.correlation_y) + cross(z, s.correlation_z);
+  double alignment = dot(x, s.correlation_x) + dot(y, s.correlation_y) + dot(z, s.correlation_z);
+  return torque / (abs(alignment) + double(1e-30));
+}
+
+void change_frame_of(uint b, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
+  Quaternion old = quaternion(frame[b].quaternion[0], frame[b].quaternion[1], frame[b].quaternion[2], frame[b].quaternion[3]);
+  Quaternion next = normalized(product(old, q));
+  Quaternion back = conjugate(q);
+  dvec3 shift = rotate_by(back, moved_mean) - rest_mean;
+  dvec3 origin = LOAD3(frame[b].origin, 0u) + rotate_by(next, shift);
+  dvec3 gravity = rotate_by(back, LOAD3(frame[b].gravity, 0u));
+  STORE3(frame[b].origin, 0u, origin)
+  STORE3(frame[b].shift, 0u, shift)
+  STORE3(frame[b].gravity, 0u, gravity)
+  frame[b].quaternion[0] = next.x;
+  frame[b].quaternion[1] = next.y;
+  frame[b].quaternion[2] = next.z;
+  frame[b].quaternion[3] = next.w;
+  for (uint column = 0u; column < 3u; ++column) {
+    dvec3 unit = dvec3(double(column == 0u), double(column == 1u), double(column == 2u));
+    dvec3 r = rotate_by(next, unit);
+    dvec3 t = rotate_by(back, unit);
+    frame[b].rotation[column] = r.x;
+    frame[b].rotation[3u + column] = r.y;
+    frame[b].rotation[6u + column] = r.z;
+    frame[b].turn[column] = t.x;
+    frame[b].turn[3u + column] = t.y;
+    frame[b].turn[6u + column] = t.z;
+  }
+  dvec3 first = dvec3(vec3(rest_position[body[b].first_vertex]));
+  dvec3 reference = rotate_by(back, first + LOAD3(frame[b].reference, 0u)) - first - shift;
+  STORE3(frame[b].reference, 0u, reference)
+  frame[b].turned = 1u;
+  frame[b].frame_changes += 1u;
+}
+
+// The frame follows once the body has turned by more than 0.01 rad in it. Displacements then stay small against the body,
+// and their rounding to fp32 small against the strains.
+void follow_rotation(uint b) {
+  const double largest_turn = double(0.01), smallest_turn = double(1e-9);
+  dvec3 origin = LOAD3(frame[b].reference, 0u);
+  Samples samples = take_samples(b, origin);
+  Quaternion q = quaternion(double(0), double(0), double(0), double(1));
+  dvec3 turn = remaining_turn(samples, q);
+  if (!(dot(turn, turn) > largest_turn * largest_turn)) return;
+  for (uint iteration = 0u; iteration < 8u && dot(turn, turn) > smallest_turn * smallest_turn; ++iteration) {
+    Quaternion small = quaternion(turn.x / double(2), turn.y / double(2), turn.z / double(2), double(1));
+    q = normalized(product(small, q));
+    turn = remaining_turn(samples, q);
+  }
+  change_frame_of(b, q, samples.rest_mean, samples.moved_mean + origin);
+}
+
+void follow_bodies(uint b) {
+  frame[b].turned = 0u;
+  if (frame[b].halted != 0u) return;
+  if (frame[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, frame[b].non_finite_vertex);
+  for (uint other = 0u; other < body_count; ++other)
+    if (frame[other].non_finite_vertex != no_vertex) frame[b].halted = 1u;
+  if (frame[b].halted == 0u) follow_rotation(b);
+}

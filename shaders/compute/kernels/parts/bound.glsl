@@ -1,0 +1,12 @@
+// Extends the body's box by a vertex's coordinate; notes a vertex with a number that is not finite.
+// By bits, because shader compilers turn comparisons round as if there were no NaN.
+bool is_finite(float number) { return (floatBitsToUint(number) & 0x7fffffffu) <= floatBitsToUint(3.0e38f); }
+
+void bound(uint i, uint b, uint k, float coordinate) {
+  if (!is_finite(coordinate)) {
+    atomicMin(frame[b].non_finite_vertex, i);
+    return;
+  }
+  atomicMin(frame[b].box[k], ordered_bits(coordinate));
+  atomicMax(frame[b].box[3u + k], ordered_bits(coordinate));
+}

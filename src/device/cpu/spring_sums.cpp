@@ -1,0 +1,151 @@
+// A body's vertices are cut into blocks; every pair of blocks is a task that leaves its two sums in places of their own, so that
+// the order of additions depends on no thread.
+#include "device/cpu/spring_sums.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/expect.hpp"
+
+namespace pliant::cpu {
+namespace {
+
+constexpr std::uint32_t shortest_block = 256;  // block lengths are multiples: a row is a whole number of rounds of its loop
+constexpr std::uint32_t most_blocks = 32;
+constexpr std::uint32_t chunk_length = 256;
+
+constexpr std::uint32_t ratio_up(std::uint32_t count, std::uint32_t length) { return (count + length - 1) / length; }
+constexpr std::uint32_t round_up(std::uint32_t count) { return ratio_up(count, group_length) * group_length; }
+
+std::vector<Isa> find_isas() {
+  std::vector<Isa> isas{Isa::portable};
+#ifdef PLIANT_X86_TILES
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) isas.push_back(Isa::avx2);
+  if (__builtin_cpu_supports("avx512f")) isas.push_back(Isa::avx512);
+#endif
+  return isas;
+}
+
+template <class Real>
+TileFunction<Real> tile_function(Isa isa) {
+#ifdef PLIANT_X86_TILES
+  if (isa == Isa::avx512) return &sum_tile_avx512;
+  if (isa == Isa::avx2) return &sum_tile_avx2;
+#endif
+  PLIANT_EXPECT(isa == Isa::portable);
+  return &sum_tile_portable;
+}
+
+}  // namespace
+
+std::span<const Isa> available_isas() {
+  static const std::vector<Isa> isas = find_isas();
+  return isas;
+}
+
+std::string_view name_of(Isa isa) {
+  constexpr std::array<std::string_view, 3> names{"portable", "avx2", "avx512"};
+  return names[static_cast<std::size_t>(isa)];
+}
+
+template <class Real>
+SpringSums<Real>::SpringSums(Isa isa) : sum_tile_(tile_function<Real>(isa)) {
+  PLIANT_EXPECT(std::ranges::find(available_isas(), isa) != available_isas().end());
+}
+
+template <class Real>
+void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies) {
+  const auto same_size = [](const SpringBody<Real>& body, const Layout& layout) {
+    return body.vertex_count == layout.vertex_count;
+  };
+  if (!std::ranges::equal(bodies, layouts_, same_size)) plan(bodies);
+  const auto chunk_count = static_cast<std::uint32_t>(chunks_.size());
+  pool.for_ranges(chunk_count, 8, [&](std::uint32_t first, std::uint32_t end) {
+    for (; first < end; ++first) pack(bodies[chunks_[first].body], layouts_[chunks_[first].body], chunks_[first]);
+  });
+  pool.for_ranges(static_cast<std::uint32_t>(tasks_.size()), 1, [&](std::uint32_t task, std::uint32_t) { run(tasks_[task]); });
+  pool.for_ranges(chunk_count, 2, [&](std::uint32_t first, std::uint32_t end) {
+    for (; first < end; ++first) unpack(bodies[chunks_[first].body], layouts_[chunks_[first].body], chunks_[first]);
+  });
+}
+
+template <class Real>
+void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
+  layouts_.clear();
+  tasks_.clear();
+  chunks_.clear();
+  std::size_t place_count = 0, sum_count = 0;
+  for (const SpringBody<Real>& body : bodies) {
+    const std::uint32_t count = body.vertex_count;
+    const std::uint32_t length = shortest_block * std::max(ratio_up(count, shortest_block * most_blocks), 1u);
+    const auto b = static_cast<std::uint32_t>(layouts_.size());
+    layouts_.push_back({count, round_up(count), length, ratio_up(count, length), place_count, sum_count});
+    place_count += std::size_t{6} * layouts_.back().stride;
+    sum_count += std::size_t{3} * layouts_.back().block_count * layouts_.back().stride;
+    add_tasks(b);
+    for (std::uint32_t first = 0; first < count; first += chunk_length)
+      chunks_.push_back({b, first, std::min(first + chunk_length, count)});
+  }
+  places_.assign((place_count * sizeof(Real) + sizeof(Line) - 1) / sizeof(Line), Line{});
+  sums_.assign(sum_count, 0.0);
+  std::ranges::stable_sort(tasks_, std::greater(), &Task::pair_count);
+}
+
+template <class Real>
+void SpringSums<Real>::add_tasks(std::uint32_t body) {
+  const Layout& layout = layouts_[body];
+  const auto length_of = [&](std::uint32_t block) {
+    return std::uint64_t{std::min(layout.block_length, layout.vertex_count - block * layout.block_length)};
+  };
+  for (std::uint32_t row = 0; row < layout.block_count; ++row)  // the last block, which can be short, has the rows
+    for (std::uint32_t column = 0; column <= row; ++column)
+      tasks_.push_back({body, row, column, length_of(row) * length_of(column) / (row == column ? 2 : 1)});
+}
+
+template <class Real>
+void SpringSums<Real>::pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
+  Real* const position = places(layout);
+  Real* const half_displacement = position + 3 * std::size_t{layout.stride};
+  for (std::uint32_t i = chunk.first; i < chunk.end; ++i)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      position[k * std::size_t{layout.stride} + i] = body.positions[i][static_cast<int>(k)];
+      half_displacement[k * std::size_t{layout.stride} + i] = Real(0.5) * body.displacements[i][static_cast<int>(k)];
+    }
+}
+
+template <class Real>
+void SpringSums<Real>::run(const Task& task) {
+  const Layout& layout = layouts_[task.body];
+  const std::size_t vector = 3 * std::size_t{layout.stride};
+  Real* const position = places(layout);
+  Real* const half_displacement = position + vector;
+  double* const sums = sums_.data() + layout.first_sum;
+  const std::uint32_t row = task.row_block * layout.block_length, column = task.column_block * layout.block_length;
+  sum_tile_({.row_position = position + row,
+             .row_half_displacement = half_displacement + row,
+             .column_position = position + column,
+             .column_half_displacement = half_displacement + column,
+             .row_sum = sums + task.column_block * vector + row,
+             .column_sum = sums + task.row_block * vector + column,
+             .stride = layout.stride,
+             .row_count = std::min(layout.block_length, layout.vertex_count - row),
+             .column_count = std::min(layout.block_length, layout.vertex_count - column)});
+}
+
+template <class Real>
+void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
+  const std::uint32_t count = chunk.end - chunk.first;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    std::array<double, chunk_length> total{};
+    for (std::uint32_t block = 0; block < layout.block_count; ++block) {
+      const double* const sum = sums_.data() + layout.first_sum + (3 * std::size_t{block} + k) * layout.stride + chunk.first;
+      for (std::uint32_t i = 0; i < count; ++i) total[i] += sum[i];
+    }
+    for (std::uint32_t i = 0; i < count; ++i) body.sums[chunk.first + i][static_cast<int>(k)] = 4 * total[i];  // of quarters
+  }
+}
+
+template class SpringSums<float>;
+template class SpringSums<double>;
+
+}  // namespace pliant::cpu

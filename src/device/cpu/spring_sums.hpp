@@ -1,0 +1,77 @@
+// All springs of all bodies at once, in the widest vectors that the processor has and on all threads.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/thread_pool.hpp"
+#include "device/cpu/spring_tile.hpp"
+
+namespace pliant::cpu {
+
+enum class Isa { portable, avx2, avx512 };
+
+/// What this machine runs, the fastest last.
+[[nodiscard]] std::span<const Isa> available_isas();
+[[nodiscard]] std::string_view name_of(Isa isa);
+
+/// One body.
+template <class Real>
+struct SpringBody {
+  const glm::vec<4, Real>* positions;      // in a unit near the body's radius
+  const glm::vec<4, Real>* displacements;  // likewise
+  std::uint32_t vertex_count;
+  glm::dvec3* sums;  // out, one a vertex: of strain times length over its springs (physics/forces/spring.glsl) [units]
+};
+
+/// Sums springs in scratch memory of its own, some 32 numbers a vertex and direction. A vertex that is not finite makes sums of
+/// its body not finite.
+template <class Real>
+class SpringSums {
+ public:
+  /// Expects an instruction set that is available.
+  explicit SpringSums(Isa isa);
+
+  /// The same bits for any number of threads. Sums of a body add up to zero but for rounding.
+  void sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies);
+
+ private:
+  // A body in scratch. Arrays have `stride` numbers; vectors are three of them.
+  struct Layout {
+    std::uint32_t vertex_count, stride, block_length, block_count;
+    std::size_t first_place;  // of positions, then half displacements
+    std::size_t first_sum;    // of block_count vectors: the sums from the vertices of each block
+  };
+  struct Task {
+    std::uint32_t body, row_block, column_block;
+    std::uint64_t pair_count;
+  };
+  struct Chunk {
+    std::uint32_t body, first, end;  // vertices
+  };
+  struct alignas(64) Line {
+    Real numbers[64 / sizeof(Real)];
+  };
+
+  void plan(std::span<const SpringBody<Real>> bodies);
+  void add_tasks(std::uint32_t body);
+  void pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk);
+  void run(const Task& task);
+  void unpack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk);
+  [[nodiscard]] Real* places(const Layout& layout) { return places_.data()->numbers + layout.first_place; }
+
+  TileFunction<Real> sum_tile_;
+  std::vector<Layout> layouts_;
+  std::vector<Task> tasks_;    // the largest first
+  std::vector<Chunk> chunks_;  // all vertices
+  std::vector<Line> places_;
+  std::vector<double> sums_;
+};
+
+extern template class SpringSums<float>;
+extern template class SpringSums<double>;
+
+}  // namespace pliant::cpu

@@ -1,0 +1,41 @@
+// Tiles of spring forces in vectors of 16 bytes, which every processor has or the compiler takes apart.
+#include <utility>
+
+#include "device/cpu/spring_tile.hpp"
+
+#define PLIANT_INLINE inline __attribute__((always_inline))
+
+namespace pliant::cpu {
+namespace {
+
+template <class Real>
+struct Vectors;
+template <>
+struct Vectors<float> {
+  typedef float Lanes __attribute__((vector_size(16)));
+  typedef int Bits __attribute__((vector_size(16)));
+};
+template <>
+struct Vectors<double> {
+  typedef double Lanes __attribute__((vector_size(16)));
+  typedef long long Bits __attribute__((vector_size(16)));
+};
+
+template <class V>
+PLIANT_INLINE V square_root(V v) {
+  for (unsigned lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane)
+    if constexpr (sizeof(v[0]) == sizeof(float))
+      v[lane] = __builtin_sqrtf(v[lane]);
+    else
+      v[lane] = __builtin_sqrt(v[lane]);
+  return v;
+}
+
+}  // namespace
+
+#include "device/cpu/spring_tile.inc"
+
+void sum_tile_portable(const SpringTile<float>& tile) { sum_tile(tile); }
+void sum_tile_portable(const SpringTile<double>& tile) { sum_tile(tile); }
+
+}  // namespace pliant::cpu
