@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include "app/bench_command.hpp"
 #include "app/info_command.hpp"
 #include "app/run_command.hpp"
 #include "core/error.hpp"
@@ -77,6 +78,31 @@ void add_info(CLI::App& program, app::InfoOptions& options) {
   info->add_flag("--integrators", options.integrators, "List the integrators");
 }
 
+CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* name, const char* help) {
+  CLI::App* suite = bench.add_subcommand(name, help);
+  add_choice<app::BenchDevices>(*suite, "--device", options.devices,
+                                {{"auto", app::BenchDevices::automatic},
+                                 {"cpu", app::BenchDevices::cpu},
+                                 {"gpu", app::BenchDevices::gpu},
+                                 {"all", app::BenchDevices::all}},
+                                "What to measure on (default auto: the CPU, and a hardware GPU if there is one)");
+  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->check(CLI::NonNegativeNumber);
+  suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
+      ->check(CLI::Range(1, 4096));
+  suite->add_option("--json", options.json, "File to write the results to");
+  suite->add_flag("--quick", options.quick, "A rough measurement in a few seconds");
+  return suite;
+}
+
+void add_bench(CLI::App& program, app::BenchOptions& options) {
+  CLI::App* bench = program.add_subcommand("bench", "Measure how fast this machine is; suites are forces and steps");
+  bench->require_subcommand(1);
+  CLI::App* forces = add_suite(*bench, options, "forces", "Spring forces by size of the body, beside what the hardware allows");
+  forces->add_flag("--all-variants", options.all_variants, "Every way of summing forces, instead of the GPU's best one");
+  CLI::App* steps = add_suite(*bench, options, "steps", "Whole steps of scenes, and of ever denser bodies in contact");
+  steps->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
+}
+
 struct MeshOptions {
   std::string mesh;
   bool json = false;
@@ -101,9 +127,11 @@ int execute(int count, char** arguments) {
   program.require_subcommand(1);
   app::RunOptions run;
   app::InfoOptions info;
+  app::BenchOptions bench;
   MeshOptions mesh;
   add_run(program, run);
   add_info(program, info);
+  add_bench(program, bench);
   add_mesh(program, mesh);
   try {
     program.parse(count, arguments);
@@ -113,6 +141,10 @@ int execute(int count, char** arguments) {
   if (program.got_subcommand("run")) return app::run(run);
   if (program.got_subcommand("info"))
     app::show_info(info);
+  else if (const CLI::App* suite = program.get_subcommand("bench"); suite->got_subcommand("forces"))
+    app::bench_forces(bench);
+  else if (suite->got_subcommand("steps"))
+    app::bench_steps(bench);
   else
     show_mesh(mesh);
   return 0;

@@ -1,0 +1,25 @@
+// `pliant bench`: measures this machine, as a table and as JSON.
+#pragma once
+#include <filesystem>
+#include <optional>
+
+namespace pliant::app {
+
+/// What to measure on. Automatic: the CPU, and a hardware GPU if there is one; all: both, the GPU whatever it is.
+enum class BenchDevices { automatic, cpu, gpu, all };
+
+struct BenchOptions {
+  BenchDevices devices = BenchDevices::automatic;
+  std::optional<int> gpu_index;             // of gl::list_adapters()
+  unsigned threads = 0;                     // most threads of the CPU; 0: one a processor
+  std::filesystem::path json;               // empty: no file
+  bool quick = false;                       // figures of the right size in a few seconds
+  bool all_variants = false;                // forces: every way of summing that a device knows
+  std::filesystem::path scenes = "scenes";  // steps: folder
+};
+
+/// Prints a table and writes the file. Throw Error.
+void bench_forces(const BenchOptions& options);
+void bench_steps(const BenchOptions& options);
+
+}  // namespace pliant::app

@@ -1,0 +1,24 @@
+// From which size on the GPU is faster than the CPU.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+
+namespace pliant::bench {
+
+struct SizedTime {
+  double vertices = 0;
+  double milliseconds = 0;  // both above zero
+};
+
+enum class Lead { none_measured, cpu_everywhere, gpu_everywhere, crosses };
+
+struct Crossover {
+  Lead lead = Lead::none_measured;
+  std::optional<double> vertices;  // where it crosses; with several crossings the last one, from where on the GPU stays ahead
+};
+
+/// Compares at the sizes that both have, and interpolates the logarithm of the ratio of times over that of vertices in between.
+[[nodiscard]] Crossover find_crossover(std::span<const SizedTime> cpu, std::span<const SizedTime> gpu);
+
+}  // namespace pliant::bench

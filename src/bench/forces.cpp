@@ -1,0 +1,154 @@
+#include "bench/forces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "bench/peak_rate.hpp"
+#include "bench/shapes.hpp"
+#include "bench/spring_cost.hpp"
+#include "device/cpu/peak.hpp"
+#include "device/device_bodies.hpp"
+#include "dynamics/stepper.hpp"
+#include "mesh/generators.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double longest_evaluation = 2;  // [s]
+
+std::vector<ModelAndState> bodies_of_all_sizes(bool quick) {
+  std::vector<ModelAndState> bodies;
+  for (int n = 2; n <= (quick ? 3 : 7); ++n) bodies.push_back(deformed_body(generate_mesh(fmt::format("icosphere:{}", n))));
+  if (!quick) bodies.push_back(deformed_body(spiral_sphere(1u << 18)));
+  return bodies;
+}
+
+std::optional<cpu::Isa> isa_named(std::string_view name) {
+  for (const cpu::Isa isa : cpu::available_isas())
+    if (cpu::name_of(isa) == name) return isa;
+  return std::nullopt;
+}
+
+double pair_count(std::uint32_t vertices) { return static_cast<double>(vertices) * (static_cast<double>(vertices) - 1); }
+
+// The variants that one place is measured with, each over all sizes.
+class ForcesAt {
+ public:
+  ForcesAt(const Place& place, const ForcesOptions& options)
+      : place_(place),
+        all_variants_(options.all_variants),
+        effort_(options.quick ? quick_effort : Effort{}),
+        device_(open(place)) {
+    if (!options.quick) warm_up();
+  }
+
+  // Variants to measure for a size: instruction sets of the CPU, the GPU's best one, or all.
+  std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t v = 0; v < device_->force_variants().size(); ++v)
+      if (all_variants_ || isa_named(device_->force_variants()[v].name)) chosen.push_back(v);
+    return chosen.empty() ? std::vector{device_->best_force_variant(vertices)} : chosen;
+  }
+
+  const std::string& name_of_variant(std::size_t variant) const { return device_->force_variants()[variant].name; }
+
+  // Adds a row, unless one evaluation would take too long.
+  void measure(const ModelAndState& body, std::size_t variant) {
+    const std::uint32_t vertices = body.model.vertex_count();
+    const auto known = seconds_per_pair_.find(variant);
+    if (known != seconds_per_pair_.end() && known->second * pair_count(vertices) > longest_evaluation) return;
+    const double seconds = seconds_of_forces(body, variant);
+    seconds_per_pair_[variant] = seconds / pair_count(vertices);
+    look_at_peak(isa_of(variant));
+    rows_.push_back({.device = place_.device,
+                     .precision = place_.precision,
+                     .threads = place_.threads,
+                     .isa = place_.device == "gpu" ? "opengl" : std::string(cpu::name_of(isa_of(variant))),
+                     .form = "cancellation_free",
+                     .variant = name_of_variant(variant),
+                     .vertices = vertices,
+                     .seconds_per_evaluation = seconds,
+                     .pairs_per_second = pair_count(vertices) / seconds});
+    variants_.push_back(variant);
+  }
+
+  // All of them, with their bounds.
+  std::vector<ForcesRow> rows() const {
+    std::vector<ForcesRow> bounded = rows_;
+    for (std::size_t k = 0; k < bounded.size(); ++k) set_bound(bounded[k], variants_[k]);
+    return bounded;
+  }
+
+ private:
+  // Clocks rise under load.
+  void warm_up() {
+    static_cast<void>(multiply_adds_per_second(*device_, place_, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
+  }
+
+  double seconds_of_forces(const ModelAndState& body, std::size_t variant) {
+    DeviceBodies bodies(*device_, body.model, body.state, variant);
+    const Stepper stepper(*device_, bodies, find_integrator("verlet"), DampingLaw::none, 1e-3);
+    device_->run(stepper.first_passes());
+    const Pass pass = stepper.refresh_pass();  // kept forces stay marked as stale, so it sums them every time
+    return seconds_each(*device_, effort_, [&] { device_->run({&pass, 1}); });
+  }
+
+  // The plain form is compiled for every processor.
+  cpu::Isa isa_of(std::size_t variant) const { return isa_named(name_of_variant(variant)).value_or(cpu::Isa::portable); }
+
+  // Once for every row, as whatever else the machine does can only lower it.
+  void look_at_peak(cpu::Isa isa) {
+    const Effort effort{.batch_seconds = effort_.batch_seconds, .batches = 3};
+    peaks_[isa] = std::max(peaks_[isa], multiply_adds_per_second(*device_, place_, isa, effort));
+  }
+
+  void set_bound(ForcesRow& row, std::size_t variant) const {
+    const cpu::Isa isa = isa_of(variant);
+    const bool tiles = isa_named(row.variant).has_value(), fused = row.device == "gpu" || cpu::fuses_multiply_adds(isa);
+    const InstructionCount pair = tiles ? instructions_of_pair_in_tiles(isa, row.precision) : instructions_of_pair;
+    row.multiply_adds_per_second = peaks_.at(isa);
+    row.bound_pairs_per_second = bound_of_pairs_per_second(row.multiply_adds_per_second, pair, fused);
+    row.ratio_to_bound = row.pairs_per_second / row.bound_pairs_per_second;
+  }
+
+  Place place_;
+  bool all_variants_;
+  Effort effort_;
+  std::unique_ptr<Device> device_;
+  std::map<std::size_t, double> seconds_per_pair_;  // by variant, at the largest size so far
+  std::map<cpu::Isa, double> peaks_;                // the highest multiply-adds a second so far; the GPU's stand under portable
+  std::vector<ForcesRow> rows_;                     // without bounds
+  std::vector<std::size_t> variants_;               // of the rows
+};
+
+}  // namespace
+
+std::vector<ForcesRow> bench_forces(const ForcesOptions& options, const Progress& progress) {
+  constexpr int precisions[] = {32, 64};
+  const std::vector<Place> places = places_of(options.devices, precisions);
+  const std::vector<ModelAndState> bodies = bodies_of_all_sizes(options.quick);
+  std::vector<ForcesRow> rows;
+  double done = 0;
+  for (const Place& place : places) {
+    ForcesAt here(place, options);
+    for (const ModelAndState& body : bodies) {
+      const std::uint32_t vertices = body.model.vertex_count();
+      for (const std::size_t variant : here.variants_for(vertices)) {
+        progress(done / static_cast<double>(places.size() * bodies.size()),
+                 fmt::format("{}, {}, {} vertices", name_of(place), here.name_of_variant(variant), vertices));
+        here.measure(body, variant);
+      }
+      ++done;
+    }
+    const std::vector<ForcesRow> measured = here.rows();
+    rows.insert(rows.end(), measured.begin(), measured.end());
+  }
+  progress(1, "");
+  return rows;
+}
+
+}  // namespace pliant::bench

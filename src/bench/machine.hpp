@@ -1,0 +1,19 @@
+// The machine that a result belongs to.
+#pragma once
+#include <optional>
+#include <string>
+
+namespace pliant::bench {
+
+struct Machine {
+  std::string cpu;
+  unsigned cpu_threads = 1;
+  std::optional<std::string> gpu, driver;  // OpenGL's renderer and version; empty where there is no OpenGL 4.5
+  std::string compiler;                    // name and version
+  std::string date;                        // UTC, ISO 8601
+};
+
+/// `gpu_index`: which of gl::list_adapters().
+[[nodiscard]] Machine describe_machine(int gpu_index);
+
+}  // namespace pliant::bench

@@ -1,0 +1,134 @@
+#include "bench/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace pliant::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},           {"cpu_threads", machine.cpu_threads},
+          {"gpu", or_null(machine.gpu)},  {"driver", or_null(machine.driver)},
+          {"compiler", machine.compiler}, {"date", machine.date}};
+}
+
+Json row_json(const ForcesRow& row) {
+  return {{"device", row.device},
+          {"precision", row.precision},
+          {"threads", row.threads},
+          {"isa", row.isa},
+          {"form", row.form},
+          {"variant", row.variant},
+          {"vertices", row.vertices},
+          {"seconds_per_evaluation", row.seconds_per_evaluation},
+          {"pairs_per_second", row.pairs_per_second},
+          {"bound_pairs_per_second", row.bound_pairs_per_second},
+          {"ratio_to_bound", row.ratio_to_bound},
+          {"multiply_adds_per_second", row.multiply_adds_per_second}};
+}
+
+Json row_json(const StepsRow& row) {
+  return {{"scene", row.scene},
+          {"family", row.family},
+          {"device", row.device},
+          {"precision", row.precision},
+          {"threads", row.threads},
+          {"vertices", row.vertices},
+          {"bodies", row.bodies},
+          {"milliseconds_per_step", row.milliseconds_per_step},
+          {"steps_per_second", row.steps_per_second},
+          {"steps", row.steps},
+          {"contact_steps", row.contact_steps},
+          {"runs", row.runs}};
+}
+
+Json crossover_json(const FamilyCrossover& crossover) {
+  return {{"family", crossover.family},
+          {"threads", crossover.threads},
+          {"vertices", or_null(crossover.crossover.vertices)},
+          {"text", to_text(crossover)}};
+}
+
+template <class Row>
+Json suite_json(const char* suite, const Machine& machine, const std::vector<Row>& rows) {
+  Json list = Json::array();
+  for (const Row& row : rows) list.push_back(row_json(row));
+  return {{"suite", suite}, {"machine", machine_json(machine)}, {"rows", list}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';  // replace: a scene's name need not be UTF-8
+}
+
+// Wide enough for the longest text in a column.
+template <class Row>
+std::size_t width_of(const std::vector<Row>& rows, std::string Row::*text) {
+  std::size_t width = 8;
+  for (const Row& row : rows) width = std::max(width, (row.*text).size());
+  return width;
+}
+
+}  // namespace
+
+std::string to_table(const std::vector<ForcesRow>& rows) {
+  const std::size_t width = width_of(rows, &ForcesRow::variant);
+  std::string table = fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12} {:>13} {:>13} {:>7}\n", "device", "bits", "threads",
+                                  "variant", width, "vertices", "us a sum", "pairs/s", "bound", "ratio");
+  for (const ForcesRow& row : rows)
+    table += fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12.2f} {:>13.4g} {:>13.4g} {:>7.3f}\n", row.device, row.precision,
+                         row.threads, row.variant, width, row.vertices, 1e6 * row.seconds_per_evaluation, row.pairs_per_second,
+                         row.bound_pairs_per_second, row.ratio_to_bound);
+  return table;
+}
+
+std::string to_table(const StepsResult& result) {
+  const std::size_t width = width_of(result.rows, &StepsRow::scene);
+  std::string table = fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12} {:>10} {:>6} {:>8}\n", "scene", width, "device",
+                                  "threads", "vertices", "bodies", "ms/step", "steps/s", "steps", "contacts");
+  for (const StepsRow& row : result.rows)
+    table +=
+        fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12.4g} {:>10.4g} {:>6} {:>8}\n", row.scene, width, row.device, row.threads,
+                    row.vertices, row.bodies, row.milliseconds_per_step, row.steps_per_second, row.steps, row.contact_steps);
+  for (const std::string& note : result.notes) table += note + '\n';
+  for (const FamilyCrossover& crossover : result.crossovers) table += to_text(crossover) + '\n';
+  return table;
+}
+
+std::string to_text(const FamilyCrossover& crossover) {
+  const std::string opponent =
+      fmt::format("{}: against {} CPU thread{}", crossover.family, crossover.threads, crossover.threads == 1 ? "" : "s");
+  switch (crossover.crossover.lead) {
+    case Lead::crosses:
+      return fmt::format("{} the GPU leads from {:.0f} vertices on", opponent, crossover.crossover.vertices.value());
+    case Lead::gpu_everywhere:
+      return fmt::format("{} the GPU leads at every size measured", opponent);
+    case Lead::cpu_everywhere:
+      return fmt::format("{} the GPU does not lead at the largest size measured", opponent);
+    case Lead::none_measured:
+      break;
+  }
+  return fmt::format("{} no size was measured on both", opponent);
+}
+
+std::string to_json(const Machine& machine, const std::vector<ForcesRow>& rows) {
+  return text_of(suite_json("forces", machine, rows));
+}
+
+std::string to_json(const Machine& machine, const StepsResult& result) {
+  Json json = suite_json("steps", machine, result.rows);
+  json["crossovers"] = Json::array();
+  for (const FamilyCrossover& crossover : result.crossovers) json["crossovers"].push_back(crossover_json(crossover));
+  json["notes"] = result.notes;
+  return text_of(json);
+}
+
+}  // namespace pliant::bench

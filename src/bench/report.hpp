@@ -1,0 +1,21 @@
+// Results of the suites as text: tables for people, JSON for scripts.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bench/forces.hpp"
+#include "bench/machine.hpp"
+#include "bench/steps.hpp"
+
+namespace pliant::bench {
+
+[[nodiscard]] std::string to_table(const std::vector<ForcesRow>& rows);
+[[nodiscard]] std::string to_table(const StepsResult& result);
+/// A sentence.
+[[nodiscard]] std::string to_text(const FamilyCrossover& crossover);
+
+/// {suite, machine{cpu, gpu, driver, compiler, date}, rows[...]}; for steps also {crossovers[...], notes[...]}.
+[[nodiscard]] std::string to_json(const Machine& machine, const std::vector<ForcesRow>& rows);
+[[nodiscard]] std::string to_json(const Machine& machine, const StepsResult& result);
+
+}  // namespace pliant::bench

@@ -1,0 +1,104 @@
+#include "bench/step_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bench/shapes.hpp"
+#include "core/error.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr std::uint64_t quick_steps = 8;
+
+// Two bodies of a scene, moved together along x until they are about to touch. They approach by about a tenth of an edge a step,
+// at any density, so contacts begin in the few steps before the measured ones.
+struct Family {
+  const char* name;
+  const char* scene;
+  double half_distance;  // of the bodies' positions along x [m]
+  double time_step;      // at base_level [s]
+  int base_level;
+  int first_level, last_level, last_quick_level;
+};
+
+constexpr Family families[] = {
+    {"two icospheres", "two_spheres.toml", 0.993, 0.0005, 3, 1, 6, 2},
+    {"two bunnies, split", "bunnies_undamped.toml", 0.9925, 0.002, 0, 0, 2, -1},
+};
+
+SceneDescription scene_of(const Family& family, const std::filesystem::path& folder, int level) {
+  SceneDescription scene = load_scene(folder / family.scene);
+  for (BodyDescription& body : scene.bodies) {
+    body.position.x = std::copysign(family.half_distance, body.position.x);
+    if (body.mesh.starts_with("icosphere:")) body.mesh = fmt::format("icosphere:{}", level);
+  }
+  scene.simulation.time_step = family.time_step * std::exp2(family.base_level - level);
+  return scene;
+}
+
+StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> setups) {
+  StepCase made;
+  made.start = build_model(setups, scene.simulation.gravity);
+  made.plan = plan_time(scene, made.start.model);
+  made.collision = scene.collision;
+  return made;
+}
+
+StepCase case_of(const Family& family, const std::filesystem::path& folder, int level, bool quick) {
+  const SceneDescription scene = scene_of(family, folder, level);
+  std::vector<BodySetup> setups = load_bodies(scene);
+  for (BodySetup& setup : setups)
+    if (!setup.description.mesh.starts_with("icosphere:"))
+      for (int k = 0; k < level; ++k) setup.mesh = split_in_four(setup.mesh);
+  StepCase made = make_case(scene, setups);
+  made.name = fmt::format("{}:{}", family.name, level);
+  made.family = family.name;
+  made.steps_before = 3;
+  const bool long_steps = made.start.model.vertex_count() > 10000;
+  made.steps = quick ? quick_steps : long_steps ? 4 : 64;
+  return made;
+}
+
+StepCase case_of(const std::filesystem::path& file, bool quick) {
+  const SceneDescription scene = load_scene(file);
+  StepCase made = make_case(scene, load_bodies(scene));
+  made.name = file.stem().string();
+  made.steps = quick ? std::min(made.plan.steps, quick_steps) : made.plan.steps;
+  return made;
+}
+
+std::set<std::filesystem::path> scene_files(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
+    if (entry.path().extension() == ".toml") files.insert(entry.path());
+  if (files.empty())
+    throw Error(ErrorKind::command_line, "--scenes", fmt::format("no scenes in folder \"{}\"", folder.string()),
+                "name the folder of scenes, or run where there is a folder \"scenes\"");
+  return files;
+}
+
+}  // namespace
+
+StepCases load_step_cases(const std::filesystem::path& folder, bool quick) {
+  const std::set<std::filesystem::path> files = scene_files(folder);
+  StepCases all;
+  for (const Family& family : families) {
+    if (!files.contains(folder / family.scene)) {
+      all.notes.push_back(fmt::format("{}: left out, as \"{}\" is not in the folder", family.name, family.scene));
+      continue;
+    }
+    const int last = quick ? family.last_quick_level : family.last_level;
+    for (int level = family.first_level; level <= last; ++level) all.cases.push_back(case_of(family, folder, level, quick));
+  }
+  for (const std::filesystem::path& file : files) all.cases.push_back(case_of(file, quick));
+  return all;
+}
+
+}  // namespace pliant::bench

@@ -1,0 +1,32 @@
+// What the suite `steps` runs: the scenes of a folder, and bodies of growing density just before they touch.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "simulation/time_plan.hpp"
+
+namespace pliant::bench {
+
+struct StepCase {
+  std::string name;
+  std::string family;  // of cases that differ by their density alone; empty for a scene as it is
+  ModelAndState start;
+  TimePlan plan;
+  CollisionDescription collision;
+  std::uint64_t steps_before = 0;  // not measured: up to the first contact
+  std::uint64_t steps = 0;         // measured
+};
+
+struct StepCases {
+  std::vector<StepCase> cases;     // families first, each from small to large
+  std::vector<std::string> notes;  // what was left out, and why
+};
+
+/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them. `quick`: few, small and short.
+/// Throws Error: command_line where there is no such folder or it holds no scene, input for a scene that is wrong.
+[[nodiscard]] StepCases load_step_cases(const std::filesystem::path& folder, bool quick);
+
+}  // namespace pliant::bench

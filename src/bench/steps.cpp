@@ -1,0 +1,132 @@
+#include "bench/steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "bench/step_cases.hpp"
+#include "bench/timing.hpp"
+#include "core/stopwatch.hpp"
+#include "simulation/simulation.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double longest_run = 60;   // [s]
+constexpr double enough_time = 1.5;  // for the runs of a case beyond the first [s]
+constexpr int most_runs = 5;
+
+struct Run {
+  double seconds = 0;  // of the measured steps
+  std::uint64_t contact_steps = 0, pair_interactions = 0;
+};
+
+// Nothing is read back while steps are measured.
+Run run_once(Device& device, const StepCase& what) {
+  Simulation simulation(device, what.start.model, what.start.state, what.plan, what.collision);
+  simulation.advance(what.steps_before);
+  const StepReport before = simulation.report();
+  Stopwatch watch;
+  watch.time([&] {
+    simulation.advance(what.steps);
+    device.finish();
+  });
+  const StepReport after = simulation.report();
+  return {watch.seconds(), after.contact_steps - before.contact_steps, after.pair_interactions - before.pair_interactions};
+}
+
+double pair_interactions_of_step(const StepCase& what) {
+  double pairs = 0;
+  for (const ModelBody& body : what.start.model.bodies) pairs += static_cast<double>(body.vertex_count) * body.vertex_count;
+  return pairs * evaluations_per_step(*what.plan.integrator);
+}
+
+class StepsAt {
+ public:
+  explicit StepsAt(const Place& place) : place_(place), device_(open(place)) {}
+
+  // Of one run, as long as no force is skipped; 0 while nothing is known of this place.
+  double expected_seconds(const StepCase& what) const {
+    return seconds_per_pair_ * pair_interactions_of_step(what) * static_cast<double>(what.steps_before + what.steps);
+  }
+
+  StepsRow measure(const StepCase& what, bool quick) {
+    std::vector<double> seconds;
+    Run run = run_once(*device_, what);  // also warms up
+    double passed = run.seconds;
+    if (passed > enough_time || quick) seconds.push_back(run.seconds);
+    while (seconds.empty() || (!quick && passed < enough_time && static_cast<int>(seconds.size()) < most_runs)) {
+      run = run_once(*device_, what);
+      passed += run.seconds;
+      seconds.push_back(run.seconds);
+    }
+    if (run.pair_interactions > 0) seconds_per_pair_ = median(seconds) / static_cast<double>(run.pair_interactions);
+    return row(what, run, seconds);
+  }
+
+ private:
+  StepsRow row(const StepCase& what, const Run& run, const std::vector<double>& seconds) const {
+    const auto steps = static_cast<double>(what.steps);
+    return {.scene = what.name,
+            .family = what.family,
+            .device = place_.device,
+            .precision = place_.precision,
+            .threads = place_.threads,
+            .vertices = what.start.model.vertex_count(),
+            .bodies = static_cast<std::uint32_t>(what.start.model.bodies.size()),
+            .milliseconds_per_step = 1e3 * median(seconds) / steps,
+            .steps_per_second = steps / median(seconds),
+            .steps = what.steps,
+            .contact_steps = run.contact_steps,
+            .runs = static_cast<int>(seconds.size())};
+  }
+
+  Place place_;
+  std::unique_ptr<Device> device_;
+  double seconds_per_pair_ = 0;  // in the latest case
+};
+
+}  // namespace
+
+StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
+  constexpr int precisions[] = {32};
+  StepCases all = load_step_cases(options.scenes, options.quick);
+  StepsResult result{.rows = {}, .crossovers = {}, .notes = std::move(all.notes)};
+  const std::vector<Place> places = places_of(options.devices, precisions);
+  double done = 0;
+  for (const Place& place : places) {
+    StepsAt here(place);
+    for (const StepCase& what : all.cases) {
+      progress(done++ / static_cast<double>(places.size() * all.cases.size()), fmt::format("{}, {}", name_of(place), what.name));
+      if (what.steps == 0) continue;
+      if (const double seconds = here.expected_seconds(what); seconds > longest_run)
+        result.notes.push_back(
+            fmt::format("{} on {}: left out, as it would take about {:.0f} s", what.name, name_of(place), seconds));
+      else
+        result.rows.push_back(here.measure(what, options.quick));
+    }
+  }
+  progress(1, "");
+  result.crossovers = find_crossovers(result.rows);
+  return result;
+}
+
+std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows) {
+  std::map<std::string, std::vector<SizedTime>> gpu;
+  std::map<std::pair<std::string, unsigned>, std::vector<SizedTime>> cpu;
+  for (const StepsRow& row : rows) {
+    if (row.family.empty()) continue;
+    auto& times = row.device == "gpu" ? gpu[row.family] : cpu[{row.family, row.threads}];
+    times.push_back({static_cast<double>(row.vertices), row.milliseconds_per_step});
+  }
+  std::vector<FamilyCrossover> crossovers;
+  for (const auto& [key, times] : cpu)
+    if (const auto found = gpu.find(key.first); found != gpu.end())
+      crossovers.push_back({key.first, key.second, find_crossover(times, found->second)});
+  return crossovers;
+}
+
+}  // namespace pliant::bench

@@ -1,0 +1,81 @@
+// `pliant bench` as scripts use it.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/read_text.hpp"
+#include "gl/context.hpp"
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant {
+namespace {
+
+using test::ScratchFolder;
+
+nlohmann::json checked_results(const std::string& arguments, const std::filesystem::path& file) {
+  const ProgramResult result = run_program("bench " + arguments + " --quick --json " + file.string());
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  auto json = nlohmann::json::parse(read_text(file));
+  for (const char* key : {"cpu", "gpu", "driver", "compiler", "date"}) CHECK(json["machine"].contains(key));
+  CHECK_THAT(json["machine"]["date"].get<std::string>(), Catch::Matches("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"));
+  CHECK_FALSE(json["rows"].empty());
+  return json;
+}
+
+void check_fails(const std::string& arguments, int exit_code, const char* part) {
+  CAPTURE(arguments);
+  const ProgramResult result = run_program("bench " + arguments);
+  CHECK(result.exit_code == exit_code);
+  CHECK_THAT(result.output, Catch::Contains(part));
+}
+
+TEST_CASE("bench forces writes every key of its rows, into a folder that it makes") {
+  const ScratchFolder folder;
+  const auto json = checked_results("forces --device cpu --threads 1", folder.path / "new" / "forces.json");
+  CHECK(json["suite"] == "forces");
+  for (const auto& row : json["rows"]) {
+    for (const char* key : {"device", "isa", "form"}) CHECK(row.at(key).is_string());
+    for (const char* key : {"precision", "threads", "vertices"}) CHECK(row.at(key).is_number_unsigned());
+    for (const char* key : {"pairs_per_second", "bound_pairs_per_second"}) CHECK(row.at(key).get<double>() > 0);
+  }
+}
+
+TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path / "small.toml") << "[simulation]\ntime_step = 0.01\nduration = 0.05\n"
+                                               "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1, 0, 0]\nvelocity = [4, 0, 0]\n"
+                                               "[[body]]\nmesh = \"icosphere:1\"\nposition = [1, 0, 0]\n";
+  const auto json =
+      checked_results("steps --device cpu --threads 2 --scenes " + folder.path.string(), folder.path / "steps.json");
+  CHECK(json["suite"] == "steps");
+  CHECK(json["rows"].size() == 2);   // one thread and two
+  CHECK(json["notes"].size() == 2);  // no scenes for the families
+  CHECK(json.contains("crossovers"));
+  for (const auto& row : json["rows"]) {
+    CHECK(row.at("scene") == "small");
+    CHECK(row.at("vertices") == 84);
+    CHECK(row.at("bodies") == 2);
+    CHECK(row.at("steps") == 5);
+    for (const char* key : {"device", "precision", "threads", "contact_steps", "steps_per_second"}) CHECK(row.contains(key));
+    CHECK(row.at("milliseconds_per_step").get<double>() > 0);
+  }
+}
+
+TEST_CASE("a wrong command line of bench exits with 2 before anything is measured") {
+  const ScratchFolder folder;
+  check_fails("", 2, "subcommand");
+  check_fails("everything", 2, "subcommand");
+  check_fails("forces --device tpu", 2, "--device");
+  check_fails("forces --threads 0", 2, "--threads");
+  check_fails("forces --scenes scenes", 2, "--scenes");
+  check_fails("forces --device cpu --gpu 0", 2, "--gpu");
+  check_fails("steps --device cpu --scenes " + folder.path.string(), 2, "no scenes");
+  check_fails("forces --device cpu --json /proc/none/forces.json", 2, "/proc/none/forces.json");
+}
+
+TEST_CASE("a GPU that is not there exits with 4") { check_fails("forces --quick --device gpu --gpu 99", 4, "GPU"); }
+
+}  // namespace
+}  // namespace pliant
