@@ -20,7 +20,7 @@ layout(local_size_x = TEAMS) in;
 #else
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
-shared vec3 partial_sum[VERTICES * TEAMS * LANES];  // by vertex, then lane
+shared float partial_sum[3 * VERTICES * TEAMS * LANES];  // by axis, vertex and lane
 #endif
 layout(location = 8) uniform uint item_count;  // shares
 
@@ -114,7 +114,19 @@ void serve(Share s, uint base) {
 #else
 shared double settled[3 * VERTICES * TEAMS];
 
-#define STORE(k) partial_sum[PLACE(k) * LANES + lane] = total##k;
+void store_partial(uint at, vec3 sum) {
+  const uint axis = VERTICES * TEAMS * LANES;
+  partial_sum[at] = sum.x;
+  partial_sum[at + axis] = sum.y;
+  partial_sum[at + 2u * axis] = sum.z;
+}
+
+vec3 load_partial(uint at) {
+  const uint axis = VERTICES * TEAMS * LANES;
+  return vec3(partial_sum[at], partial_sum[at + axis], partial_sum[at + 2u * axis]);
+}
+
+#define STORE(k) store_partial(PLACE(k) * LANES + lane, total##k);
 void sum_lanes(Share s, bool sums, uint base, uint team, uint lane) {
   EACH(OWN)
   if (sums) { SUM_SPRINGS }
@@ -124,7 +136,7 @@ void sum_lanes(Share s, bool sums, uint base, uint team, uint lane) {
 // Adds `count` partial sums, `stride` apart.
 vec3 sum_partials(uint first, uint count, uint stride) {
   vec3 total = vec3(0), excess = vec3(0);
-  for (uint k = 0u; k < count; ++k) add(total, excess, partial_sum[first + k * stride]);
+  for (uint k = 0u; k < count; ++k) add(total, excess, load_partial(first + k * stride));
   return total;
 }
 
@@ -140,7 +152,7 @@ void serve(Share s, uint base) {
   barrier();
   if (thread < runs_of_lanes * VERTICES * TEAMS) {
     uint first = thread / runs_of_lanes * LANES + thread % runs_of_lanes;
-    partial_sum[first] = sum_partials(first, LANES / runs_of_lanes, runs_of_lanes);
+    store_partial(first, sum_partials(first, LANES / runs_of_lanes, runs_of_lanes));
   }
   barrier();
   keeps = keeps && going;

@@ -26,8 +26,8 @@ struct Lanes {
 // The first is for processors that run shaders. The others were measured on an H200: few vertices need many lanes each, and where
 // there are many a lane serves several with what it loads. Small groups do worse: the compiler then takes so many registers a
 // thread that few of them fit.
-constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 0},           {64, 1, 10, 4, 2600}, {64, 2, 10, 3, 12000},
-                                  {64, 4, 7, 3, 0xffffffffu}, {128, 4, 3, 2, 0},    {128, 4, 1, 2, 0}};
+constexpr Lanes lane_choices[] = {
+    {1, 4, 64, 2, 0}, {64, 1, 10, 4, 2600}, {64, 2, 10, 3, 8000}, {64, 4, 8, 3, 0xffffffffu}, {128, 2, 2, 4, 0}};
 
 class GpuDevice final : public Device {
  public:
