@@ -16,6 +16,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double longest_run = 60;   // [s]
+constexpr double warming_time = 0.3;  // [s]; clocks rise under load
 constexpr double enough_time = 1.5;  // for the runs of a case beyond the first [s]
 constexpr int most_runs = 5;
 
@@ -55,7 +56,8 @@ class StepsAt {
 
   StepsRow measure(const StepCase& what, bool quick) {
     std::vector<double> seconds;
-    Run run = run_once(*device_, what);  // also warms up
+    Run run = run_once(*device_, what);  // builds the kernels
+    while (!quick && warmed_ < warming_time) warmed_ += run_once(*device_, what).seconds;
     double passed = run.seconds;
     if (passed > enough_time || quick) seconds.push_back(run.seconds);
     while (seconds.empty() || (!quick && passed < enough_time && static_cast<int>(seconds.size()) < most_runs)) {
@@ -86,6 +88,7 @@ class StepsAt {
 
   Place place_;
   std::unique_ptr<Device> device_;
+  double warmed_ = 0;  // [s]
   double seconds_per_pair_ = 0;  // in the latest case
 };
 
