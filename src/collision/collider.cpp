@@ -1,4 +1,4 @@
-// bound bodies -> pair them -> refit the trees of those that are near -> find candidate pairs -> test them -> respond.
+// pair bodies -> refit the trees of those that are near -> find candidate pairs -> test them -> respond.
 #include "collision/collider.hpp"
 
 #include <algorithm>
@@ -34,10 +34,6 @@ std::uint32_t largest_triangle_count(const Model& model) {
   for (const ModelBody& body : model.bodies) largest = std::max(largest, body.triangle_count);
   return largest;
 }
-
-}  // namespace
-
-namespace {
 
 // A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy, and needs nothing above it.
 unsigned start_depth_for(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
