@@ -1,7 +1,7 @@
-// The frame around a force kernel: one work group a share, of TEAMS teams. LANES threads of a team share VERTICES vertices: each takes
-// every LANES-th other vertex of the body and tries it on all of its own, so that what is loaded once serves VERTICES pairs. Lanes'
-// sums meet in shared memory. Beside them a warp of keepers, one a coordinate, loads meanwhile what else is needed, and then finishes the vertices.
-// With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
+// The frame around a force kernel: one work group a share, of TEAMS teams. LANES threads of a team share VERTICES vertices: each
+// takes every LANES-th other vertex of the body and tries it on all of its own, so that what is loaded once serves VERTICES pairs.
+// Lanes' sums meet in shared memory. Beside them keepers, one a coordinate, load meanwhile what else is needed, and then finish the
+// vertices. With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"
@@ -11,13 +11,18 @@
 #define EACH(f) f(0)
 #elif VERTICES == 2
 #define EACH(f) f(0) f(1)
-#else
+#elif VERTICES == 4
 #define EACH(f) f(0) f(1) f(2) f(3)
+#else
+#error VERTICES is 1, 2 or 4
 #endif
 
 #if LANES == 1
 layout(local_size_x = TEAMS) in;
 #else
+#if LANES % 8 != 0
+#error LANES is 1 or a multiple of runs_of_lanes
+#endif
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
 shared float partial_sum[3 * VERTICES * TEAMS * LANES];  // by axis, vertex and lane
@@ -73,10 +78,8 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #define UNROLLED(f) f(0u) f(1u) f(2u)
 #elif UNROLL == 4
 #define UNROLLED(f) f(0u) f(1u) f(2u) f(3u)
-#elif UNROLL == 6
-#define UNROLLED(f) f(0u) f(1u) f(2u) f(3u) f(4u) f(5u)
 #else
-#define UNROLLED(f) f(0u) f(1u) f(2u) f(3u) f(4u) f(5u) f(6u) f(7u)
+#error UNROLL is 2, 3 or 4
 #endif
 
 // Sums over every LANES-th vertex of the body from `lane` on: 16 springs or so plainly, those sums by Kahan. UNROLL springs at a

@@ -32,8 +32,8 @@ class Collider {
   [[nodiscard]] const Forest& forest() const { return forest_; }
   /// Searches start from the nodes at this depth; boxes of those above are not kept.
   [[nodiscard]] unsigned start_depth() const { return start_depth_; }
-  /// Of the latest search: places of two triangles in the forest's order, in no fixed order, as many as fit the list.
-  [[nodiscard]] std::vector<glm::uvec2> candidates() const;
+  /// Of the latest search: two leaves whose boxes overlap, in no fixed order, as many as fit the list.
+  [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
   /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const { return node_boxes_.download(); }
   /// Of every vertex, the latest step in which it touched another body; 0: none.
@@ -49,6 +49,7 @@ class Collider {
   DeviceBodies& bodies_;
   CollisionDescription description_;
   Forest forest_;
+  std::uint32_t parallel_items_;   // threads that a search is cut for
   unsigned start_depth_;           // of the nodes that searches start from
   std::uint32_t largest_body_;     // triangles
   DeviceArray<glm::uvec2> trees_;  // [body]: root, number of leaves
@@ -59,7 +60,7 @@ class Collider {
   DeviceArray<std::uint32_t> arrivals_;       // [node]
   DeviceArray<std::uint32_t> partner_steps_;  // [body]
   DeviceArray<glm::uvec2> near_pairs_;
-  DeviceArray<glm::uvec2> candidates_;
+  DeviceArray<glm::uvec2> leaf_pairs_;
   DeviceArray<std::uint32_t> marks_;  // [vertex]
 };
 

@@ -34,7 +34,8 @@ namespace pliant {
 /// has to look at its clock in between.
 inline void run_timed(Device& device, std::span<const Pass> passes, std::map<std::string_view, double>& seconds) {
   device.mark_time();
-  for (const Pass& pass : passes) {
+  for (Pass pass : passes) {
+    pass.beside_next = false;
     device.run({&pass, 1});
     device.mark_time();
   }

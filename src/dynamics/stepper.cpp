@@ -9,7 +9,6 @@
 namespace pliant {
 namespace {
 
-using physics::Control;
 
 static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_none);
 static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);

@@ -44,9 +44,9 @@ std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const 
   std::vector<Pass> passes = stepper.passes(from_half);
   std::vector<Pass> contacts;
   if (collider != nullptr) contacts = collider->contact_passes(1 - from_half);
-  // Frames follow beside the last two passes of the search, which use none of what changes.
+  // Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
   const std::vector<Pass> following = stepper.following_passes(from_half);
-  const bool beside = contacts.size() >= following.size();
+  const bool beside = contacts.size() > following.size();
   for (std::size_t k = 0; k < following.size(); ++k) {
     const auto place = contacts.end() - static_cast<std::ptrdiff_t>(beside ? following.size() - k : 0);
     contacts.insert(place, beside ? beside_next(following[k]) : following[k]);
@@ -128,6 +128,7 @@ Intersections Simulation::intersections() {
       result.bodies.push_back(model_.body_index(i));
   collider_.restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
+  bodies_.clear_boxes();  // the next step's are its own
   return result;
 }
 

@@ -20,6 +20,8 @@ namespace pliant {
 struct NonFinite {
   std::uint64_t step = 0;              // the step that made it, from 1
   std::uint32_t body = 0, vertex = 0;  // vertex of the body
+
+  bool operator==(const NonFinite&) const = default;
 };
 
 /// What the simulation did since its start.
@@ -32,11 +34,13 @@ struct StepReport {
   std::uint64_t force_evaluations = 0;  // all forces of one body once
   std::uint64_t pair_interactions = 0;  // N (N - 1) for each of them
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
-  std::uint64_t pairs_beyond_capacity = 0;  // triangle pairs tested where they were found, the list being full
+  std::uint64_t pairs_beyond_capacity = 0;  // pairs of leaves tested where they were found, the list being full
   std::uint64_t frame_changes = 0;          // of bodies' frames, following their rotation
   std::uint64_t forces_skipped = 0;         // force evaluations that were zero beforehand: a body moving rigidly
   std::uint64_t body_pairs_skipped = 0;     // root boxes apart
   std::uint64_t refits_skipped = 0;         // trees without a partner
+
+  bool operator==(const StepReport&) const = default;
 };
 
 /// Triangles of different bodies that touch.

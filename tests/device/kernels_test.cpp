@@ -109,7 +109,7 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       CHECK(largest_difference(y, x) < 1e-6);
     } else if (slot.type == "uvec2") {
       const physics::Control control = cpu.bodies.control.download().front();
-      const std::uint32_t count = cpu_pass.name == "pair_bodies" ? control.near_pair_count : control.candidate_count;
+      const std::uint32_t count = cpu_pass.name == "pair_bodies" ? control.near_pair_count : control.leaf_pair_count;
       CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
     } else if (slot.type == "uint") {
       const auto [x, y] = read_both<std::uint32_t>(cpu, gpu, a, b);

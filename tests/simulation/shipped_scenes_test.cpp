@@ -46,6 +46,15 @@ PairSet as_set(const std::vector<glm::uvec2>& pairs) {
   return set;
 }
 
+// Every triangle of one leaf with every triangle of the other.
+void add_pairs(PairSet& pairs, const Forest& forest, const glm::uvec4& a, const glm::uvec4& b) {
+  for (std::uint32_t i = a.z; i < a.w; ++i)
+    for (std::uint32_t j = b.z; j < b.w; ++j) {
+      const auto [s, t] = std::minmax(forest.triangle_ids[i], forest.triangle_ids[j]);
+      pairs.emplace(s, t);
+    }
+}
+
 // The touching pairs among those that the device's tree search lists.
 PairSet pairs_by_tree(Device& device, const ModelAndState& start, const CollisionDescription& description,
                       const std::vector<glm::vec4>& positions) {
@@ -58,10 +67,7 @@ PairSet pairs_by_tree(Device& device, const ModelAndState& start, const Collisio
   const Forest& forest = collider.forest();
   const PairSet all = as_set(intersecting_pairs(start.model, positions, description.triangle_test));
   PairSet listed;
-  for (const glm::uvec2& pair : collider.candidates()) {
-    const std::uint32_t s = forest.triangle_ids[pair.x], t = forest.triangle_ids[pair.y];
-    listed.emplace(std::min(s, t), std::max(s, t));
-  }
+  for (const glm::uvec2& pair : collider.leaf_pairs()) add_pairs(listed, forest, forest.nodes[pair.x], forest.nodes[pair.y]);
   PairSet found;
   std::set_intersection(listed.begin(), listed.end(), all.begin(), all.end(), std::inserter(found, found.end()));
   CHECK(bodies.control.download().front().count[physics::contact_pairs] == all.size());

@@ -1,5 +1,5 @@
 // Many threads for each pair of bodies that are near: each takes a subtree of either tree and descends both together, down to
-// pairs of triangles whose boxes overlap. They are listed for test_pairs; where the list is full, tested here.
+// pairs of leaves whose boxes overlap. They are listed for test_pairs; where the list is full, tested here.
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
@@ -10,16 +10,15 @@ READ(2, Nodes, uvec4, node)              // behind the trees: x: the subtrees to
 READ(3, NodeBoxes, vec4, node_box)
 READ(4, Triangles, uint, triangle)
 READ(5, WorldPositions, vec4, world_position)
-WRITE(6, Candidates, uvec2, candidate)  // places of two triangles in leaf order
+WRITE(6, LeafPairs, uvec2, leaf_pair)  // two nodes
 WRITE(7, Marks, uint, mark)             // the latest step in which a vertex touched another body
 PARAMETER(0, uint, first_position)
 PARAMETER(1, uint, triangle_test)
-PARAMETER(2, uint, candidate_capacity)
+PARAMETER(2, uint, leaf_pair_capacity)
 PARAMETER(3, uint, first_start)
 PARAMETER(4, uint, start_count)    // subtrees of a body
 PARAMETER(5, uint, pairs_at_once)  // threads go on to later pairs in strides of this
-#include "parts/box_of_triangle.glsl"
-#include "parts/mark_contact.glsl"
+#include "parts/test_leaves.glsl"
 
 Box box_of_node(uint n) {
   Box box;
@@ -28,39 +27,13 @@ Box box_of_node(uint n) {
   return box;
 }
 
-// Lists pairs of four triangles from s on with four from t on, by the bits of `pairs`: of s + q / 4 with t + q % 4.
-void list_candidates(uint s, uint t, uint pairs) {
-  if (pairs == 0u) return;
-  uint at = atomicAdd(control[0].candidate_count, uint(bitCount(pairs)));
-  for (uint q = 0u; q < 16u; ++q) {
-    if (((pairs >> q) & 1u) == 0u) continue;
-    if (at < candidate_capacity) {
-      candidate[at] = uvec2(s + q / 4u, t + q % 4u);
-    } else {
-      atomicAdd(control[0].count[pairs_beyond_capacity], 1u);
-      mark_contact(s + q / 4u, t + q % 4u);
-    }
-    ++at;
-  }
-}
-
-// A bit for each of four boxes, from t on, that overlaps `box` and is there.
-uint overlap_bits(Box box, FourBoxes four, uint t, uint end) {
-  return (overlaps(box, four.first) ? 1u : 0u) | (t + 1u < end && overlaps(box, four.second) ? 2u : 0u) |
-         (t + 2u < end && overlaps(box, four.third) ? 4u : 0u) | (t + 3u < end && overlaps(box, four.fourth) ? 8u : 0u);
-}
-
-void pair_leaves(uvec4 a, uvec4 b) {
-  for (uint s = a.z; s < a.w; s += 4u) {
-    FourBoxes own = four_boxes(s, a.w);
-    for (uint t = b.z; t < b.w; t += 4u) {
-      FourBoxes others = four_boxes(t, b.w);
-      uint pairs = overlap_bits(own.first, others, t, b.w);
-      if (s + 1u < a.w) pairs |= overlap_bits(own.second, others, t, b.w) << 4u;
-      if (s + 2u < a.w) pairs |= overlap_bits(own.third, others, t, b.w) << 8u;
-      if (s + 3u < a.w) pairs |= overlap_bits(own.fourth, others, t, b.w) << 12u;
-      list_candidates(s, t, pairs);
-    }
+void list_pair(uvec2 leaves) {
+  uint at = atomicAdd(control[0].leaf_pair_count, 1u);
+  if (at < leaf_pair_capacity) {
+    leaf_pair[at] = leaves;
+  } else {
+    atomicAdd(control[0].count[pairs_beyond_capacity], 1u);
+    test_leaves(leaves, uvec2(0), 1u);
   }
 }
 
@@ -87,7 +60,7 @@ uint descend(uvec2 start) {
     ++tests;
     if (!overlaps(box_a, box_b)) continue;
     if (a.x == 0u && b.x == 0u) {
-      pair_leaves(a, b);
+      list_pair(at);
     } else if (opens_first(a, b, box_a, box_b)) {
       stack[++top] = uvec2(a.x, at.y);
       stack[++top] = uvec2(a.x + 1u, at.y);

@@ -15,10 +15,6 @@ void empty_box_of(uint b) {
 
 void add_count(uint k) {
   uint count = control[0].count[k];
-  if (k == triangle_tests) {
-    count += control[0].candidate_count;
-    control[0].candidate_count = 0u;
-  }
   if (k == contact_pairs) {
     if (count != 0u) control[0].contact_steps += 1u;
     control[0].contact_pairs_max = max(control[0].contact_pairs_max, count);
@@ -31,6 +27,7 @@ void add_count(uint k) {
 
 void move_clock() {
   control[0].near_pair_count = 0u;
+  control[0].leaf_pair_count = 0u;
   if (control[0].non_finite_step != 0u) return;
   if (control[0].non_finite_vertex != no_vertex) control[0].non_finite_step = control[0].step;
   control[0].step += 1u;

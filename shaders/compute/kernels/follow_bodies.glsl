@@ -39,18 +39,24 @@ void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
   s.correlation_z += rest.z * moved;
 }
 
+// Four from k on. No loop, so that loads overlap.
+void add_samples(INOUT(Samples) s, uint b, uint k, dvec3 origin) {
+  dvec3 r0 = sample_rest(b, k), r1 = sample_rest(b, k + 1u), r2 = sample_rest(b, k + 2u), r3 = sample_rest(b, k + 3u);
+  dvec3 u0 = sample_displacement(b, k), u1 = sample_displacement(b, k + 1u), u2 = sample_displacement(b, k + 2u),
+        u3 = sample_displacement(b, k + 3u);
+  add_sample(s, r0, r0 + (u0 - origin));
+  add_sample(s, r1, r1 + (u1 - origin));
+  add_sample(s, r2, r2 + (u2 - origin));
+  add_sample(s, r3, r3 + (u3 - origin));
+}
+
 Samples take_samples(uint b, dvec3 origin) {
   Samples s;
   s.rest_mean = s.moved_mean = s.correlation_x = s.correlation_y = s.correlation_z = dvec3(0);
-  for (uint k = 0u; k < sample_count; k += 4u) {  // four at a time, so that their loads overlap
-    dvec3 r0 = sample_rest(b, k), r1 = sample_rest(b, k + 1u), r2 = sample_rest(b, k + 2u), r3 = sample_rest(b, k + 3u);
-    dvec3 u0 = sample_displacement(b, k), u1 = sample_displacement(b, k + 1u), u2 = sample_displacement(b, k + 2u),
-          u3 = sample_displacement(b, k + 3u);
-    add_sample(s, r0, r0 + (u0 - origin));
-    add_sample(s, r1, r1 + (u1 - origin));
-    add_sample(s, r2, r2 + (u2 - origin));
-    add_sample(s, r3, r3 + (u3 - origin));
-  }
+  add_samples(s, b, 0u, origin);
+  add_samples(s, b, 4u, origin);
+  add_samples(s, b, 8u, origin);
+  add_samples(s, b, 12u, origin);
   s.rest_mean /= double(sample_count);
   s.correlation_x -= s.rest_mean.x * s.moved_mean;
   s.correlation_y -= s.rest_mean.y * s.moved_mean;
@@ -102,10 +108,8 @@ void change_frame_of(uint b, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
 
 // The frame follows once the body has turned by more than 0.01 rad in it. Displacements then stay small against the body,
 // and their rounding to fp32 small against the strains.
-void follow_rotation(uint b) {
+void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
   const double largest_turn = double(0.01), smallest_turn = double(1e-9);
-  dvec3 origin = LOAD3(frame[b].reference, 0u);
-  Samples samples = take_samples(b, origin);
   Quaternion q = quaternion(double(0), double(0), double(0), double(1));
   dvec3 turn = remaining_turn(samples, q);
   if (!(dot(turn, turn) > largest_turn * largest_turn)) return;
@@ -118,10 +122,12 @@ void follow_rotation(uint b) {
 }
 
 void follow_bodies(uint b) {
+  dvec3 origin = LOAD3(frame[b].reference, 0u);
+  Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
   frame[b].turned = 0u;
   if (frame[b].halted != 0u) return;
   if (frame[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, frame[b].non_finite_vertex);
   for (uint other = 0u; other < body_count; ++other)
     if (frame[other].non_finite_vertex != no_vertex) frame[b].halted = 1u;
-  if (frame[b].halted == 0u) follow_rotation(b);
+  if (frame[b].halted == 0u) follow_rotation(b, samples, origin);
 }

@@ -1,19 +1,22 @@
-// Do the two triangles of a candidate pair touch? Threads share the list in strides.
+// Which triangles of two leaves touch? Sixteen threads for each pair of leaves, all threads sharing the list in strides.
 #include "../physics/control.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
 WRITE(0, Controls, Control, control)
-READ(1, Candidates, uvec2, candidate)
-READ(2, Triangles, uint, triangle)
-READ(3, WorldPositions, vec4, world_position)
-WRITE(4, Marks, uint, mark)
+READ(1, LeafPairs, uvec2, leaf_pair)
+READ(2, Nodes, uvec4, node)
+READ(3, Triangles, uint, triangle)
+READ(4, WorldPositions, vec4, world_position)
+WRITE(5, Marks, uint, mark)
 PARAMETER(0, uint, first_position)
 PARAMETER(1, uint, triangle_test)
-PARAMETER(2, uint, candidate_capacity)
-PARAMETER(3, uint, thread_count)
-#include "parts/mark_contact.glsl"
+PARAMETER(2, uint, leaf_pair_capacity)
+PARAMETER(3, uint, pairs_at_once)
+#include "parts/test_leaves.glsl"
 
 void test_pairs(uint item) {
-  uint count = min(control[0].candidate_count, candidate_capacity);
-  for (uint k = item; k < count; k += thread_count) mark_contact(candidate[k].x, candidate[k].y);
+  uint count = min(control[0].leaf_pair_count, leaf_pair_capacity), part = item % threads_per_leaf_pair;
+  for (uint k = item / threads_per_leaf_pair; k < count; k += pairs_at_once)
+    test_leaves(leaf_pair[k], uvec2(part / 4u, part % 4u), 4u);
 }

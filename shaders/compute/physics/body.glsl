@@ -44,7 +44,7 @@ struct Frame {
   uint halted;             // 1: a step went non-finite; nothing moves any more
 };
 
-const uint tableau_size = 1024u;  // room for 27 stages
+const uint tableau_size = 1024u;  // room for 30 stages
 
 const uint no_vertex = 0xffffffffu;
 

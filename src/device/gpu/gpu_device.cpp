@@ -26,8 +26,7 @@ struct Lanes {
 // The first is for processors that run shaders. The others were measured on an H200: few vertices need many lanes each, and where
 // there are many a lane serves several with what it loads. Small groups do worse: the compiler then takes so many registers a
 // thread that few of them fit.
-constexpr Lanes lane_choices[] = {
-    {1, 4, 64, 2, 0}, {64, 1, 10, 4, 2600}, {64, 2, 10, 3, 8000}, {64, 4, 8, 3, 0xffffffffu}, {128, 2, 2, 4, 0}};
+constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 0}, {64, 1, 10, 4, 2600}, {32, 2, 20, 3, 8000}, {64, 4, 8, 3, 0xffffffffu}};
 
 class GpuDevice final : public Device {
  public:
@@ -67,6 +66,7 @@ class GpuDevice final : public Device {
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
   }
   KernelId force_kernel(std::string_view name, std::size_t variant) override {
+    PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
     return build(fmt::format("{}, {}", name, variants_[variant].name), "compute/force.comp",
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},

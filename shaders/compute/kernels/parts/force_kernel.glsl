@@ -1,6 +1,6 @@
-// What force kernels share. For each share that runs(), the frame around them sums the springs of its vertices at the placements in
-// placement_slot(), and counts that once a body. Around that it calls, for each vertex and axis, before_force(), whose loads hide behind the sum, after_force(), which
-// returns the coordinate it came to, and, where it settles(), settle() with all three of them.
+// What force kernels share. For each share that runs(), the frame around them sums the springs of its vertices at the placements
+// in placement_slot(), and counts that once a body. Around that it calls, for each vertex and axis, before_force(), whose loads
+// hide behind the sum, after_force(), which returns the coordinate it came to, and, where it settles(), settle() with all three.
 bool halted(IN(Share) s) { return frame[s.body_index].halted != 0u; }
 
 // Where no vertex moves relative to another every spring is at rest, and the sum is left out.
