@@ -15,12 +15,12 @@ void expect_consistent(const DeviceChoice& choice) {
                 "add --device cpu or leave --precision out");
 }
 
+}  // namespace
+
 bool has_hardware_gpu() {
   const auto adapters = gl::list_adapters();
   return !adapters.empty() && !adapters.front().is_software;
 }
-
-}  // namespace
 
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   expect_consistent(choice);

@@ -16,6 +16,8 @@ struct DeviceChoice {
   unsigned threads = 0;  // 0: one a processor
 };
 
+[[nodiscard]] bool has_hardware_gpu();
+
 /// Automatic: a hardware GPU if there is one and precision is 32, else the CPU; software OpenGL only when the GPU is asked for.
 /// Throws Error: command_line for a contradiction, device when there is no such device.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice);

@@ -5,8 +5,10 @@
 
 #include <ctime>
 
-#include "device/device.hpp"
+#include "core/thread_pool.hpp"
+#include "device/cpu/cpu_device.hpp"
 #include "gl/context.hpp"
+#include "pliant_commit.hpp"  // written by the build, see cmake/PliantCommit.cmake
 
 namespace pliant::bench {
 namespace {
@@ -24,9 +26,14 @@ std::string compiler() {
 }  // namespace
 
 Machine describe_machine(int gpu_index) {
-  const DeviceInfo cpu = make_cpu_device(0, 32)->info();
-  Machine machine{.cpu = cpu.name, .cpu_threads = cpu.threads, .gpu = {}, .driver = {}, .compiler = compiler(), .date = {}};
-  machine.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  Machine machine{.version = PLIANT_VERSION,
+                  .commit = PLIANT_COMMIT,
+                  .cpu = cpu::device_name(),
+                  .cpu_threads = thread_count(0),
+                  .gpu = {},
+                  .driver = {},
+                  .compiler = compiler(),
+                  .date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))};
   for (const gl::Adapter& adapter : gl::list_adapters())
     if (adapter.index == gpu_index) {
       machine.gpu = adapter.renderer;

@@ -1,4 +1,4 @@
-// The machine that a result belongs to.
+// The machine and the build that a result belongs to.
 #pragma once
 #include <optional>
 #include <string>
@@ -6,6 +6,7 @@
 namespace pliant::bench {
 
 struct Machine {
+  std::string version, commit;  // of pliant; the commit ends in "-dirty" where files differed, and may be "unknown"
   std::string cpu;
   unsigned cpu_threads = 1;
   std::optional<std::string> gpu, driver;  // OpenGL's renderer and version; empty where there is no OpenGL 4.5

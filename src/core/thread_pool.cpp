@@ -57,14 +57,17 @@ void keep_on(std::thread&, int) {}
 
 }  // namespace
 
+unsigned thread_count(unsigned asked) { return asked != 0 ? asked : std::max(1u, std::thread::hardware_concurrency()); }
+
 ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  threads = thread_count(threads);
   const std::vector<int> processors = allowed_processors();
   own_processors_ = threads <= processors.size();
+  const bool pinned = threads == processors.size();  // fewer would all crowd the same ones, whatever else runs there
   try {
     for (unsigned k = 1; k < threads; ++k) {
       workers_.emplace_back([this] { work(); });
-      if (own_processors_) keep_on(workers_.back(), processors[k - 1]);
+      if (pinned) keep_on(workers_.back(), processors[k - 1]);
     }
   } catch (const std::exception&) {
     const std::string started = std::to_string(size());

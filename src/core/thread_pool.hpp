@@ -11,6 +11,9 @@
 
 namespace pliant {
 
+/// How many a pool of `asked` threads has; 0: one a processor.
+[[nodiscard]] unsigned thread_count(unsigned asked);
+
 class ThreadPool {
  public:
   /// Calls with the first item of a range and one past its last.

@@ -12,7 +12,7 @@ struct Adapter {
   int index = 0;         // as in --gpu N
   std::string renderer;  // GL_RENDERER
   std::string vendor, version;
-  bool is_software = false;  // llvmpipe, softpipe, swrast
+  bool is_software = false;         // llvmpipe, softpipe, swrast
   std::int64_t largest_buffer = 0;  // that a shader can use [bytes]
 };
 

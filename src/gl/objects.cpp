@@ -82,10 +82,6 @@ GLuint link(std::span<const Shader* const> shaders, const std::string& label) {
   refuse(label, log);
 }
 
-}  // namespace
-
-namespace {
-
 void expect_within_limit(std::size_t bytes, std::string_view label) {
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
@@ -106,9 +102,11 @@ Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(zeros.size()), zeros.data(), GL_DYNAMIC_STORAGE_BIT);
   glEnable(GL_DEBUG_OUTPUT);
-  if (glGetError() == GL_OUT_OF_MEMORY)
+  if (glGetError() == GL_OUT_OF_MEMORY) {
+    glDeleteBuffers(1, &id_);
     throw Error(ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
                 "use coarser meshes or --device cpu");
+  }
   set_label(GL_BUFFER, id_, label);
 }
 

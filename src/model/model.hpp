@@ -34,7 +34,9 @@ struct Model {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into rest_positions
 
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_positions.size()); }
-  [[nodiscard]] std::uint32_t body_index(std::size_t vertex) const { return static_cast<std::uint32_t>(rest_positions[vertex].w); }
+  [[nodiscard]] std::uint32_t body_index(std::size_t vertex) const {
+    return static_cast<std::uint32_t>(rest_positions[vertex].w);
+  }
   [[nodiscard]] const ModelBody& body_of(std::size_t vertex) const { return bodies[body_index(vertex)]; }
 };
 

@@ -1,6 +1,7 @@
 // The vectorized sums of springs against the textbook's formula in long double, for every instruction set of this machine.
 #include "device/cpu/spring_sums.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -257,6 +258,23 @@ std::vector<double> motion_after(unsigned threads, int precision, std::string_vi
   CHECK(frames[1].force_evaluations == 0);
   CHECK(frames[2].force_evaluations > 0);
   return bodies.motions.download();
+}
+
+TEMPLATE_TEST_CASE("what earlier bodies have left in scratch memory counts for none", "", float, double) {
+  using Real = TestType;
+  for (const Isa isa : available_isas()) {
+    CAPTURE(name_of(isa));
+    Sample<Real> large = random_sample<Real>(600, 0.1), small = random_sample<Real>(37, 0.1, 2), again = small;
+    ThreadPool pool(2);
+    SpringSums<Real> used(isa), fresh(isa);
+    for (glm::vec<4, Real>& placement : large.placements) placement = glm::vec<4, Real>(std::numeric_limits<Real>::quiet_NaN());
+    const std::array bodies{large.body(), small.body()};
+    used.sum(pool, bodies);
+    used.sum(pool, {});
+    used.sum(pool, std::array{small.body()});
+    fresh.sum(pool, std::array{again.body()});
+    CHECK(small.sums == again.sums);
+  }
 }
 
 TEST_CASE("every way of summing moves bodies as the plain one does, bit for bit alike on any number of threads") {

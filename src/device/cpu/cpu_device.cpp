@@ -1,4 +1,6 @@
 // The CPU as a device: buffers are heap memory, kernels are functions over ranges of items.
+#include "device/cpu/cpu_device.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -45,7 +47,7 @@ class CpuDevice final : public Device {
       else
         sums_32_.emplace_back(isa);
     }
-    info_ = {.kind = "cpu", .name = processor_name() + ", " + title_of(cpu::available_isas().back()), .threads = pool_.size()};
+    info_ = {.kind = "cpu", .name = cpu::device_name(), .threads = pool_.size()};
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -60,6 +62,8 @@ class CpuDevice final : public Device {
   std::size_t allocated_bytes() const override {
     std::size_t bytes = 0;
     for (const auto& [id, buffer] : buffers_) bytes += buffer.size() * sizeof(Line);
+    for (const auto& sums : sums_32_) bytes += sums.scratch_bytes();
+    for (const auto& sums : sums_64_) bytes += sums.scratch_bytes();
     return bytes;
   }
   void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) override {
@@ -200,6 +204,8 @@ class CpuDevice final : public Device {
 };
 
 }  // namespace
+
+std::string cpu::device_name() { return processor_name() + ", " + title_of(available_isas().back()); }
 
 std::unique_ptr<Device> make_cpu_device(unsigned threads, int precision) {
   PLIANT_EXPECT(precision == 32 || precision == 64);

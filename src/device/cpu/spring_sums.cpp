@@ -55,6 +55,7 @@ SpringSums<Real>::SpringSums(Isa isa) : sum_tile_(tile_function<Real>(isa)) {
 
 template <class Real>
 void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies) {
+  if (bodies.empty()) return;
   const auto same_size = [](const SpringBody<Real>& body, const Layout& layout) {
     return body.vertex_count == layout.vertex_count;
   };
@@ -67,6 +68,11 @@ void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> b
   pool.for_ranges(chunk_count, 2, [&](std::uint32_t first, std::uint32_t end) {
     for (; first < end; ++first) unpack(bodies[chunks_[first].body], layouts_[chunks_[first].body], chunks_[first]);
   });
+}
+
+template <class Real>
+std::size_t SpringSums<Real>::scratch_bytes() const {
+  return places_.size() * sizeof(Line) + sums_.size() * sizeof(double);
 }
 
 template <class Real>
@@ -86,8 +92,8 @@ void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
     for (std::uint32_t first = 0; first < count; first += chunk_length)
       chunks_.push_back({b, first, std::min(first + chunk_length, count)});
   }
-  places_.assign((place_count * sizeof(Real) + sizeof(Line) - 1) / sizeof(Line), Line{});
-  sums_.assign(sum_count, 0.0);
+  places_.resize((place_count * sizeof(Real) + sizeof(Line) - 1) / sizeof(Line));
+  sums_.resize(sum_count);
   std::ranges::stable_sort(tasks_, std::greater(), &Task::pair_count);
 }
 
@@ -111,6 +117,9 @@ void SpringSums<Real>::pack(const SpringBody<Real>& body, const Layout& layout, 
       position[k * std::size_t{layout.stride} + i] = body.positions[i][static_cast<int>(k)];
       half_displacement[k * std::size_t{layout.stride} + i] = Real(0.5) * body.displacements[i][static_cast<int>(k)];
     }
+  if (chunk.end < layout.vertex_count) return;
+  for (std::uint32_t k = 0; k < 6; ++k)  // vectors reach beyond the last vertex: what they find there must be finite
+    std::fill(position + k * std::size_t{layout.stride} + chunk.end, position + (k + 1) * std::size_t{layout.stride}, Real(0));
 }
 
 template <class Real>

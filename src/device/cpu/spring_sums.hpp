@@ -37,6 +37,8 @@ class SpringSums {
 
   /// The same bits for any number of threads. Sums of a body add up to zero but for rounding.
   void sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies);
+  /// Held since the largest sum so far.
+  [[nodiscard]] std::size_t scratch_bytes() const;
 
  private:
   // A body in scratch. Arrays have `stride` numbers; vectors are three of them.
