@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "device/device.hpp"
+#include "core/thread_pool.hpp"
+#include "device/cpu/cpu_device.hpp"
 #include "dynamics/integrator.hpp"
 #include "gl/context.hpp"
 
@@ -30,7 +31,6 @@ Json described_integrators() {
 }
 
 Json described_devices() {
-  const DeviceInfo cpu = make_cpu_device(0, 32)->info();
   Json gpus = Json::array();
   std::string reason;
   for (const gl::Adapter& adapter : gl::list_adapters(&reason))
@@ -40,7 +40,8 @@ Json described_devices() {
                     {"driver", adapter.version},
                     {"software", adapter.is_software},
                     {"largest_buffer_bytes", adapter.largest_buffer}});
-  Json result = {{"version", PLIANT_VERSION}, {"cpu", {{"name", cpu.name}, {"threads", cpu.threads}}}, {"gpus", gpus}};
+  Json result = {
+      {"version", PLIANT_VERSION}, {"cpu", {{"name", cpu::device_name()}, {"threads", thread_count(0)}}}, {"gpus", gpus}};
   if (gpus.empty()) result["missing"] = reason + "; " + remedy;
   return result;
 }

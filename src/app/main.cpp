@@ -54,7 +54,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{300'000'000}));
   run->add_option("--duration", options.duration, "Simulated time [s]")->check(finite(0, "a number >= 0"))->excludes(steps);
-  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(finite(1e-30, "a number > 0"));
+  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(finite(1e-30, "a number, 1e-30 or more"));
   run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them");
   run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
       ->allow_extra_args(false)

@@ -44,7 +44,8 @@ class Run {
     advance_to(run_.plan.steps);
     history_.close();
     write_end();
-    return report_.non_finite ? exit_non_finite : 0;
+    if (report_.non_finite) return exit_non_finite;
+    return interrupted != 0 ? exit_interrupted : 0;
   }
 
  private:
@@ -75,7 +76,8 @@ class Run {
     state_ = run_.simulation->state();
     now_ = measuring_.time([&] { return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_); });
     if (report_.steps == 0) first_ = now_;
-    const double drift = std::abs(now_.energy() - first_.energy()) / energy_scale();
+    most_in_motion_ = std::max(most_in_motion_, now_.kinetic + now_.elastic);
+    const double drift = std::abs(now_.energy() - first_.energy());
     largest_drift_ = drift <= largest_drift_ ? largest_drift_ : drift;
     history_.append({.step = report_.steps,
                      .time = static_cast<double>(report_.steps) * run_.plan.time_step,
@@ -92,12 +94,18 @@ class Run {
     writing_.time([&] { frames_.write(state_); });
   }
 
-  double energy_scale() const {
-    if (first_.energy() != 0) return std::abs(first_.energy());
-    double scale = 0;
+  // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
+  double smallest_energy() const {
+    double scale = std::numeric_limits<double>::min();
     for (const ModelBody& body : run_.start.model.bodies)
-      scale = std::max(scale, 0.5 * body.stiffness * body.radius * body.radius);
-    return scale > 0 ? scale : 1;
+      scale = std::max(scale, 1e-12 * 0.5 * body.stiffness * body.radius * body.radius);
+    return scale;
+  }
+
+  // Against what there was at the start and what gravity has given since: neither depends on where the world's origin is.
+  double energy_growth() const {
+    const double had = first_.kinetic + first_.elastic + std::abs(now_.gravitational - first_.gravitational);
+    return 1 + (now_.energy() - first_.energy()) / std::max(had, smallest_energy());
   }
 
   void write_end() {
@@ -121,13 +129,15 @@ class Run {
     s.wall_seconds = stepping_.seconds();
     s.steps_per_second = report_.steps == 0 ? 0 : static_cast<double>(report_.steps) / stepping_.seconds();
     s.energy = {first_.energy(), now_.energy(), {}};
-    if (run_.plan.damping_law == DampingLaw::none && report_.contact_steps == 0) s.energy.max_drift = largest_drift_;
+    if (run_.plan.damping_law == DampingLaw::none && report_.contact_steps == 0)
+      s.energy.max_drift = largest_drift_ / std::max(most_in_motion_, smallest_energy());
     s.contacts = {report_.contact_steps, report_.contact_pairs_max, report_.reverted_vertices};
     if (report_.non_finite)
       s.energy.final = std::nan("");  // the step that broke, whatever a sum of it gives
     else
       s.final_intersecting_pairs = run_.simulation->intersections().pairs;
     s.non_finite = report_.non_finite.has_value();
+    s.interrupted = interrupted != 0;
     s.work = {report_.force_evaluations, report_.pair_interactions, report_.nodes_refitted, report_.node_tests,
               report_.triangle_tests};
     s.skipped = {{"force_evaluations", report_.forces_skipped},
@@ -139,7 +149,7 @@ class Run {
                     {"measure", 1e3 * measuring_.seconds()},
                     {"frames", 1e3 * writing_.seconds()}};
     for (const auto& [pass, seconds] : run_.simulation->pass_seconds())
-      s.timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
+      s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
     s.warnings = run_.warnings;
     if (const auto what = instability()) s.warnings.push_back(*what);
     s.version = PLIANT_VERSION;
@@ -186,8 +196,11 @@ class Run {
                              ? fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound)
                              : std::string("shorten the time step, or lower stiffness, damping or velocities"));
     }
-    const double growth = now_.energy() / first_.energy();
-    if (first_.energy() > 0 && growth > 2) return fmt::format("the energy has grown {:.3g}-fold: the motion is unstable", growth);
+    const double growth = energy_growth();
+    if (growth > 2)
+      return fmt::format(
+          "the energy has grown {:.3g}-fold: {}", growth,
+          report_.contact_steps > 0 ? "contacts have added it, or the motion is unstable" : "the motion is unstable");
     return {};
   }
 
@@ -200,7 +213,8 @@ class Run {
   StepReport report_;
   State state_;
   Measurement first_, now_;
-  double largest_drift_ = 0;
+  double largest_drift_ = 0;   // of the energy [J]
+  double most_in_motion_ = 0;  // kinetic and elastic [J]
   Stopwatch stepping_, measuring_, writing_;
 };
 
@@ -225,7 +239,8 @@ double seconds_per_step(PreparedRun& run) {
 }
 
 void show_check(PreparedRun& run) {
-  const std::size_t bytes = run.device->allocated_bytes();
+  const double seconds = seconds_per_step(run);
+  const std::size_t bytes = run.device->allocated_bytes();  // with what a first step has made the device take
   fmt::print("scene:            {}\n", run.scene.title.empty() ? run.scene.file.string() : run.scene.title);
   for (const ModelBody& body : run.start.model.bodies)
     fmt::print("body:             {} ({} vertices, {} triangles)\n", body.name, body.vertex_count, body.triangle_count);
@@ -235,7 +250,7 @@ void show_check(PreparedRun& run) {
   fmt::print("steps:            {}\n", run.plan.steps);
   fmt::print("device:           {} ({})\n", run.device->info().kind, run.device->info().name);
   fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
-  fmt::print("stepping time:    about {:.3g} s\n", static_cast<double>(run.plan.steps) * seconds_per_step(run));
+  fmt::print("stepping time:    about {:.3g} s\n", static_cast<double>(run.plan.steps) * seconds);
 }
 
 }  // namespace

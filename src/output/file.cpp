@@ -27,7 +27,7 @@ void OutputFile::close() {
 void OutputFile::require(bool good, const char* problem) const {
   if (!good)
     throw Error(ErrorKind::command_line, path_.string(), problem,
-                "make room and check that you may write there, or choose another folder with --out");
+                "make room and check that you may write there, or name another place");
 }
 
 }  // namespace pliant

@@ -42,6 +42,12 @@ Json work_json(const Summary& summary) {
           {"triangle_tests", triangle_tests}};
 }
 
+Json timings_json(const Summary& summary) {
+  Json json = object(summary.timings_ms);
+  if (!summary.pass_timings_ms.empty()) json["passes"] = object(summary.pass_timings_ms);
+  return json;
+}
+
 }  // namespace
 
 void write_summary(const std::filesystem::path& path, const Summary& summary) {
@@ -59,10 +65,11 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"contacts", contacts_json(summary)},
                      {"final_intersecting_pairs", or_null(summary.final_intersecting_pairs)},
                      {"non_finite", summary.non_finite},
+                     {"interrupted", summary.interrupted},
                      {"warnings", summary.warnings},
                      {"work", work_json(summary)},
                      {"skipped", object(summary.skipped)},
-                     {"timings_ms", object(summary.timings_ms)},
+                     {"timings_ms", timings_json(summary)},
                      {"version", summary.version}};
   OutputFile file(path);
   file.write(json.dump(2, ' ', false, Json::error_handler_t::replace));  // replace: a path need not be UTF-8

@@ -36,6 +36,7 @@ struct Summary {
   } contacts;
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty where the state is not finite
   bool non_finite = false;
+  bool interrupted = false;
   struct {
     std::uint64_t force_evaluations = 0;  // all forces of one body, once
     std::uint64_t pair_interactions = 0;
@@ -45,7 +46,8 @@ struct Summary {
   } work;
   std::vector<std::string> warnings;  // before and after the run
   std::vector<Count> skipped;
-  std::vector<Duration> timings_ms;
+  std::vector<Duration> timings_ms;       // parts of the run, one after the other
+  std::vector<Duration> pass_timings_ms;  // of the time on steps, by pass; empty where they were not measured
   std::string version;
 };
 

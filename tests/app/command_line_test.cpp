@@ -186,10 +186,11 @@ TEST_CASE("Ctrl-C ends a run early and writes what there is") {
     REQUIRE(waitpid(child, &status, WNOHANG) == 0);
   kill(child, SIGINT);
   REQUIRE(waitpid(child, &status, 0) == child);
-  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
   const auto summary = summary_in(folder.path);
   CHECK(summary["steps"] > 0);
   CHECK(summary["steps"] < 100000000);
+  CHECK(summary["interrupted"] == true);
   CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
 }
 
@@ -229,6 +230,18 @@ TEST_CASE("a run that blows up but stays finite says so in its summary") {
   const std::string warnings = summary_in(folder.path)["warnings"].dump();
   CHECK_THAT(warnings, Catch::Contains("1.08 times the stability bound") && Catch::Contains("the energy has grown"));
   CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
+}
+
+TEST_CASE("energy that gravity gives, wherever the world's origin is, is no growth") {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program(
+      "run " + small_scene(folder, "integrator = \"verlet\"\ndamping_law = \"none\"\ngravity = [0, -10, 0]\n").string() +
+      " --device cpu --duration 2 --set body.left.position=[0,1.5,0] --set body.right.position=[0,-1.5,0]"
+      " --set body.left.velocity=[0,0,0] --out " +
+      folder.path.string());
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.output, !Catch::Contains("energy"));
+  CHECK(summary_in(folder.path)["energy"]["max_drift"].get<double>() < 1e-6);
 }
 
 TEST_CASE("bodies that overlap at the start are named in a warning") {
@@ -297,7 +310,7 @@ TEST_CASE("a bad command line exits with 2") {
               {"--set simulation.duration=1e10", "3e8 steps"});
   check_fails("run " + scene + " --steps 300000001", 2, {"--steps"});
   check_fails("run " + scene + " --set simulation.time_stepp=1", 2, {"--set", "time_step"});
-  check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"--out"});
+  check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"another place"});
 }
 
 TEST_CASE("a device that is not there exits with 4") {

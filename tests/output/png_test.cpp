@@ -26,5 +26,5 @@ TEST_CASE("a written PNG has the signature and the size of its picture") {
 TEST_CASE("a PNG that cannot be written is an error with a remedy") {
   const auto failure = error_of([] { return write_png("/dev/null/picture.png", {1, 1, {1, 2, 3}}), 0; });
   CHECK(failure.kind() == ErrorKind::command_line);
-  check_says(failure, {"/dev/null/picture.png", "--out"});
+  check_says(failure, {"/dev/null/picture.png", "another place"});
 }
