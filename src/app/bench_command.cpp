@@ -6,28 +6,21 @@
 #include <cstdio>
 #include <string>
 
+#include "app/choose_device.hpp"
 #include "bench/report.hpp"
 #include "core/error.hpp"
-#include "gl/context.hpp"
 #include "output/file.hpp"
 
 namespace pliant::app {
 namespace {
 
-bool has_hardware_gpu(int index) {
-  for (const gl::Adapter& adapter : gl::list_adapters())
-    if (adapter.index == index) return !adapter.is_software;
-  return false;
-}
-
 bench::Selection selection_of(const BenchOptions& options) {
   if (options.gpu_index && options.devices == BenchDevices::cpu)
     throw Error(ErrorKind::command_line, "--gpu", "does not go with --device cpu", "leave one of them out");
-  const int index = options.gpu_index.value_or(0);
   const bool automatic = options.devices == BenchDevices::automatic;
   return {.cpu = options.devices != BenchDevices::gpu,
-          .gpu = automatic ? options.gpu_index || has_hardware_gpu(index) : options.devices != BenchDevices::cpu,
-          .gpu_index = index,
+          .gpu = automatic ? options.gpu_index || has_hardware_gpu() : options.devices != BenchDevices::cpu,
+          .gpu_index = options.gpu_index.value_or(0),
           .threads = options.threads};
 }
 
@@ -43,6 +36,8 @@ void measure_and_write(const BenchOptions& options, const Measure& measure) {
   std::optional<OutputFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const bench::Machine machine = bench::describe_machine(options.gpu_index.value_or(0));
+  fmt::print("{}\n", bench::to_text(machine));
+  std::fflush(stdout);  // before minutes of measuring
   const auto result = measure();
   fmt::print("{}", bench::to_table(result));
   if (!file) return;

@@ -18,7 +18,7 @@ struct BenchOptions {
   std::filesystem::path scenes = "scenes";  // steps: folder
 };
 
-/// Prints a table and writes the file. Throw Error.
+/// Prints the machine and a table, and writes the file. Throw Error.
 void bench_forces(const BenchOptions& options);
 void bench_steps(const BenchOptions& options);
 

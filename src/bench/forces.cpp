@@ -46,12 +46,13 @@ class ForcesAt {
     if (!options.quick) warm_up();
   }
 
-  // Variants to measure for a size: instruction sets of the CPU, the GPU's best one, or all.
+  // Variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
   std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
+    if (!on_cpu() && !all_variants_) return {device_->best_force_variant(vertices)};
     std::vector<std::size_t> chosen;
     for (std::size_t v = 0; v < device_->force_variants().size(); ++v)
-      if (all_variants_ || isa_named(device_->force_variants()[v].name)) chosen.push_back(v);
-    return chosen.empty() ? std::vector{device_->best_force_variant(vertices)} : chosen;
+      if (all_variants_ || sums_in_tiles(v)) chosen.push_back(v);
+    return chosen;
   }
 
   const std::string& name_of_variant(std::size_t variant) const { return device_->force_variants()[variant].name; }
@@ -67,7 +68,7 @@ class ForcesAt {
     rows_.push_back({.device = place_.device,
                      .precision = place_.precision,
                      .threads = place_.threads,
-                     .isa = place_.device == "gpu" ? "opengl" : std::string(cpu::name_of(isa_of(variant))),
+                     .isa = on_cpu() ? std::string(cpu::name_of(isa_of(variant))) : "opengl",
                      .form = "cancellation_free",
                      .variant = name_of_variant(variant),
                      .vertices = vertices,
@@ -84,6 +85,8 @@ class ForcesAt {
   }
 
  private:
+  bool on_cpu() const { return place_.device == "cpu"; }
+
   // Clocks rise under load.
   void warm_up() {
     static_cast<void>(multiply_adds_per_second(*device_, place_, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
@@ -97,8 +100,13 @@ class ForcesAt {
     return seconds_each(*device_, effort_, [&] { device_->run({&pass, 1}); });
   }
 
-  // The plain form is compiled for every processor.
-  cpu::Isa isa_of(std::size_t variant) const { return isa_named(name_of_variant(variant)).value_or(cpu::Isa::portable); }
+  // The CPU's variants but the plain one, which is compiled for every processor, are named after instruction sets.
+  bool sums_in_tiles(std::size_t variant) const { return on_cpu() && isa_named(name_of_variant(variant)); }
+
+  // The GPU's peak stands under portable.
+  cpu::Isa isa_of(std::size_t variant) const {
+    return sums_in_tiles(variant) ? *isa_named(name_of_variant(variant)) : cpu::Isa::portable;
+  }
 
   // Once for every row, as whatever else the machine does can only lower it.
   void look_at_peak(cpu::Isa isa) {
@@ -108,8 +116,9 @@ class ForcesAt {
 
   void set_bound(ForcesRow& row, std::size_t variant) const {
     const cpu::Isa isa = isa_of(variant);
-    const bool tiles = isa_named(row.variant).has_value(), fused = row.device == "gpu" || cpu::fuses_multiply_adds(isa);
-    const InstructionCount pair = tiles ? instructions_of_pair_in_tiles(isa, row.precision) : instructions_of_pair;
+    const bool fused = !on_cpu() || cpu::fuses_multiply_adds(isa);
+    const InstructionCount pair =
+        sums_in_tiles(variant) ? instructions_of_pair_in_tiles(isa, row.precision) : instructions_of_pair;
     row.multiply_adds_per_second = peaks_.at(isa);
     row.bound_pairs_per_second = bound_of_pairs_per_second(row.multiply_adds_per_second, pair, fused);
     row.ratio_to_bound = row.pairs_per_second / row.bound_pairs_per_second;
@@ -120,7 +129,7 @@ class ForcesAt {
   Effort effort_;
   std::unique_ptr<Device> device_;
   std::map<std::size_t, double> seconds_per_pair_;  // by variant, at the largest size so far
-  std::map<cpu::Isa, double> peaks_;                // the highest multiply-adds a second so far; the GPU's stand under portable
+  std::map<cpu::Isa, double> peaks_;                // the highest multiply-adds a second so far
   std::vector<ForcesRow> rows_;                     // without bounds
   std::vector<std::size_t> variants_;               // of the rows
 };

@@ -18,7 +18,7 @@ std::string name_of(const Place& place) {
 std::vector<Place> places_of(const Selection& selection, std::span<const int> cpu_precisions) {
   std::vector<Place> places;
   if (selection.cpu) {
-    const unsigned most = ThreadPool(selection.threads).size();
+    const unsigned most = thread_count(selection.threads);
     for (const int precision : cpu_precisions) {
       places.push_back({.device = "cpu", .precision = precision, .threads = 1});
       if (most > 1) places.push_back({.device = "cpu", .precision = precision, .threads = most});

@@ -16,9 +16,9 @@ Json or_null(const std::optional<Value>& value) {
 }
 
 Json machine_json(const Machine& machine) {
-  return {{"cpu", machine.cpu},           {"cpu_threads", machine.cpu_threads},
-          {"gpu", or_null(machine.gpu)},  {"driver", or_null(machine.driver)},
-          {"compiler", machine.compiler}, {"date", machine.date}};
+  return {{"version", machine.version},         {"commit", machine.commit},    {"cpu", machine.cpu},
+          {"cpu_threads", machine.cpu_threads}, {"gpu", or_null(machine.gpu)}, {"driver", or_null(machine.driver)},
+          {"compiler", machine.compiler},       {"date", machine.date}};
 }
 
 Json row_json(const ForcesRow& row) {
@@ -78,6 +78,13 @@ std::size_t width_of(const std::vector<Row>& rows, std::string Row::*text) {
 }
 
 }  // namespace
+
+std::string to_text(const Machine& machine) {
+  std::string text = fmt::format("pliant {} (commit {}), {}, {}\n{}, {} threads", machine.version, machine.commit,
+                                 machine.compiler, machine.date, machine.cpu, machine.cpu_threads);
+  if (machine.gpu) text += fmt::format("; {}, {}", *machine.gpu, machine.driver.value_or(""));
+  return text;
+}
 
 std::string to_table(const std::vector<ForcesRow>& rows) {
   const std::size_t width = width_of(rows, &ForcesRow::variant);

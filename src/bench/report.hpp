@@ -9,12 +9,14 @@
 
 namespace pliant::bench {
 
+/// Two lines to stand above a table: the build, and the hardware.
+[[nodiscard]] std::string to_text(const Machine& machine);
 [[nodiscard]] std::string to_table(const std::vector<ForcesRow>& rows);
 [[nodiscard]] std::string to_table(const StepsResult& result);
 /// A sentence.
 [[nodiscard]] std::string to_text(const FamilyCrossover& crossover);
 
-/// {suite, machine{cpu, gpu, driver, compiler, date}, rows[...]}; for steps also {crossovers[...], notes[...]}.
+/// {suite, machine{version, commit, cpu, gpu, driver, compiler, date}, rows[...]}; for steps also {crossovers[...], notes[...]}.
 [[nodiscard]] std::string to_json(const Machine& machine, const std::vector<ForcesRow>& rows);
 [[nodiscard]] std::string to_json(const Machine& machine, const StepsResult& result);
 

@@ -15,8 +15,8 @@
 //   accumulation                                3      3
 //   together                                   24     12
 //
-// Loads, loops, the maximum that keeps the root from zero, sums of partial sums and the longer time of roots and divisions are left out,
-// so no kernel reaches its bound.
+// Loads, loops, the maximum that keeps the root from zero, sums of partial sums and the longer time of roots and divisions are
+// left out, so no kernel reaches its bound.
 #pragma once
 #include "device/cpu/spring_sums.hpp"
 

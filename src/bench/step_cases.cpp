@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "bench/shapes.hpp"
 #include "core/error.hpp"
@@ -97,7 +98,13 @@ StepCases load_step_cases(const std::filesystem::path& folder, bool quick) {
     const int last = quick ? family.last_quick_level : family.last_level;
     for (int level = family.first_level; level <= last; ++level) all.cases.push_back(case_of(family, folder, level, quick));
   }
-  for (const std::filesystem::path& file : files) all.cases.push_back(case_of(file, quick));
+  for (const std::filesystem::path& file : files) {
+    StepCase made = case_of(file, quick);
+    if (made.steps == 0)
+      all.notes.push_back(fmt::format("{}: left out, as it has no steps", made.name));
+    else
+      all.cases.push_back(std::move(made));
+  }
   return all;
 }
 

@@ -17,7 +17,7 @@ struct StepCase {
   TimePlan plan;
   CollisionDescription collision;
   std::uint64_t steps_before = 0;  // not measured: up to the first contact
-  std::uint64_t steps = 0;         // measured
+  std::uint64_t steps = 0;         // measured, at least one
 };
 
 struct StepCases {

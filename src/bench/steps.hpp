@@ -25,11 +25,11 @@ struct StepsRow {
   unsigned threads = 1;
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t bodies = 0;
-  double milliseconds_per_step = 0;  // the median over the runs
+  double milliseconds_per_step = 0;  // the median over the runs, which follow a step that builds the kernels
   double steps_per_second = 0;
   std::uint64_t steps = 0;          // measured, of each run
   std::uint64_t contact_steps = 0;  // among them, with a contact
-  int runs = 0;
+  int runs = 0;                     // up to five within 1.5 s, at least one; one with `quick`
 };
 
 /// Of one family: the GPU against the CPU on so many threads.

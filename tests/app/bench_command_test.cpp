@@ -18,7 +18,12 @@ nlohmann::json checked_results(const std::string& arguments, const std::filesyst
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
   auto json = nlohmann::json::parse(read_text(file));
-  for (const char* key : {"cpu", "gpu", "driver", "compiler", "date"}) CHECK(json["machine"].contains(key));
+  const auto& machine = json["machine"];
+  for (const char* key : {"cpu", "gpu", "driver", "compiler", "date"}) CHECK(machine.contains(key));
+  CHECK_THAT(machine["commit"].get<std::string>(), Catch::Matches("unknown|[0-9a-f]{12,40}(-dirty)?"));
+  CHECK(run_program("--version").output == machine["version"].get<std::string>() + '\n');
+  for (const char* key : {"version", "commit", "cpu", "date"})  // above the table too
+    CHECK_THAT(result.output, Catch::Contains(machine[key].get<std::string>()));
   CHECK_THAT(json["machine"]["date"].get<std::string>(), Catch::Matches("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"));
   CHECK_FALSE(json["rows"].empty());
   return json;
