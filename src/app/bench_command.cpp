@@ -3,16 +3,27 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "app/choose_device.hpp"
+#include "app/run_command.hpp"
 #include "bench/report.hpp"
 #include "core/error.hpp"
 #include "output/file.hpp"
 
 namespace pliant::app {
 namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// A measurement in hand is finished first; the second Ctrl-C does not wait for it.
+void note_interrupt(int) {
+  interrupted = 1;
+  std::signal(SIGINT, SIG_DFL);
+}
 
 bench::Selection selection_of(const BenchOptions& options) {
   if (options.gpu_index && options.devices == BenchDevices::cpu)
@@ -24,41 +35,51 @@ bench::Selection selection_of(const BenchOptions& options) {
           .threads = options.threads};
 }
 
-void show_progress(double done, std::string_view next) {
-  if (isatty(fileno(stderr)) == 0) return;
+// Answers whether to go on.
+bool show_progress(double done, std::string_view next) {
+  if (isatty(fileno(stderr)) == 0) return interrupted == 0;
   fmt::print(stderr, "\r[{:<30}] {:3.0f} %  {:<50}", std::string(static_cast<std::size_t>(30 * done), '#'), 100 * done, next);
-  if (done == 1) fmt::print(stderr, "\r{:90}\r", "");
+  if (done == 1 || interrupted != 0) fmt::print(stderr, "\r{:90}\r", "");
+  return interrupted == 0;
 }
 
-// The file is opened first: minutes of measuring should not end with a folder that can't be written.
-template <class Measure>
-void measure_and_write(const BenchOptions& options, const Measure& measure) {
-  std::optional<OutputFile> file;
+// The table comes before any error of writing the file. Without a row an earlier file stays.
+template <class Options, class Result>
+void write_results(const bench::Machine& machine, const Options& asked, const Result& result, std::optional<WholeFile>& file) {
+  fmt::print("{}", bench::to_table(result));
+  std::fflush(stdout);
+  if (!file || (result.interrupted && result.rows.empty())) return;
+  file->write(bench::to_json(machine, asked, result));
+  file->close();
+}
+
+// The file's place is checked first: minutes of measuring should not end with a folder that can't be written.
+template <class Options, class Measure>
+int measure_and_write(const BenchOptions& options, const Options& asked, const Measure& measure) {
+  std::signal(SIGINT, note_interrupt);
+  std::optional<WholeFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const bench::Machine machine = bench::describe_machine(options.gpu_index.value_or(0));
   fmt::print("{}\n", bench::to_text(machine));
   std::fflush(stdout);  // before minutes of measuring
-  const auto result = measure();
-  fmt::print("{}", bench::to_table(result));
-  if (!file) return;
-  file->write(bench::to_json(machine, result));
-  file->close();
+  const auto result = measure(asked, show_progress);
+  write_results(machine, asked, result, file);
+  if (result.interrupted)
+    fmt::print(stderr, "pliant: interrupted after {} row{}\n", result.rows.size(), result.rows.size() == 1 ? "" : "s");
+  return result.interrupted ? exit_interrupted : 0;
 }
 
 }  // namespace
 
-void bench_forces(const BenchOptions& options) {
-  const bench::Selection devices = selection_of(options);
-  measure_and_write(options, [&] {
-    return bench::bench_forces({.devices = devices, .quick = options.quick, .all_variants = options.all_variants}, show_progress);
-  });
+int bench_forces(const BenchOptions& options) {
+  const bench::ForcesOptions asked{
+      .devices = selection_of(options), .quick = options.quick, .all_variants = options.all_variants};
+  return measure_and_write(options, asked, bench::bench_forces);
 }
 
-void bench_steps(const BenchOptions& options) {
-  const bench::Selection devices = selection_of(options);
-  measure_and_write(options, [&] {
-    return bench::bench_steps({.devices = devices, .scenes = options.scenes, .quick = options.quick}, show_progress);
-  });
+int bench_steps(const BenchOptions& options) {
+  const bench::StepsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_steps);
 }
 
 }  // namespace pliant::app

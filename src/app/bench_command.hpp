@@ -18,8 +18,9 @@ struct BenchOptions {
   std::filesystem::path scenes = "scenes";  // steps: folder
 };
 
-/// Prints the machine and a table, and writes the file. Throw Error.
-void bench_forces(const BenchOptions& options);
-void bench_steps(const BenchOptions& options);
+/// Prints the machine and a table, and writes the file; an earlier one stays until then. After Ctrl-C with the rows that are
+/// finished. Return the exit code, 0 or exit_interrupted. Throw Error.
+int bench_forces(const BenchOptions& options);
+int bench_steps(const BenchOptions& options);
 
 }  // namespace pliant::app

@@ -139,12 +139,11 @@ int execute(int count, char** arguments) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::command_line);
   }
   if (program.got_subcommand("run")) return app::run(run);
+  const CLI::App* suite = program.get_subcommand("bench");
+  if (suite->got_subcommand("forces")) return app::bench_forces(bench);
+  if (suite->got_subcommand("steps")) return app::bench_steps(bench);
   if (program.got_subcommand("info"))
     app::show_info(info);
-  else if (const CLI::App* suite = program.get_subcommand("bench"); suite->got_subcommand("forces"))
-    app::bench_forces(bench);
-  else if (suite->got_subcommand("steps"))
-    app::bench_steps(bench);
   else
     show_mesh(mesh);
   return 0;

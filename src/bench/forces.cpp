@@ -19,6 +19,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double longest_evaluation = 2;  // [s]
+constexpr double shortest_peak = 0.01;    // batch of multiply-adds [s]; shorter ones may fall into a bad moment as a whole
 
 std::vector<ModelAndState> bodies_of_all_sizes(bool quick) {
   std::vector<ModelAndState> bodies;
@@ -57,13 +58,16 @@ class ForcesAt {
 
   const std::string& name_of_variant(std::size_t variant) const { return device_->force_variants()[variant].name; }
 
-  // Adds a row, unless one evaluation would take too long.
+  // Of one evaluation; 0 before the variant's first row.
+  double expected_seconds(std::uint32_t vertices, std::size_t variant) const {
+    const auto known = seconds_per_pair_.find(variant);
+    return known == seconds_per_pair_.end() ? 0 : known->second * pair_count(vertices);
+  }
+
   void measure(const ModelAndState& body, std::size_t variant) {
     const std::uint32_t vertices = body.model.vertex_count();
-    const auto known = seconds_per_pair_.find(variant);
-    if (known != seconds_per_pair_.end() && known->second * pair_count(vertices) > longest_evaluation) return;
-    const double seconds = seconds_of_forces(body, variant);
-    seconds_per_pair_[variant] = seconds / pair_count(vertices);
+    const Timing seconds = seconds_of_forces(body, variant);
+    seconds_per_pair_[variant] = seconds.median / pair_count(vertices);
     look_at_peak(isa_of(variant));
     rows_.push_back({.device = place_.device,
                      .precision = place_.precision,
@@ -72,8 +76,9 @@ class ForcesAt {
                      .form = "cancellation_free",
                      .variant = name_of_variant(variant),
                      .vertices = vertices,
-                     .seconds_per_evaluation = seconds,
-                     .pairs_per_second = pair_count(vertices) / seconds});
+                     .seconds_per_evaluation = seconds.median,
+                     .fastest_seconds_per_evaluation = seconds.fastest,
+                     .pairs_per_second = pair_count(vertices) / seconds.median});
     variants_.push_back(variant);
   }
 
@@ -92,7 +97,7 @@ class ForcesAt {
     static_cast<void>(multiply_adds_per_second(*device_, place_, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
   }
 
-  double seconds_of_forces(const ModelAndState& body, std::size_t variant) {
+  Timing seconds_of_forces(const ModelAndState& body, std::size_t variant) {
     DeviceBodies bodies(*device_, body.model, body.state, variant);
     const Stepper stepper(*device_, bodies, find_integrator("verlet"), DampingLaw::none, 1e-3);
     device_->run(stepper.first_passes());
@@ -110,7 +115,7 @@ class ForcesAt {
 
   // Once for every row, as whatever else the machine does can only lower it.
   void look_at_peak(cpu::Isa isa) {
-    const Effort effort{.batch_seconds = effort_.batch_seconds, .batches = 3};
+    const Effort effort{.batch_seconds = std::max(effort_.batch_seconds, shortest_peak), .batches = 5};
     peaks_[isa] = std::max(peaks_[isa], multiply_adds_per_second(*device_, place_, isa, effort));
   }
 
@@ -134,30 +139,41 @@ class ForcesAt {
   std::vector<std::size_t> variants_;               // of the rows
 };
 
+// Every variant of one size, or a note why not; false where `progress` says to end.
+bool measure_size(ForcesAt& here, const ModelAndState& body, const std::string& place, double done, const Progress& progress,
+                  std::vector<std::string>& notes) {
+  const std::uint32_t vertices = body.model.vertex_count();
+  for (const std::size_t variant : here.variants_for(vertices)) {
+    const std::string what = fmt::format("{}, {}, {} vertices", place, here.name_of_variant(variant), vertices);
+    if (!progress(done, what)) return false;
+    if (const double seconds = here.expected_seconds(vertices, variant); seconds > longest_evaluation)
+      notes.push_back(fmt::format("{}: left out, as a sum would take about {:.2g} s", what, seconds));
+    else
+      here.measure(body, variant);
+  }
+  return true;
+}
+
 }  // namespace
 
-std::vector<ForcesRow> bench_forces(const ForcesOptions& options, const Progress& progress) {
+ForcesResult bench_forces(const ForcesOptions& options, const Progress& progress) {
   constexpr int precisions[] = {32, 64};
   const std::vector<Place> places = places_of(options.devices, precisions);
   const std::vector<ModelAndState> bodies = bodies_of_all_sizes(options.quick);
-  std::vector<ForcesRow> rows;
+  ForcesResult result;
   double done = 0;
   for (const Place& place : places) {
     ForcesAt here(place, options);
     for (const ModelAndState& body : bodies) {
-      const std::uint32_t vertices = body.model.vertex_count();
-      for (const std::size_t variant : here.variants_for(vertices)) {
-        progress(done / static_cast<double>(places.size() * bodies.size()),
-                 fmt::format("{}, {}, {} vertices", name_of(place), here.name_of_variant(variant), vertices));
-        here.measure(body, variant);
-      }
-      ++done;
+      const double part = done++ / static_cast<double>(places.size() * bodies.size());
+      if (!result.interrupted) result.interrupted = !measure_size(here, body, name_of(place), part, progress, result.notes);
     }
     const std::vector<ForcesRow> measured = here.rows();
-    rows.insert(rows.end(), measured.begin(), measured.end());
+    result.rows.insert(result.rows.end(), measured.begin(), measured.end());
+    if (result.interrupted) return result;
   }
   progress(1, "");
-  return rows;
+  return result;
 }
 
 }  // namespace pliant::bench

@@ -8,8 +8,8 @@
 
 namespace pliant::bench {
 
-/// On the CPU with the place's threads and precision in the given instruction set; on the GPU in fp32. `device` is the place's,
-/// without work in hand. [1/s], counted lane by lane.
+/// By the fastest batch. On the CPU with the place's threads and precision in the given instruction set; on the GPU in fp32.
+/// `device` is the place's, without work in hand. [1/s], counted lane by lane.
 [[nodiscard]] double multiply_adds_per_second(Device& device, const Place& place, std::optional<cpu::Isa> isa,
                                               const Effort& effort);
 

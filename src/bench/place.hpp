@@ -35,7 +35,7 @@ struct Selection {
 /// The CPU on one thread and on all, each with every one of `cpu_precisions`, then the GPU.
 [[nodiscard]] std::vector<Place> places_of(const Selection& selection, std::span<const int> cpu_precisions);
 
-/// Hears what is measured next, and how much of the suite is done (0 to 1).
-using Progress = std::function<void(double done, std::string_view next)>;
+/// Hears what is measured next, and how much of the suite is done (0 to 1). The suite ends early where it answers false.
+using Progress = std::function<bool(double done, std::string_view next)>;
 
 }  // namespace pliant::bench

@@ -21,15 +21,36 @@ Json machine_json(const Machine& machine) {
           {"compiler", machine.compiler},       {"date", machine.date}};
 }
 
+// Threads are the CPU's.
+template <class Row>
+Json threads_json(const Row& row) {
+  return row.device == "gpu" ? Json(nullptr) : Json(row.threads);
+}
+
+template <class Row>
+std::string threads_text(const Row& row) {
+  return row.device == "gpu" ? "-" : std::to_string(row.threads);
+}
+
+// What was asked for, not what came of it: threads 0 are one a processor.
+Json options_json(const Selection& devices, bool quick) {
+  return {{"cpu", devices.cpu},
+          {"gpu", devices.gpu},
+          {"gpu_index", devices.gpu_index},
+          {"threads", devices.threads},
+          {"quick", quick}};
+}
+
 Json row_json(const ForcesRow& row) {
   return {{"device", row.device},
           {"precision", row.precision},
-          {"threads", row.threads},
+          {"threads", threads_json(row)},
           {"isa", row.isa},
           {"form", row.form},
           {"variant", row.variant},
           {"vertices", row.vertices},
           {"seconds_per_evaluation", row.seconds_per_evaluation},
+          {"fastest_seconds_per_evaluation", row.fastest_seconds_per_evaluation},
           {"pairs_per_second", row.pairs_per_second},
           {"bound_pairs_per_second", row.bound_pairs_per_second},
           {"ratio_to_bound", row.ratio_to_bound},
@@ -41,10 +62,11 @@ Json row_json(const StepsRow& row) {
           {"family", row.family},
           {"device", row.device},
           {"precision", row.precision},
-          {"threads", row.threads},
+          {"threads", threads_json(row)},
           {"vertices", row.vertices},
           {"bodies", row.bodies},
           {"milliseconds_per_step", row.milliseconds_per_step},
+          {"fastest_milliseconds_per_step", row.fastest_milliseconds_per_step},
           {"steps_per_second", row.steps_per_second},
           {"steps", row.steps},
           {"contact_steps", row.contact_steps},
@@ -58,11 +80,22 @@ Json crossover_json(const FamilyCrossover& crossover) {
           {"text", to_text(crossover)}};
 }
 
-template <class Row>
-Json suite_json(const char* suite, const Machine& machine, const std::vector<Row>& rows) {
+std::vector<std::string> notes_of(const StepsResult& result) { return result.notes; }
+
+// A sum can't be faster than its bound, unless the bound was measured in a worse moment.
+std::vector<std::string> notes_of(const ForcesResult& result) {
+  std::vector<std::string> notes = result.notes;
+  if (std::ranges::any_of(result.rows, [](const ForcesRow& row) { return row.ratio_to_bound > 1; }))
+    notes.emplace_back("the machine was busy: it fell short of its own multiply-adds, as ratios above 1 show; measure again");
+  return notes;
+}
+
+template <class Result>
+Json suite_json(const char* suite, const Machine& machine, const Json& options, const Result& result) {
   Json list = Json::array();
-  for (const Row& row : rows) list.push_back(row_json(row));
-  return {{"suite", suite}, {"machine", machine_json(machine)}, {"rows", list}};
+  for (const auto& row : result.rows) list.push_back(row_json(row));
+  return {{"suite", suite}, {"options", options},       {"interrupted", result.interrupted}, {"machine", machine_json(machine)},
+          {"rows", list},   {"notes", notes_of(result)}};
 }
 
 std::string text_of(const Json& json) {
@@ -86,14 +119,15 @@ std::string to_text(const Machine& machine) {
   return text;
 }
 
-std::string to_table(const std::vector<ForcesRow>& rows) {
-  const std::size_t width = width_of(rows, &ForcesRow::variant);
+std::string to_table(const ForcesResult& result) {
+  const std::size_t width = width_of(result.rows, &ForcesRow::variant);
   std::string table = fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12} {:>13} {:>13} {:>7}\n", "device", "bits", "threads",
                                   "variant", width, "vertices", "us a sum", "pairs/s", "bound", "ratio");
-  for (const ForcesRow& row : rows)
+  for (const ForcesRow& row : result.rows)
     table += fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12.2f} {:>13.4g} {:>13.4g} {:>7.3f}\n", row.device, row.precision,
-                         row.threads, row.variant, width, row.vertices, 1e6 * row.seconds_per_evaluation, row.pairs_per_second,
-                         row.bound_pairs_per_second, row.ratio_to_bound);
+                         threads_text(row), row.variant, width, row.vertices, 1e6 * row.seconds_per_evaluation,
+                         row.pairs_per_second, row.bound_pairs_per_second, row.ratio_to_bound);
+  for (const std::string& note : notes_of(result)) table += note + '\n';
   return table;
 }
 
@@ -102,9 +136,9 @@ std::string to_table(const StepsResult& result) {
   std::string table = fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12} {:>10} {:>6} {:>8}\n", "scene", width, "device",
                                   "threads", "vertices", "bodies", "ms/step", "steps/s", "steps", "contacts");
   for (const StepsRow& row : result.rows)
-    table +=
-        fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12.4g} {:>10.4g} {:>6} {:>8}\n", row.scene, width, row.device, row.threads,
-                    row.vertices, row.bodies, row.milliseconds_per_step, row.steps_per_second, row.steps, row.contact_steps);
+    table += fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12.4g} {:>10.4g} {:>6} {:>8}\n", row.scene, width, row.device,
+                         threads_text(row), row.vertices, row.bodies, row.milliseconds_per_step, row.steps_per_second, row.steps,
+                         row.contact_steps);
   for (const std::string& note : result.notes) table += note + '\n';
   for (const FamilyCrossover& crossover : result.crossovers) table += to_text(crossover) + '\n';
   return table;
@@ -126,15 +160,18 @@ std::string to_text(const FamilyCrossover& crossover) {
   return fmt::format("{} no size was measured on both", opponent);
 }
 
-std::string to_json(const Machine& machine, const std::vector<ForcesRow>& rows) {
-  return text_of(suite_json("forces", machine, rows));
+std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result) {
+  Json asked = options_json(options.devices, options.quick);
+  asked["all_variants"] = options.all_variants;
+  return text_of(suite_json("forces", machine, asked, result));
 }
 
-std::string to_json(const Machine& machine, const StepsResult& result) {
-  Json json = suite_json("steps", machine, result.rows);
+std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result) {
+  Json asked = options_json(options.devices, options.quick);
+  asked["scenes"] = options.scenes.string();
+  Json json = suite_json("steps", machine, asked, result);
   json["crossovers"] = Json::array();
   for (const FamilyCrossover& crossover : result.crossovers) json["crossovers"].push_back(crossover_json(crossover));
-  json["notes"] = result.notes;
   return text_of(json);
 }
 

@@ -11,13 +11,14 @@ namespace pliant::bench {
 
 /// Two lines to stand above a table: the build, and the hardware.
 [[nodiscard]] std::string to_text(const Machine& machine);
-[[nodiscard]] std::string to_table(const std::vector<ForcesRow>& rows);
+[[nodiscard]] std::string to_table(const ForcesResult& result);
 [[nodiscard]] std::string to_table(const StepsResult& result);
 /// A sentence.
 [[nodiscard]] std::string to_text(const FamilyCrossover& crossover);
 
-/// {suite, machine{version, commit, cpu, gpu, driver, compiler, date}, rows[...]}; for steps also {crossovers[...], notes[...]}.
-[[nodiscard]] std::string to_json(const Machine& machine, const std::vector<ForcesRow>& rows);
-[[nodiscard]] std::string to_json(const Machine& machine, const StepsResult& result);
+/// {suite, options{...}, interrupted, machine{version, commit, cpu, gpu, driver, compiler, date}, rows[...], notes[...]}; for
+/// steps also {crossovers[...]}.
+[[nodiscard]] std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result);
+[[nodiscard]] std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// What the suite `steps` runs: the scenes of a folder, and bodies of growing density just before they touch.
+// What the suite `steps` runs: the scenes of a folder, and bodies of growing density in contact.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ struct StepCase {
   ModelAndState start;
   TimePlan plan;
   CollisionDescription collision;
-  std::uint64_t steps_before = 0;  // not measured: up to the first contact
+  std::uint64_t steps_before = 0;  // not measured: the first contacts
   std::uint64_t steps = 0;         // measured, at least one
 };
 
@@ -25,8 +25,9 @@ struct StepCases {
   std::vector<std::string> notes;  // what was left out, and why
 };
 
-/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them. `quick`: few, small and short.
-/// Throws Error: command_line where there is no such folder or it holds no scene, input for a scene that is wrong.
+/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them, with two bodies. `quick`: few, small
+/// and short; scenes then start a little deformed, so that springs work from the first step on. Throws Error: command_line where
+/// there is no such folder or it holds no scene, input for a scene that is wrong.
 [[nodiscard]] StepCases load_step_cases(const std::filesystem::path& folder, bool quick);
 
 }  // namespace pliant::bench

@@ -20,6 +20,7 @@ constexpr double warming_time = 0.3;   // [s]; clocks rise under load
 constexpr double enough_time = 1.5;    // for the runs of a case [s]; the last may go beyond
 constexpr double telling_step = 1e-3;  // steps at least as long are springs for the most part, not overhead [s]
 constexpr int most_runs = 5;
+constexpr int most_warming_runs = 30;  // of a scene so short that building its simulations would take far longer
 
 struct Run {
   double seconds = 0;  // of the measured steps
@@ -57,7 +58,7 @@ class StepsAt {
 
   StepsRow measure(const StepCase& what, bool quick) {
     build_kernels(what);
-    while (!quick && warmed_ < warming_time) warmed_ += run_once(*device_, what).seconds;
+    if (!quick) warm_up(what);
     std::vector<double> seconds;
     Run run;
     double passed = 0;
@@ -71,6 +72,10 @@ class StepsAt {
   }
 
  private:
+  void warm_up(const StepCase& what) {
+    for (int k = 0; k < most_warming_runs && warmed_ < warming_time; ++k) warmed_ += run_once(*device_, what).seconds;
+  }
+
   // By a step, so that no measured one waits for them.
   void build_kernels(const StepCase& what) {
     Simulation(*device_, what.start.model, what.start.state, what.plan, what.collision).advance(1);
@@ -93,6 +98,7 @@ class StepsAt {
             .vertices = what.start.model.vertex_count(),
             .bodies = static_cast<std::uint32_t>(what.start.model.bodies.size()),
             .milliseconds_per_step = 1e3 * median(seconds) / steps,
+            .fastest_milliseconds_per_step = 1e3 * std::ranges::min(seconds) / steps,
             .steps_per_second = steps / median(seconds),
             .steps = what.steps,
             .contact_steps = run.contact_steps,
@@ -105,6 +111,11 @@ class StepsAt {
   double seconds_per_pair_ = 0;  // 0: unknown
 };
 
+StepsResult with_crossovers(StepsResult result) {
+  result.crossovers = find_crossovers(result.rows);
+  return result;
+}
+
 }  // namespace
 
 StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
@@ -116,7 +127,9 @@ StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
   for (const Place& place : places) {
     StepsAt here(place);
     for (const StepCase& what : all.cases) {
-      progress(done++ / static_cast<double>(places.size() * all.cases.size()), fmt::format("{}, {}", name_of(place), what.name));
+      const double part = done++ / static_cast<double>(places.size() * all.cases.size());
+      result.interrupted = !progress(part, fmt::format("{}, {}", name_of(place), what.name));
+      if (result.interrupted) return with_crossovers(std::move(result));
       if (const double seconds = here.expected_seconds(what); seconds > longest_run)
         result.notes.push_back(
             fmt::format("{} on {}: left out, as it would take about {:.0f} s", what.name, name_of(place), seconds));
@@ -125,8 +138,7 @@ StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
     }
   }
   progress(1, "");
-  result.crossovers = find_crossovers(result.rows);
-  return result;
+  return with_crossovers(std::move(result));
 }
 
 std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows) {

@@ -22,11 +22,12 @@ struct StepsRow {
   std::string family;  // of scenes that differ by their density alone; empty for a scene as it is
   std::string device;
   int precision = 32;
-  unsigned threads = 1;
+  unsigned threads = 1;        // of the CPU; null in the file for the GPU
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t bodies = 0;
   double milliseconds_per_step = 0;  // the median over the runs, which follow a step that builds the kernels
-  double steps_per_second = 0;
+  double fastest_milliseconds_per_step = 0;
+  double steps_per_second = 0;      // by the median
   std::uint64_t steps = 0;          // measured, of each run
   std::uint64_t contact_steps = 0;  // among them, with a contact
   int runs = 0;                     // up to five within 1.5 s, at least one; one with `quick`
@@ -43,6 +44,7 @@ struct StepsResult {
   std::vector<StepsRow> rows;
   std::vector<FamilyCrossover> crossovers;
   std::vector<std::string> notes;  // what was left out, and why
+  bool interrupted = false;        // by Progress
 };
 
 /// A run that would take over a minute is left out, with a note. Throws Error.

@@ -28,7 +28,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-double seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
+Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
   const std::uint64_t repetitions = repetitions_of_batch(effort.batch_seconds, seconds_of_batch);
   std::vector<double> batches;
   double passed = 0;
@@ -37,10 +37,10 @@ double seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
     passed += seconds;
     batches.push_back(seconds / static_cast<double>(repetitions));
   }
-  return median(std::move(batches));
+  return {.median = median(batches), .fastest = std::ranges::min(batches)};
 }
 
-double seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue) {
+Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue) {
   return seconds_each(effort, [&](std::uint64_t repetitions) {
     device.mark_time();
     for (std::uint64_t k = 0; k < repetitions; ++k) queue();

@@ -15,6 +15,12 @@ struct Effort {
   double enough_seconds = 1;
 };
 
+/// Of one repetition [s].
+struct Timing {
+  double median = 0;   // over the batches
+  double fastest = 0;  // batch: whatever else the machine does can only slow it down
+};
+
 /// For `--quick`: figures of the right size, in a fraction of a second.
 inline constexpr Effort quick_effort{.batch_seconds = 0.002, .batches = 3, .enough_seconds = 0.05};
 
@@ -24,9 +30,9 @@ inline constexpr Effort quick_effort{.batch_seconds = 0.002, .batches = 3, .enou
 /// Time of so many repetitions [s].
 using BatchTimer = std::function<double(std::uint64_t repetitions)>;
 
-/// The median over batches of the time of one repetition [s], after some that warm up and find out how many make a batch.
-[[nodiscard]] double seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch);
+/// After some repetitions that warm up and find out how many make a batch.
+[[nodiscard]] Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch);
 /// Of calls of `queue`, which queues work on the device.
-[[nodiscard]] double seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue);
+[[nodiscard]] Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue);
 
 }  // namespace pliant::bench

@@ -1,10 +1,33 @@
 #include "output/file.hpp"
 
+#include <unistd.h>
+
 #include <system_error>
 
 #include "core/error.hpp"
 
 namespace pliant {
+namespace {
+
+Error unwritable(const std::filesystem::path& path, const char* problem) {
+  return {ErrorKind::command_line, path.string(), problem, "make room and check that you may write there, or name another place"};
+}
+
+// Behind symbolic links, which stay. A plain file that may not be written must not be replaced either.
+std::filesystem::path checked_place(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) return path;
+  if (access(path.c_str(), W_OK) != 0) throw unwritable(path, "can't be written");
+  return std::filesystem::is_regular_file(path, failure) ? std::filesystem::canonical(path, failure) : path;
+}
+
+std::filesystem::path beside(const std::filesystem::path& place) {
+  std::error_code failure;
+  if (std::filesystem::exists(place, failure) && !std::filesystem::is_regular_file(place, failure)) return place;
+  return std::filesystem::path(place) += ".tmp";
+}
+
+}  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path) : path_(path) {
   std::error_code failure;
@@ -25,9 +48,23 @@ void OutputFile::close() {
 }
 
 void OutputFile::require(bool good, const char* problem) const {
-  if (!good)
-    throw Error(ErrorKind::command_line, path_.string(), problem,
-                "make room and check that you may write there, or name another place");
+  if (!good) throw unwritable(path_, problem);
+}
+
+WholeFile::WholeFile(const std::filesystem::path& path)
+    : place_(checked_place(path)), written_(beside(place_)), file_(written_) {}
+
+WholeFile::~WholeFile() {
+  std::error_code failure;
+  if (!moved_ && written_ != place_) std::filesystem::remove(written_, failure);
+}
+
+void WholeFile::close() {
+  file_.close();
+  std::error_code failure;
+  if (written_ != place_) std::filesystem::rename(written_, place_, failure);
+  if (failure) throw unwritable(place_, "can't be replaced");
+  moved_ = true;
 }
 
 }  // namespace pliant

@@ -1,10 +1,15 @@
 // `pliant bench` as scripts use it.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/read_text.hpp"
 #include "gl/context.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -26,6 +31,9 @@ nlohmann::json checked_results(const std::string& arguments, const std::filesyst
     CHECK_THAT(result.output, Catch::Contains(machine[key].get<std::string>()));
   CHECK_THAT(json["machine"]["date"].get<std::string>(), Catch::Matches("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"));
   CHECK_FALSE(json["rows"].empty());
+  CHECK(json["options"]["quick"] == true);
+  CHECK(json["interrupted"] == false);
+  CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
   return json;
 }
 
@@ -56,7 +64,7 @@ TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder"
       checked_results("steps --device cpu --threads 2 --scenes " + folder.path.string(), folder.path / "steps.json");
   CHECK(json["suite"] == "steps");
   CHECK(json["rows"].size() == 2);   // one thread and two
-  CHECK(json["notes"].size() == 2);  // no scenes for the families
+  CHECK(json["notes"].size() == 2);  // the families: one without a scene, one too large
   CHECK(json.contains("crossovers"));
   for (const auto& row : json["rows"]) {
     CHECK(row.at("scene") == "small");
@@ -78,6 +86,46 @@ TEST_CASE("a wrong command line of bench exits with 2 before anything is measure
   check_fails("forces --device cpu --gpu 0", 2, "--gpu");
   check_fails("steps --device cpu --scenes " + folder.path.string(), 2, "no scenes");
   check_fails("forces --device cpu --json /proc/none/forces.json", 2, "/proc/none/forces.json");
+}
+
+TEST_CASE("an earlier result stays where nothing is measured") {
+  const ScratchFolder folder;
+  const auto file = folder.path / "results.json";
+  std::ofstream(file) << "earlier";
+  const std::string json = " --json " + file.string();
+  check_fails("forces --quick --device gpu --gpu 99" + json, 4, "GPU");
+  check_fails("steps --quick --device cpu --scenes " + (folder.path / "none").string() + json, 2, "no scenes");
+  CHECK(read_text(file) == "earlier");
+  CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
+}
+
+TEST_CASE("a full disk is told after the table") {
+  const ProgramResult result = run_program("bench forces --quick --device cpu --threads 1 --json /dev/full");
+  CHECK(result.exit_code == 2);
+  CHECK(result.output.find("us a sum") < result.output.find("/dev/full"));
+  CHECK(result.output.find("/dev/full") != std::string::npos);
+}
+
+TEST_CASE("Ctrl-C ends bench early, and an earlier result gives way to finished rows alone") {
+  const ScratchFolder folder;
+  const auto file = folder.path / "forces.json";
+  std::ofstream(file) << "earlier";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(program_path().c_str(), "pliant", "bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.c_str(),
+          nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  while (!std::filesystem::exists(file.string() + ".tmp")) REQUIRE(waitpid(child, &status, WNOHANG) == 0);
+  kill(child, SIGINT);
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
+  if (const std::string text = read_text(file); text != "earlier") {
+    CHECK(nlohmann::json::parse(text)["interrupted"] == true);
+    CHECK_FALSE(nlohmann::json::parse(text)["rows"].empty());
+  }
+  CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
 }
 
 TEST_CASE("a GPU that is not there exits with 4") { check_fails("forces --quick --device gpu --gpu 99", 4, "GPU"); }

@@ -22,10 +22,12 @@ namespace {
 struct Told {
   std::vector<double> done;
   std::vector<std::string> next;
+  int most = 1'000'000;  // then it says to end
   Progress progress() {
     return [this](double part, std::string_view what) {
       done.push_back(part);
       next.emplace_back(what);
+      return static_cast<int>(next.size()) <= most;
     };
   }
 };
@@ -39,12 +41,14 @@ bool mentions(const std::string& table, std::initializer_list<std::string> words
 
 void check_forces(const ForcesOptions& options, const std::set<std::pair<int, unsigned>>& precisions_and_threads) {
   Told told;
-  const std::vector<ForcesRow> rows = bench_forces(options, told.progress());
+  const ForcesResult result = bench_forces(options, told.progress());
+  const std::vector<ForcesRow>& rows = result.rows;
   std::set<std::pair<int, unsigned>> covered;
-  const std::string table = to_table(rows);
+  const std::string table = to_table(result);
   for (const ForcesRow& row : rows) {
     CAPTURE(row.device, row.variant, row.vertices);
     covered.emplace(row.precision, row.threads);
+    CHECK(row.fastest_seconds_per_evaluation <= row.seconds_per_evaluation);
     for (const double rate : {row.pairs_per_second, row.bound_pairs_per_second, row.ratio_to_bound}) {
       CHECK(std::isfinite(rate));
       CHECK(rate > 0);
@@ -70,7 +74,9 @@ TEST_CASE("forces are measured on the GPU", "[gl]") {
 
 TEST_CASE("forces in all variants have a row for each and every size") {
   const std::vector<ForcesRow> rows =
-      bench_forces({.devices = {.threads = 1}, .quick = true, .all_variants = true}, [](double, std::string_view) {});
+      bench_forces({.devices = {.threads = 1}, .quick = true, .all_variants = true}, [](double, std::string_view) {
+        return true;
+      }).rows;
   const auto device = make_cpu_device(1, 32);
   for (const ForceVariant& variant : device->force_variants())
     CHECK(std::ranges::count(rows, variant.name, &ForcesRow::variant) == 4);  // two sizes, two precisions
@@ -96,16 +102,57 @@ TEST_CASE("the suite of steps has every shipped scene, and two families that tou
   CHECK(vertices["two icospheres"] == 2 * 40962);
 }
 
-TEST_CASE("bodies of each family have touched when the measured steps begin") {
+TEST_CASE("bodies of each family touch in every measured step") {
   StepCases all = load_step_cases(source_dir() + "/scenes", false);
   const auto device = make_cpu_device(0, 32);
   for (const StepCase& what : all.cases) {
     if (what.family.empty() || what.start.model.vertex_count() > 4000) continue;
     Simulation simulation(*device, what.start.model, what.start.state, what.plan, what.collision);
-    simulation.advance(what.steps_before);
+    simulation.advance(what.steps_before + what.steps);
     CAPTURE(what.name);
-    CHECK(simulation.report().contact_steps > 0);
+    CHECK(simulation.report().contact_steps == what.steps_before + what.steps);
   }
+}
+
+TEST_CASE("springs work in every step of a quick measurement, free flight or not") {
+  const StepCases all = load_step_cases(source_dir() + "/scenes", true);
+  const auto device = make_cpu_device(0, 32);
+  for (const StepCase& what : all.cases) {
+    Simulation simulation(*device, what.start.model, what.start.state, what.plan, what.collision);
+    simulation.advance(what.steps_before);
+    const StepReport before = simulation.report();
+    simulation.advance(what.steps);
+    CAPTURE(what.name);
+    CHECK(simulation.report().force_evaluations > before.force_evaluations);
+    CHECK(simulation.report().forces_skipped == before.forces_skipped);
+  }
+  CHECK_THAT(all.notes.at(0), Catch::Contains("two bunnies") && Catch::Contains("quick"));
+}
+
+TEST_CASE("a suite told to end has the rows that were finished") {
+  Told told;
+  told.most = 2;
+  const ForcesResult forces = bench_forces({.devices = {.threads = 1}, .quick = true}, told.progress());
+  CHECK(forces.interrupted);
+  CHECK(forces.rows.size() == 2);
+  for (const ForcesRow& row : forces.rows) CHECK(row.bound_pairs_per_second > 0);
+  const test::ScratchFolder folder;
+  std::filesystem::copy(source_dir() + "/scenes/two_spheres.toml", folder.path);
+  told = {};
+  told.most = 1;
+  const StepsResult steps = bench_steps({.devices = {.threads = 1}, .scenes = folder.path, .quick = true}, told.progress());
+  CHECK(steps.interrupted);
+  CHECK(steps.rows.size() == 1);
+}
+
+TEST_CASE("a ratio above 1 is explained, and only then") {
+  ForcesResult result;
+  result.notes = {"a note"};
+  result.rows.resize(1);
+  result.rows.front().ratio_to_bound = 0.9;
+  CHECK_THAT(to_table(result), Catch::Contains("a note") && !Catch::Contains("busy"));
+  result.rows.front().ratio_to_bound = 1.1;
+  CHECK_THAT(to_table(result), Catch::Contains("a note") && Catch::Contains("busy"));
 }
 
 TEST_CASE("steps are measured on one thread and all, and every row is told") {
@@ -126,8 +173,8 @@ TEST_CASE("steps are measured on one thread and all, and every row is told") {
     CHECK(std::ranges::any_of(told.next, [&](const std::string& next) { return next.find(row.scene) != std::string::npos; }));
   }
   CHECK(threads == std::set<unsigned>{1, 2});
-  CHECK(result.rows.size() == 2 * 3);                           // the scene, and two sizes of its family
-  CHECK_THAT(table, Catch::Contains("bunnies_undamped.toml"));  // is left out
+  CHECK(result.rows.size() == 2 * 3);  // the scene, and two sizes of its family
+  CHECK_THAT(table, Catch::Contains("two bunnies, split: left out"));
   CHECK(told.done.back() == 1);
   CHECK(result.crossovers.empty());  // without a GPU
 }
@@ -138,6 +185,20 @@ TEST_CASE("a scene without a step is left out, and a note says so") {
   const StepCases all = load_step_cases(folder.path, false);
   CHECK(all.cases.empty());
   CHECK_THAT(all.notes.back(), Catch::Contains("still") && Catch::Contains("no steps"));
+}
+
+TEST_CASE("a scene serves as a family only with two bodies of its meshes") {
+  const auto notes_with = [](const std::string& bodies) {
+    const test::ScratchFolder folder;
+    std::ofstream(folder.path / "two_spheres.toml") << "[simulation]\ntime_step = 0.01\nduration = 0.05\n" << bodies;
+    const StepCases all = load_step_cases(folder.path, true);
+    CHECK(all.cases.size() == 1);  // the scene as it is
+    return all.notes.front();
+  };
+  const std::string sphere = "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1, 0, 0]\n";
+  const std::string teapot = "[[body]]\nmesh = \"" + source_dir() + "/meshes/teapot.obj\"\nposition = [9, 0, 0]\n";
+  CHECK_THAT(notes_with(sphere), Catch::Contains("two icospheres: left out") && Catch::Contains("two bodies"));
+  CHECK_THAT(notes_with(sphere + teapot), Catch::Contains("two icospheres: left out") && Catch::Contains("no icospheres"));
 }
 
 TEST_CASE("a folder without scenes is a mistake on the command line") {

@@ -34,7 +34,8 @@ class GpuDevice final : public Device {
     const gl::Adapter& adapter = context_.adapter();
     info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
     for (const Lanes& choice : lane_choices)
-      variants_.push_back({fmt::format("{} x {} lanes, {} vertices", choice.teams, choice.lanes, choice.vertices),
+      variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
+                                       choice.vertices == 1 ? "vertex" : "vertices"),
                            choice.teams * choice.vertices});
   }
 

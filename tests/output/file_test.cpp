@@ -1,0 +1,65 @@
+// Files that appear as a whole.
+#include "output/file.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/read_text.hpp"
+#include "support/expect_error.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant {
+namespace {
+
+TEST_CASE("a whole file replaces what stood there when it is closed, and not before") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "new" / "file.txt";
+  for (const std::string text : {"first", "second"}) {
+    const std::string before = std::filesystem::exists(path) ? read_text(path) : "";
+    WholeFile file(path);
+    file.write(text);
+    CHECK((std::filesystem::exists(path) ? read_text(path) : "") == before);
+    file.close();
+    CHECK(read_text(path) == text);
+  }
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+}
+
+TEST_CASE("a whole file that is never closed leaves no trace") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file.txt";
+  std::ofstream(path) << "earlier";
+  { WholeFile(path).write("half"); }
+  CHECK(read_text(path) == "earlier");
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+}
+
+TEST_CASE("a symbolic link stays one, and the file behind it is replaced") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file.txt", link = folder.path / "link";
+  std::ofstream(path) << "earlier";
+  std::filesystem::create_symlink(path, link);
+  WholeFile file(link);
+  file.write("later");
+  file.close();
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(read_text(path) == "later");
+}
+
+TEST_CASE("a device is written to where it is, and a full one is an error") {
+  WholeFile nowhere("/dev/null");
+  nowhere.write("text");
+  nowhere.close();
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+  WholeFile full("/dev/full");
+  full.write("text");
+  check_says(error_of([&] { full.close(); }), {"/dev/full", "can't be written"});
+}
+
+TEST_CASE("a folder can't be replaced by a file") {
+  const test::ScratchFolder folder;
+  const Error error = error_of([&] { WholeFile file(folder.path); });
+  CHECK(error.kind() == ErrorKind::command_line);
+}
+
+}  // namespace
+}  // namespace pliant
