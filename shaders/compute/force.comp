@@ -20,23 +20,34 @@
 #if LANES == 1
 layout(local_size_x = TEAMS) in;
 #else
-#if LANES % 8 != 0
-#error LANES is 1 or a multiple of runs_of_lanes
+#if LANES % 16 != 0
+#error LANES is 1 or a multiple of 2 runs_of_lanes
 #endif
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
-shared float partial_sum[3 * VERTICES * TEAMS * LANES];  // by axis, vertex and lane
+shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // by axis, vertex and lane; later by run, and runs' rests
 #endif
 layout(location = 8) uniform uint item_count;  // shares
 
-// Kahan's summation. `excess` is what the total holds beyond the sum, by rounding.
-void add(inout vec3 total, inout vec3 excess, vec3 sum) {
-  EXACT vec3 added = sum - excess;
+// `rest` is what rounding takes from the total. Kahan's summation, or Knuth's, which is exact but takes registers that threads with
+// several vertices do not have.
+#if VERTICES > 1 && LANES > 1
+void add(inout vec3 total, inout vec3 rest, vec3 sum) {
+  EXACT vec3 added = sum + rest;
   EXACT vec3 grown = total + added;
-  EXACT vec3 rounding = (grown - total) - added;
-  excess = rounding;
+  EXACT vec3 lost = added - (grown - total);
+  rest = lost;
   total = grown;
 }
+#else
+void add(inout vec3 total, inout vec3 rest, vec3 sum) {
+  EXACT vec3 grown = total + sum;
+  EXACT vec3 arrived = grown - total;
+  EXACT vec3 lost = (total - (grown - arrived)) + (sum - arrived);
+  rest = rest + lost;
+  total = grown;
+}
+#endif
 
 void add_spring(inout vec3 sum, vec3 x, vec3 d, float weight) {
   float strain = weight * spring_strain(x, d);
@@ -53,10 +64,10 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #endif
 #define OWN(k)                                                      \
   uint own##k = base + vertex_of(s, PLACE(k));                      \
-  vec3 x##k = placed[own##k].xyz, u##k = placed[own##k + vertex_count].xyz, total##k = vec3(0), excess##k = vec3(0), sum##k;
+  vec3 x##k = placed[own##k].xyz, u##k = placed[own##k + vertex_count].xyz, total##k = vec3(0), rest##k = vec3(0), sum##k;
 #define CLEAR(k) sum##k = vec3(0);
 #define PAIR(k) add_spring(sum##k, x##k - other_x, u##k - other_u, weight);
-#define CLOSE(k) add(total##k, excess##k, sum##k);
+#define CLOSE(k) add(total##k, rest##k, sum##k);
 
 // The spring to vertex j, if there is one before `stop`.
 #define WHOLE(q)                                                                                    \
@@ -82,10 +93,21 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #error UNROLL is 2, 3 or 4
 #endif
 
-// Sums over every LANES-th vertex of the body from `lane` on: 16 springs or so plainly, those sums by Kahan. UNROLL springs at a
+// Sums over every LANES-th vertex of the body from `lane` on: PLAINLY springs or so plainly, those sums exactly. UNROLL springs at a
 // time, so that their loads overlap; the last ones too, if need be with some left out.
+//
+// Two vertices get the very same bits from their spring, with opposite signs. What sums do not add up to zero over a body is thus
+// rounding of sums alone, and it is what counts: nothing holds a body back from drifting and turning, so that a trajectory's error
+// grows with the power 3/2 of the steps. One lane alone therefore closes its sums early; many lanes' roundings cancel.
+#if LANES == 1
+#define PLAINLY 2u
+#elif VERTICES == 1
+#define PLAINLY 4u
+#else
+#define PLAINLY 16u
+#endif
 #define SUM_SPRINGS                                                                                 \
-  const uint stride = (16u + UNROLL - 1u) / UNROLL * UNROLL * LANES;                                \
+  const uint stride = (PLAINLY + UNROLL - 1u) / UNROLL * UNROLL * LANES;                            \
   uint end = base + s.body.first_vertex + s.body.vertex_count;                                      \
   for (uint begin = base + s.body.first_vertex + lane; begin < end; begin += stride) {              \
     uint stop = min(begin + stride, end), j = begin;                                                \
@@ -103,7 +125,7 @@ void finish(uint i, Share s, dvec3 force) {
 }
 
 #define FINISH(k) \
-  if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * dvec3(total##k));
+  if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * (dvec3(total##k) + dvec3(rest##k)));
 void serve(Share s, uint base) {
   const uint lane = 0u;
   uint team = gl_LocalInvocationID.x;
@@ -136,10 +158,18 @@ void sum_lanes(Share s, bool sums, uint base, uint team, uint lane) {
   EACH(STORE)
 }
 
-// Adds `count` partial sums, `stride` apart.
-vec3 sum_partials(uint first, uint count, uint stride) {
-  vec3 total = vec3(0), excess = vec3(0);
-  for (uint k = 0u; k < count; ++k) add(total, excess, load_partial(first + k * stride));
+// Of a run of lanes, runs_of_lanes apart; its first two places keep the total and the rest.
+void sum_run(uint first) {
+  vec3 total = vec3(0), rest = vec3(0);
+  for (uint lane = 0u; lane < LANES; lane += runs_of_lanes) add(total, rest, load_partial(first + lane));
+  store_partial(first, total);
+  store_partial(first + runs_of_lanes, rest);
+}
+
+dvec3 sum_of_runs(uint first) {
+  dvec3 total = dvec3(0);
+  for (uint k = 0u; k < runs_of_lanes; ++k)
+    total += dvec3(load_partial(first + k)) + dvec3(load_partial(first + k + runs_of_lanes));
   return total;
 }
 
@@ -153,15 +183,12 @@ void serve(Share s, uint base) {
   if (keeps) pending = before_force(i, k, s);
   if (thread < LANES * TEAMS) sum_lanes(s, sums, base, thread / LANES, thread % LANES);
   barrier();
-  if (thread < runs_of_lanes * VERTICES * TEAMS) {
-    uint first = thread / runs_of_lanes * LANES + thread % runs_of_lanes;
-    store_partial(first, sum_partials(first, LANES / runs_of_lanes, runs_of_lanes));
-  }
+  if (thread < runs_of_lanes * VERTICES * TEAMS) sum_run(thread / runs_of_lanes * LANES + thread % runs_of_lanes);
   barrier();
   keeps = keeps && going;
   if (keeps) {
     if (keeper == 0u && i == s.body.first_vertex) count_force(s, sums);
-    dvec3 force = (-s.body.unit_force) * dvec3(sum_partials(place * LANES, runs_of_lanes, 1u));
+    dvec3 force = (-s.body.unit_force) * sum_of_runs(place * LANES);
     double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
     settled[keeper] = after_force(i, k, s, component, dot(force, force), pending);
   }

@@ -76,6 +76,8 @@ class Device {
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
   /// The variant that is fastest for so many vertices in all.
   [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
+  /// By how much of themselves springs' strains come out too large, on average over springs.
+  [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;
   /// Items that keep the device busy: how finely a search is best cut.
   [[nodiscard]] virtual std::uint32_t parallel_items() const = 0;

@@ -6,28 +6,28 @@
 namespace pliant {
 namespace {
 
-physics::Body body_of(const ModelBody& body) {
+physics::Body body_of(const ModelBody& body, double strain_bias) {
   const double unit = body.unit_of_length();
   return {.inverse_unit = 1 / unit,
-          .unit_force = body.stiffness * unit,
+          .unit_force = body.stiffness * unit / (1 + strain_bias),
           .inverse_mass = 1 / body.vertex_mass,
           .damping = body.damping,
           .first_vertex = body.first_vertex,
           .vertex_count = body.vertex_count};
 }
 
-std::vector<physics::Body> bodies_of(const Model& model) {
+std::vector<physics::Body> bodies_of(const Model& model, double strain_bias) {
   std::vector<physics::Body> bodies;
-  for (const ModelBody& body : model.bodies) bodies.push_back(body_of(body));
+  for (const ModelBody& body : model.bodies) bodies.push_back(body_of(body, strain_bias));
   return bodies;
 }
 
-std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_size) {
+std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_size, double strain_bias) {
   std::vector<physics::Share> shares;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const ModelBody& body = model.bodies[b];
     for (std::uint32_t first = 0; first < body.vertex_count; first += std::min(share_size, body.vertex_count - first))
-      shares.push_back({.body = body_of(body),
+      shares.push_back({.body = body_of(body, strain_bias),
                         .body_index = b,
                         .first_vertex = body.first_vertex + first,
                         .vertex_count = std::min(share_size, body.vertex_count - first),
@@ -58,8 +58,8 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
       force_variant(variant),
-      bodies(device, bodies_of(model), "bodies"),
-      shares(device, shares_of(model, device.force_variants()[variant].share_size), "shares"),
+      bodies(device, bodies_of(model, device.strain_bias()), "bodies"),
+      shares(device, shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()), "shares"),
       frames(device, state.frames, "frames"),
       rest_positions(device, model.rest_positions, "rest positions"),
       motions(device, std::size_t{12} * vertex_count, "motions"),

@@ -85,6 +85,8 @@ class CpuDevice final : public Device {
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
 
+  double strain_bias() override { return 0; }
+
   void run(std::span<const Pass> passes) override {
     for (const Pass& pass : passes) run(pass.call, pass.item_count);
   }

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
+#include <optional>
 #include <unordered_map>
 
 #include "core/expect.hpp"
+#include "device/gpu/strain_bias.hpp"
 #include "gl/objects.hpp"
 #include "physics/control.glsl"
 
@@ -83,6 +85,11 @@ class GpuDevice final : public Device {
     std::size_t best = 1;
     while (vertex_count > lane_choices[best].most_vertices) ++best;
     return best;
+  }
+
+  double strain_bias() override {
+    if (!strain_bias_) strain_bias_ = gpu::measure_strain_bias();
+    return *strain_bias_;
   }
 
   void run(std::span<const Pass> passes) override {
@@ -179,6 +186,7 @@ class GpuDevice final : public Device {
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
   std::vector<GLuint> marks_;
+  std::optional<double> strain_bias_;
   std::array<BufferId, max_buffers> bound_{};
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::vector<Kernel> kernels_;
