@@ -13,7 +13,13 @@ SceneDescription load_described_scene(const RunOptions& options) {
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
   if (options.time_step) {
     scene.simulation.time_step = options.time_step;
+    scene.simulation.tolerance.reset();
     scene.simulation.length_where = "--time-step";
+  }
+  if (options.tolerance) {
+    scene.simulation.tolerance = options.tolerance;
+    scene.simulation.tolerance_where = "--tolerance";
+    scene.simulation.time_step.reset();
   }
   if (options.duration) {
     scene.simulation.duration = *options.duration;
@@ -30,7 +36,7 @@ void warn_of_step(PreparedRun& run) {
 }
 
 void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
-  if (run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
+  if (!run.plan.tolerance && run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
     run.warnings.push_back("the duration is shorter than half a step, so no step is made");
 }
 
@@ -54,6 +60,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.load_time.stop();
   run.build_time.start();
   run.device = choose_device(options.device);
+  expect_carried(run.scene, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   warn_of_step(run);
   warn_of_no_step(run, options);

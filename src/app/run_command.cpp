@@ -35,13 +35,14 @@ class Run {
         history_(folder / "history.csv") {}
 
   int execute() {
+    if (options_.timings) run_.simulation->time_passes();
+    report_ = run_.simulation->report();
     record();
     write_frame();
-    for (std::uint64_t frame = 1; !stopped() && run_.plan.step_of_frame(frame) <= run_.plan.steps; ++frame) {
-      advance_to(run_.plan.step_of_frame(frame));
-      if (report_.steps == run_.plan.step_of_frame(frame)) write_frame();
-    }
-    advance_to(run_.plan.steps);
+    if (run_.plan.tolerance)
+      run_adaptive();
+    else
+      run_fixed();
     history_.close();
     write_end();
     if (report_.non_finite) return exit_non_finite;
@@ -51,25 +52,44 @@ class Run {
  private:
   bool stopped() const { return interrupted != 0 || report_.non_finite; }
 
+  void run_fixed() {
+    for (std::uint64_t frame = 1; !stopped() && run_.plan.step_of_frame(frame) <= run_.plan.steps; ++frame) {
+      advance_to(run_.plan.step_of_frame(frame));
+      if (report_.steps == run_.plan.step_of_frame(frame)) write_frame();
+    }
+    advance_to(run_.plan.steps);
+  }
+
+  void run_adaptive() {
+    std::optional<double> time;
+    for (std::uint64_t frame = 1; !stopped() && (time = run_.plan.time_of_frame(frame)); ++frame) {
+      advance_to_time(*time);
+      if (report_.time == *time) write_frame();
+    }
+    advance_to_time(run_.plan.duration);
+  }
+
   // A step longer than a frame serves several frames, with one row of history.
   void advance_to(std::uint64_t target) {
     const std::uint64_t before = report_.steps;
-    step_until(target);
+    while (report_.steps < target && !stopped())
+      step([&] {
+        run_.simulation->advance(std::min(steps_at_once, target - report_.steps));
+        return run_.simulation->report();
+      });
     if (report_.steps != before) record();
   }
 
-  void step_until(std::uint64_t target) {
-    while (report_.steps < target && !stopped()) {
-      stepping_.start();
-      const std::uint64_t steps = std::min(steps_at_once, target - report_.steps);
-      if (options_.timings)
-        run_.simulation->advance_timed(steps);
-      else
-        run_.simulation->advance(steps);
-      report_ = run_.simulation->report();
-      stepping_.stop();
-      show_progress();
-    }
+  void advance_to_time(double target) {
+    const std::uint64_t before = report_.steps;
+    while (report_.time < target && !stopped()) step([&] { return run_.simulation->advance_toward(target); });
+    if (report_.steps != before) record();
+  }
+
+  template <class Advance>
+  void step(const Advance& advance) {
+    report_ = stepping_.time(advance);
+    show_progress();
   }
 
   void record() {
@@ -80,7 +100,7 @@ class Run {
     const double drift = std::abs(now_.energy() - first_.energy());
     largest_drift_ = drift <= largest_drift_ ? largest_drift_ : drift;
     history_.append({.step = report_.steps,
-                     .time = static_cast<double>(report_.steps) * run_.plan.time_step,
+                     .time = report_.time,
                      .kinetic = now_.kinetic,
                      .elastic = now_.elastic,
                      .gravitational = now_.gravitational,
@@ -123,9 +143,12 @@ class Run {
     s.precision = run_.device->precision();
     s.threads = run_.device->info().threads;
     s.integrator = run_.plan.integrator->name;
-    s.time_step = run_.plan.time_step;
+    if (const auto& adaptive = report_.adaptive)
+      s.adaptive = {*run_.plan.tolerance, report_.steps, adaptive->rejected, adaptive->smallest_step, adaptive->largest_step};
+    else
+      s.time_step = run_.plan.time_step;
     s.steps = report_.steps;
-    s.simulated_seconds = static_cast<double>(report_.steps) * run_.plan.time_step;
+    s.simulated_seconds = report_.time;
     s.wall_seconds = stepping_.seconds();
     s.steps_per_second = report_.steps == 0 ? 0 : static_cast<double>(report_.steps) / stepping_.seconds();
     s.energy = {first_.energy(), now_.energy(), {}};
@@ -158,18 +181,26 @@ class Run {
 
   void show_progress() const {
     if (options_.quiet || isatty(fileno(stderr)) == 0) return;
-    const double done = static_cast<double>(report_.steps) / static_cast<double>(run_.plan.steps);
-    const auto filled = static_cast<std::size_t>(30 * done);
-    fmt::print(stderr, "\r[{:<30}] {:3.0f} %  step {}/{}  {:.1f} steps/s ", std::string(filled, '#'), 100 * done, report_.steps,
-               run_.plan.steps, static_cast<double>(report_.steps) / stepping_.seconds());
-    if (stopped() || report_.steps == run_.plan.steps) fmt::print(stderr, "\n");
+    const bool adapts = report_.adaptive.has_value();
+    const double done =
+        adapts ? report_.time / run_.plan.duration : static_cast<double>(report_.steps) / static_cast<double>(run_.plan.steps);
+    fmt::print(stderr, "\r[{:<30}] {:3.0f} %  step {}{}  {:.1f} steps/s ", std::string(static_cast<std::size_t>(30 * done), '#'),
+               100 * done, report_.steps, adapts ? "" : fmt::format("/{}", run_.plan.steps),
+               static_cast<double>(report_.steps) / stepping_.seconds());
+    if (stopped() || done == 1) fmt::print(stderr, "\n");
+  }
+
+  std::string length_of_steps() const {
+    if (!report_.adaptive) return fmt::format("{:.6g} s", run_.plan.time_step);
+    return fmt::format("{:.3g} to {:.3g} s ({} rejected)", report_.adaptive->smallest_step, report_.adaptive->largest_step,
+                       report_.adaptive->rejected);
   }
 
   void show_end() const {
-    fmt::print("{}{} steps of {:.6g} s by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n",
-               interrupted != 0 ? "interrupted after " : "", report_.steps, run_.plan.time_step, run_.plan.integrator->name,
-               stepping_.seconds(), report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(),
-               run_.device->info().kind, run_.device->info().name);
+    fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", interrupted != 0 ? "interrupted after " : "",
+               report_.steps, length_of_steps(), run_.plan.integrator->name, stepping_.seconds(),
+               report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(), run_.device->info().kind,
+               run_.device->info().name);
     fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
     show_timings();
     fmt::print("summary: {}\n", (folder_ / "summary.json").string());
@@ -186,15 +217,19 @@ class Run {
     fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(report_.steps));
   }
 
+  std::string remedy_for_breakdown() const {
+    if (run_.plan.tolerance) return "lower stiffness, damping or velocities";
+    if (run_.plan.time_step > run_.plan.step_bound)
+      return fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound);
+    return "shorten the time step, or lower stiffness, damping or velocities";
+  }
+
   // What went wrong, for people and for the summary; the step beyond its bound is among the warnings from before the run.
   std::optional<std::string> instability() const {
     if (report_.non_finite) {
       const NonFinite& where = *report_.non_finite;
       return fmt::format("the simulation became non-finite in step {} at vertex {} of body \"{}\"; {}", where.step, where.vertex,
-                         run_.start.model.bodies[where.body].name,
-                         run_.plan.time_step > run_.plan.step_bound
-                             ? fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound)
-                             : std::string("shorten the time step, or lower stiffness, damping or velocities"));
+                         run_.start.model.bodies[where.body].name, remedy_for_breakdown());
     }
     const double growth = energy_growth();
     if (growth > 2)
@@ -238,19 +273,45 @@ double seconds_per_step(PreparedRun& run) {
   return first < 1 ? seconds_of_step() : first;
 }
 
+struct Estimate {
+  double steps = 0, seconds = 0;
+};
+
+Estimate estimate_fixed(PreparedRun& run) {
+  const auto steps = static_cast<double>(run.plan.steps);
+  return {steps, steps * seconds_per_step(run)};
+}
+
+// Runs the scene for a second, at least one batch of steps, and takes the rest to be alike. Bodies that meet only later, or come
+// to rest, are beyond it.
+Estimate estimate_adaptive(PreparedRun& run) {
+  Simulation trial(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
+  StepReport report = trial.report();
+  Stopwatch watch;
+  while (report.time < run.plan.duration && watch.seconds() < 1 && !report.non_finite)
+    report = watch.time([&] { return trial.advance_toward(run.plan.duration); });
+  const double part = run.plan.duration > 0 ? report.time / run.plan.duration : 1;
+  return {static_cast<double>(report.steps) / part, watch.seconds() / part};
+}
+
+std::string length_of_steps(const TimePlan& plan) {
+  if (plan.tolerance) return fmt::format("by a tolerance of {:g}", *plan.tolerance);
+  return fmt::format("{:.6g} s ({:.3g} of the bound)", plan.time_step, plan.time_step / plan.step_bound);
+}
+
 void show_check(PreparedRun& run) {
-  const double seconds = seconds_per_step(run);
+  const Estimate estimate = run.plan.tolerance ? estimate_adaptive(run) : estimate_fixed(run);
   const std::size_t bytes = run.device->allocated_bytes();  // with what a first step has made the device take
   fmt::print("scene:            {}\n", run.scene.title.empty() ? run.scene.file.string() : run.scene.title);
   for (const ModelBody& body : run.start.model.bodies)
     fmt::print("body:             {} ({} vertices, {} triangles)\n", body.name, body.vertex_count, body.triangle_count);
   fmt::print("integrator:       {}\n", run.plan.integrator->name);
   fmt::print("stability bound:  {:.6g} s\n", run.plan.step_bound);
-  fmt::print("time step:        {:.6g} s ({:.3g} of the bound)\n", run.plan.time_step, run.plan.time_step / run.plan.step_bound);
-  fmt::print("steps:            {}\n", run.plan.steps);
+  fmt::print("time step:        {}\n", length_of_steps(run.plan));
+  fmt::print("steps:            {}{:.0f}\n", run.plan.tolerance ? "about " : "", estimate.steps);
   fmt::print("device:           {} ({})\n", run.device->info().kind, run.device->info().name);
   fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
-  fmt::print("stepping time:    about {:.3g} s\n", static_cast<double>(run.plan.steps) * seconds);
+  fmt::print("stepping time:    about {:.3g} s\n", estimate.seconds);
 }
 
 }  // namespace

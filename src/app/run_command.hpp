@@ -20,6 +20,7 @@ struct RunOptions {
   std::optional<std::uint64_t> steps;
   std::optional<double> duration;   // [s]
   std::optional<double> time_step;  // [s]
+  std::optional<double> tolerance;  // of a step's error, instead of time_step
   std::optional<std::string> integrator;
   std::vector<std::string> overrides;  // section.key=value
   std::filesystem::path out;           // empty: out/SCENE

@@ -76,8 +76,15 @@ void DeviceBodies::clear_boxes() {
   for (physics::Frame& frame : cleared) {
     std::fill_n(frame.box, 3, ~0u);
     std::fill_n(frame.box + 3, 3, 0u);
+    if (frame.halted == physics::halted_for_now) frame.halted = physics::not_halted;
   }
   frames.upload(cleared);
+}
+
+void DeviceBodies::set_time_step(double time_step) {
+  std::vector<physics::Frame> changed = frames.download();
+  for (physics::Frame& frame : changed) frame.time_step = time_step;
+  frames.upload(changed);
 }
 
 State DeviceBodies::download(std::uint32_t half) const {

@@ -27,8 +27,10 @@ struct DeviceBodies {
   DeviceArray<physics::Control> control;   // one
 
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes every body's box empty, as the last pass of a step does.
+  /// Makes every body's box empty, as the last pass of a step does, and ends a halt for now.
   void clear_boxes();
+  /// Of all bodies' steps from here on [s].
+  void set_time_step(double time_step);
 };
 
 }  // namespace pliant

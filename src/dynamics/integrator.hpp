@@ -43,8 +43,17 @@ struct Integrator {
 /// Whether the method may meet damping. A splitting damps with every kick, so a negative kick would feed energy in.
 [[nodiscard]] bool allows_damping(const Integrator& integrator);
 
-/// A Runge-Kutta method on x'' = a(x, v), for which accelerations alone have to be stored. Stages that only the error
-/// estimate uses are left out. With row = stage, or row = stages for the end of the step:
+/// Whether the method is a Runge-Kutta one with embedded weights, so that a tolerance can govern its steps.
+[[nodiscard]] bool estimates_error(const Integrator& integrator);
+
+/// The power of the step with which the estimated error grows. Two estimates are joined as e^2 / sqrt(e^2 + f^2 / 100).
+[[nodiscard]] int estimate_order(const RungeKutta& method);
+
+/// Which stages count: those that reach the step's end, or those that reach the error estimates as well.
+enum class Stages { of_result, of_estimates };
+
+/// A Runge-Kutta method on x'' = a(x, v), for which accelerations alone have to be stored. With row = stage, or row = stages for
+/// the end of the step:
 ///   x_row = x + c[row] h v + h^2 sum_j position[row * stages + j] a_j
 ///   v_row = v +              h   sum_j velocity[row * stages + j] a_j
 struct NystromTableau {
@@ -55,6 +64,11 @@ struct NystromTableau {
 };
 
 /// Computed in long double and rounded once.
-[[nodiscard]] NystromTableau nystrom_tableau(const RungeKutta& method);
+[[nodiscard]] NystromTableau nystrom_tableau(const RungeKutta& method, Stages stages = Stages::of_result);
+
+/// (stages of nystrom_tableau(method, Stages::of_estimates)) x 4. The step's end is farther than that of the embedded method by
+///   h^2 sum_j weights[4 j] a_j in position, h sum_j weights[4 j + 1] a_j in velocity;
+/// the other two are the second estimate's, or zero. Expects a method with an estimate.
+[[nodiscard]] std::vector<double> error_weights(const RungeKutta& method);
 
 }  // namespace pliant

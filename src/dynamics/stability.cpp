@@ -109,6 +109,13 @@ std::vector<double> stability_polynomial(const RungeKutta& method) {
   return polynomial;
 }
 
+double stiffest_frequency(const ModelBody& body) { return std::sqrt(body.vertex_count * body.stiffness / body.vertex_mass); }
+
+double largest_damping_rate(const ModelBody& body, DampingLaw law) {
+  if (law == DampingLaw::none) return 0;
+  return (law == DampingLaw::adaptive ? 10.0 : 1.0) * body.damping / body.vertex_mass;
+}
+
 double step_bound(const Integrator& integrator, double omega_squared, double damping_rate_max) {
   PLIANT_EXPECT(std::isfinite(omega_squared) && omega_squared >= 0);
   PLIANT_EXPECT(std::isfinite(damping_rate_max) && damping_rate_max >= 0);

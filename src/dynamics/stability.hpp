@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "dynamics/integrator.hpp"
+#include "model/model.hpp"
+#include "scene/scene_description.hpp"
 
 namespace pliant {
 
@@ -15,5 +17,11 @@ namespace pliant {
 /// damping medium, needs a call of its own. Damping expects allows_damping(integrator).
 [[nodiscard]] double step_bound(const Integrator& integrator, double omega_squared /* N k/m [1/s^2] */,
                                 double damping_rate_max /* [1/s] */);
+
+/// Angular frequency of the body's stiffest small motion [1/s].
+[[nodiscard]] double stiffest_frequency(const ModelBody& body);
+
+/// The largest damping rate g that the law can give the body [1/s].
+[[nodiscard]] double largest_damping_rate(const ModelBody& body, DampingLaw law);
 
 }  // namespace pliant

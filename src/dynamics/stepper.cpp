@@ -9,7 +9,6 @@
 namespace pliant {
 namespace {
 
-
 static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_none);
 static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);
 static_assert(static_cast<std::uint32_t>(DampingLaw::adaptive) == physics::damping_adaptive);
@@ -34,13 +33,15 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau) {
 
 }  // namespace
 
-Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step)
+Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step,
+                 Stages stages)
     : device_(device), bodies_(bodies), integrator_(integrator), law_(static_cast<std::uint32_t>(law)), time_step_(time_step) {
   PLIANT_EXPECT(law == DampingLaw::none || allows_damping(integrator));
   const std::size_t count = bodies.vertex_count;
+  bodies.set_time_step(time_step);
   forces_ = DeviceArray<double>(device, 3 * count, "spring forces");
   if (const auto* method = std::get_if<RungeKutta>(&integrator.method)) {
-    const NystromTableau tableau = nystrom_tableau(*method);
+    const NystromTableau tableau = nystrom_tableau(*method, stages);
     PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
     tableau_ = DeviceArray<glm::dvec2>(device, stage_rows(tableau), "tableau");
@@ -90,7 +91,7 @@ std::vector<Pass> Stepper::runge_kutta_passes(std::uint32_t from_half) const {
     result.push_back(force_pass("runge_kutta_stage",
                                 {b.shares.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.placements.id(),
                                  accelerations_.id(), b.motions.id(), b.world_positions.id(), tableau_.id()},
-                                {b.vertex_count, from_half, law_, stage, stage_count_, time_step_}));
+                                {b.vertex_count, from_half, law_, stage, stage_count_}));
   return result;
 }
 

@@ -23,6 +23,16 @@ Json or_null(const std::optional<Value>& value) {
 
 Json device_json(const Summary& summary) { return {{"kind", summary.device.kind}, {"name", summary.device.name}}; }
 
+Json adaptive_json(const Summary& summary) {
+  if (!summary.adaptive) return nullptr;
+  const auto& [tolerance, accepted, rejected, smallest_step, largest_step] = *summary.adaptive;
+  return {{"tolerance", tolerance},
+          {"accepted", accepted},
+          {"rejected", rejected},
+          {"smallest_step", smallest_step},
+          {"largest_step", largest_step}};
+}
+
 Json energy_json(const Summary& summary) {
   const auto& [initial, final, max_drift] = summary.energy;
   return {{"initial", initial}, {"final", final}, {"max_drift", or_null(max_drift)}};
@@ -56,7 +66,8 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"precision", summary.precision},
                      {"threads", summary.threads},
                      {"integrator", summary.integrator},
-                     {"time_step", summary.time_step},
+                     {"time_step", or_null(summary.time_step)},
+                     {"adaptive", adaptive_json(summary)},
                      {"steps", summary.steps},
                      {"simulated_seconds", summary.simulated_seconds},
                      {"wall_seconds", summary.wall_seconds},

@@ -20,8 +20,14 @@ struct Summary {
   int precision = 32;  // of the forces [bits]
   unsigned threads = 1;
   std::string integrator;
-  double time_step = 0;  // [s]
-  std::uint64_t steps = 0;
+  std::optional<double> time_step;  // [s]; empty where a tolerance governs it
+  std::uint64_t steps = 0;          // that stand
+  struct Adaptive {
+    double tolerance = 0;
+    std::uint64_t accepted = 0, rejected = 0;    // steps
+    double smallest_step = 0, largest_step = 0;  // of those accepted [s]
+  };
+  std::optional<Adaptive> adaptive;  // empty: steps are fixed
   double simulated_seconds = 0;
   double wall_seconds = 0;  // stepping alone
   double steps_per_second = 0;

@@ -90,6 +90,7 @@ struct Range {
 };
 
 constexpr Range positive{1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
+constexpr Range error_tolerance{1e-14, 0.1, "a number from 1e-14 to 0.1"};
 constexpr Range positive_or_auto{1e-30, 1e30, "a number above 0 (1e-30 to 1e30), or \"auto\""};
 constexpr Range not_negative{0, 1e30, "a number from 0 to 1e30"};
 constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
@@ -248,6 +249,9 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
   const toml::node* time_step = table.find("time_step");
   if (time_step != nullptr && time_step->value<std::string>() != "auto")
     convert(*time_step, "simulation.time_step", simulation.time_step, positive_or_auto);
+  table.allow_one_of("time_step", "tolerance");
+  table.read("tolerance", simulation.tolerance, error_tolerance);
+  simulation.tolerance_where = table.where("tolerance");
   table.read("duration", simulation.duration, not_negative);
   const std::string step = table.where("time_step"), duration = table.where("duration");
   simulation.length_where = duration.empty() || step.starts_with("--") ? step : duration;

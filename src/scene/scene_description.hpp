@@ -26,6 +26,8 @@ enum class Coloring { body, deformation };
 struct SimulationDescription {
   Named integrator{"dop853", "simulation.integrator"};
   std::optional<double> time_step;  // [s]; empty: automatic
+  std::optional<double> tolerance;  // of a step's error, relative to the bodies; steps then have no fixed length
+  std::string tolerance_where;      // an option, or "file:line: field"
   double duration = 2.0;            // [s]
   std::string length_where;         // of duration or time_step, an option before a line; empty where neither is given
   DampingLaw damping_law = DampingLaw::adaptive;

@@ -1,12 +1,17 @@
-// See simulation.hpp. Step s starts from half (s - 1) mod 2 and ends in the other.
+// See simulation.hpp. Step s starts from half (s - 1) mod 2 and ends in the other, even if it is rejected or empty.
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/expect.hpp"
 
 namespace pliant {
 namespace {
 
 using physics::Control;
+
+constexpr double most_steps_at_once = 32;
 
 void append(std::vector<Pass>& passes, std::vector<Pass> more) {
   passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -40,8 +45,11 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
 }  // namespace
 
 std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
-                              std::uint32_t from_half) {
-  std::vector<Pass> passes = stepper.passes(from_half);
+                              std::uint32_t from_half, const Pacer* pacer) {
+  std::vector<Pass> passes;
+  if (pacer != nullptr) passes.push_back(pacer->beginning_pass());
+  append(passes, stepper.passes(from_half));
+  if (pacer != nullptr) append(passes, pacer->judging_passes(from_half));
   std::vector<Pass> contacts;
   if (collider != nullptr) contacts = collider->contact_passes(1 - from_half);
   // Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
@@ -53,8 +61,9 @@ std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const 
   }
   append(passes, std::move(contacts));
   if (collider != nullptr) append(passes, collider->response_passes(from_half));
-  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
-                                         std::max(bodies.body_count, physics::counter_count))));
+  const Pass finish = make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
+                                std::max(bodies.body_count, physics::counter_count));
+  passes.push_back(pacer != nullptr ? finish : beside_next(finish));  // begin_step asks for this step's contacts
   return passes;
 }
 
@@ -63,23 +72,50 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     : device_(device),
       model_(model),
       bodies_(device, model, start),
-      stepper_(device, bodies_, *plan.integrator, plan.damping_law, plan.time_step),
+      stepper_(device, bodies_, *plan.integrator, plan.damping_law, plan.time_step,
+               plan.tolerance ? Stages::of_estimates : Stages::of_result),
       collider_(device, bodies_, model, collision),
+      fixed_step_(plan.time_step),
       responds_(collision.response == ContactResponse::reflect) {
+  if (plan.tolerance)
+    pacer_.emplace(device, bodies_, model, stepper_, *plan.integrator, plan.damping_law,
+                   PaceLimits{.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
   device.run(stepper_.first_passes());
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
-  return step_passes(device_, bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half);
+  return step_passes(device_, bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half, pacer_ ? &*pacer_ : nullptr);
+}
+
+void Simulation::queue(std::uint64_t steps) {
+  for (std::uint64_t k = 0; k < steps; ++k) {
+    const std::vector<Pass>& step = schedules_[queued_steps_++ & 1];
+    if (timed_)
+      run_timed(device_, step, pass_seconds_);
+    else
+      device_.run(step);
+  }
 }
 
 void Simulation::advance(std::uint64_t steps) {
-  for (std::uint64_t k = 0; k < steps; ++k) device_.run(schedules_[queued_steps_++ & 1]);
+  PLIANT_EXPECT(!pacer_);
+  queue(steps);
 }
 
-void Simulation::advance_timed(std::uint64_t steps) {
-  for (std::uint64_t k = 0; k < steps; ++k) run_timed(device_, schedules_[queued_steps_++ & 1], pass_seconds_);
+StepReport Simulation::advance_toward(double time) {
+  PLIANT_EXPECT(pacer_.has_value());
+  const physics::Pace pace = pacer_->pace();
+  pacer_->aim_at(time);
+  const double wanted = std::ceil((time - pace.time) / pace.allowed);
+  if (wanted > 0) queue(static_cast<std::uint64_t>(std::min(wanted, most_steps_at_once)));
+  return report();
+}
+
+StepReport Simulation::advance_to(double time) {
+  StepReport last = advance_toward(time);
+  while (last.time < time && !last.non_finite) last = advance_toward(time);
+  return last;
 }
 
 std::uint32_t Simulation::half() {
@@ -87,13 +123,23 @@ std::uint32_t Simulation::half() {
   return static_cast<std::uint32_t>((halted_at != 0 ? halted_at : queued_steps_) & 1);
 }
 
+void Simulation::add_pace(StepReport& report, const Control& control) const {
+  const physics::Pace pace = pacer_->pace();
+  report.steps = pace.accepted;
+  report.time = pace.time;
+  report.adaptive =
+      AdaptiveReport{pace.rejected, pace.smallest_taken, pace.largest_taken, physics::allowed_step(pace, control.contact_steps)};
+}
+
 StepReport Simulation::report() {
   const Control control = bodies_.control.download().front();
   StepReport report;
   report.steps = control.step - 1;
+  report.time = static_cast<double>(report.steps) * fixed_step_;
+  if (pacer_) add_pace(report, control);
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
-    report.non_finite = NonFinite{control.non_finite_step, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
+    report.non_finite = NonFinite{report.steps, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
   }
   add_collision_counts(report, control);
   if (responds_ && collider_.uses_trees())

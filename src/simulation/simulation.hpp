@@ -9,6 +9,7 @@
 
 #include "collision/collider.hpp"
 #include "device/device_bodies.hpp"
+#include "dynamics/pacer.hpp"
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
@@ -24,9 +25,20 @@ struct NonFinite {
   bool operator==(const NonFinite&) const = default;
 };
 
+/// Of steps that a tolerance governs.
+struct AdaptiveReport {
+  std::uint64_t rejected = 0;                  // steps that were undone, their error being too large
+  double smallest_step = 0, largest_step = 0;  // of the others [s]; 0: there are none
+  double next_step = 0;                        // allowed [s]
+
+  bool operator==(const AdaptiveReport&) const = default;
+};
+
 /// What the simulation did since its start.
 struct StepReport {
-  std::uint64_t steps = 0;  // completed, a non-finite one included
+  std::uint64_t steps = 0;  // completed, a non-finite one included; rejected ones are none
+  double time = 0;          // of the state [s]
+  std::optional<AdaptiveReport> adaptive;
   std::optional<NonFinite> non_finite;
   std::uint64_t contact_steps = 0;      // steps with a pair
   std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
@@ -49,9 +61,9 @@ struct Intersections {
   std::vector<std::uint32_t> bodies;  // that take part
 };
 
-/// One step in order, from `from_half` into the other. A null collider: no contacts.
+/// One step in order, from `from_half` into the other. A null collider: no contacts. A null pacer: a step of fixed length.
 [[nodiscard]] std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper,
-                                            const Collider* collider, std::uint32_t from_half);
+                                            const Collider* collider, std::uint32_t from_half, const Pacer* pacer = nullptr);
 
 class Simulation {
  public:
@@ -60,11 +72,16 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Queues steps; they may still be running when this returns. After a non-finite step nothing moves.
+  /// Queues steps of a fixed length; they may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
-  /// As advance(), but waits, and notes what each kind of pass takes. Slower: see run_timed.
-  void advance_timed(std::uint64_t steps);
-  /// Device time of advance_timed() so far by kernel [s].
+  /// With a tolerance instead: queues as many steps as may reach `time` [s], 32 at most, waits, and reports. The last one ends
+  /// there exactly; what is queued beyond it is empty.
+  StepReport advance_toward(double time);
+  /// Goes on until report().time is `time` [s], or a step was non-finite.
+  StepReport advance_to(double time);
+  /// From here on the device waits after each pass, and notes what each kind of pass takes. Slower: see run_timed.
+  void time_passes() { timed_ = true; }
+  /// Device time since time_passes() by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
   /// Waits for the queued steps.
   [[nodiscard]] StepReport report();
@@ -81,15 +98,20 @@ class Simulation {
  private:
   [[nodiscard]] std::uint32_t half();  // the one that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
+  void queue(std::uint64_t steps);
+  void add_pace(StepReport& report, const physics::Control& control) const;
 
   Device& device_;
   const Model& model_;
   DeviceBodies bodies_;
   Stepper stepper_;
   Collider collider_;
+  std::optional<Pacer> pacer_;                  // where a tolerance governs the steps
+  double fixed_step_;                           // else their length [s]
   bool responds_;                               // to contacts; else none are looked for
   std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
-  std::uint64_t queued_steps_ = 0;
+  std::uint64_t queued_steps_ = 0;              // rejected and empty ones count here
+  bool timed_ = false;
   std::map<std::string_view, double> pass_seconds_;
 };
 

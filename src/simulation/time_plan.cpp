@@ -1,27 +1,27 @@
 // The automatic step keeps a tenth away from the stability bound of the stiffest body.
 #include "simulation/time_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
+#include "dynamics/automatic_integrator.hpp"
 #include "dynamics/stability.hpp"
 
 namespace pliant {
 namespace {
 
 constexpr double safety = 0.9;
+constexpr double first_step_fraction = 0.1;  // of the bound, where a tolerance governs the steps
+constexpr double smallest_tolerance_32 = 1e-7;
 constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
-
-double largest_damping_rate(const ModelBody& body, DampingLaw law) {
-  if (law == DampingLaw::none) return 0;
-  return (law == DampingLaw::adaptive ? 10.0 : 1.0) * body.damping / body.vertex_mass;
-}
 
 double bound_of(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
   const double rate = largest_damping_rate(body, law);
-  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;
+  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;  // omega^2
   // The stiffest mode, and the body's own translation, which springs do not hold back.
   return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
 }
@@ -32,9 +32,33 @@ double automatic_step(double bound, double frame_rate) {
   return frame_time / std::max(1.0, std::ceil(frame_time / (safety * bound) - 1e-9));
 }
 
+double first_step(double bound, double frame_rate) { return std::min(first_step_fraction * bound, 1 / frame_rate); }
+
 DampingLaw effective_law(DampingLaw law, const Model& model) {
   const bool damped = std::ranges::any_of(model.bodies, [](const ModelBody& body) { return body.damping > 0; });
   return damped ? law : DampingLaw::none;
+}
+
+const Integrator& choose_integrator(const SimulationDescription& simulation, DampingLaw law) {
+  const auto& [name, where] = simulation.integrator;
+  if (name != "auto") return find_integrator(name, where);
+  if (simulation.tolerance) return automatic_integrator(*simulation.tolerance, law);
+  throw Error(fault_of(where), where, "\"auto\" chooses by the tolerance, and there is none",
+              "give a tolerance, as in tolerance = 1e-6, or name an integrator");
+}
+
+std::string names_with_estimate() {
+  std::string names;
+  for (const Integrator& integrator : integrators())
+    if (estimates_error(integrator)) names += std::string(integrator.name) + ", ";
+  return names + "auto";
+}
+
+void expect_method_estimates(const TimePlan& plan, const std::string& where) {
+  if (!plan.tolerance || estimates_error(*plan.integrator)) return;
+  throw Error(fault_of(where), where,
+              fmt::format("{} does not estimate its error, which a tolerance needs", plan.integrator->name),
+              fmt::format("choose one of {}; or give a time_step instead of the tolerance", names_with_estimate()));
 }
 
 void expect_method_damps(const TimePlan& plan, const std::string& where) {
@@ -61,18 +85,41 @@ std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
   return static_cast<std::uint64_t>(std::min(std::ceil(step * (1 - rounding)), 1e18));
 }
 
+std::optional<double> TimePlan::time_of_frame(std::uint64_t frame) const {
+  constexpr double rounding = 1e-12;  // relative, as above
+  const double time = static_cast<double>(frame) / frame_rate;
+  if (time > duration * (1 + rounding)) return std::nullopt;
+  return std::min(time, duration);
+}
+
 TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps) {
   const SimulationDescription& simulation = scene.simulation;
-  TimePlan plan{.integrator = &find_integrator(simulation.integrator.value, simulation.integrator.where),
-                .step_bound = std::numeric_limits<double>::infinity(),
-                .frame_rate = scene.output.frame_rate};
-  plan.damping_law = effective_law(simulation.damping_law, model);
+  if (steps && simulation.tolerance)
+    throw Error(ErrorKind::command_line, "--steps", "with a tolerance steps have no fixed length", "give --duration instead");
+  TimePlan plan{.step_bound = std::numeric_limits<double>::infinity(),
+                .frame_rate = scene.output.frame_rate,
+                .damping_law = effective_law(simulation.damping_law, model),
+                .tolerance = simulation.tolerance,
+                .duration = simulation.duration};
+  plan.integrator = &choose_integrator(simulation, plan.damping_law);
   expect_method_damps(plan, simulation.integrator.where);
+  expect_method_estimates(plan, simulation.integrator.where);
   for (const ModelBody& body : model.bodies)
     plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, plan.damping_law));
-  plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
-  plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
+  if (plan.tolerance) {
+    plan.time_step = first_step(plan.step_bound, plan.frame_rate);
+  } else {
+    plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
+    plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
+  }
   return plan;
+}
+
+void expect_carried(const SceneDescription& scene, int precision) {
+  const auto& [tolerance, where] = std::pair(scene.simulation.tolerance, scene.simulation.tolerance_where);
+  if (precision != 32 || !tolerance || *tolerance >= smallest_tolerance_32) return;
+  throw Error(fault_of(where), where, fmt::format("a tolerance of {} is below what forces in fp32 carry", *tolerance),
+              fmt::format("write {} or more, or run with --device cpu --precision 64", smallest_tolerance_32));
 }
 
 }  // namespace pliant

@@ -11,18 +11,26 @@ namespace pliant {
 
 struct TimePlan {
   const Integrator* integrator = nullptr;
-  double time_step = 0;   // [s]
-  double step_bound = 0;  // largest stable step [s]; infinite where nothing bounds it
-  std::uint64_t steps = 0;
+  double time_step = 0;                       // [s]; with a tolerance the first step, and the one after a contact
+  double step_bound = 0;                      // largest stable step [s]; infinite where nothing bounds it
+  std::uint64_t steps = 0;                    // none with a tolerance
   double frame_rate = 60;                     // [1/s]
   DampingLaw damping_law = DampingLaw::none;  // the scene's; none where no body has damping
+  std::optional<double> tolerance = {};       // of a step's error (see PaceLimits); empty: steps are fixed
+  double duration = 0;                        // [s], for which there is a tolerance
 
   /// Frame n is the first state at or after n / frame_rate. Steps beyond 1e18 count as 1e18.
   [[nodiscard]] std::uint64_t step_of_frame(std::uint64_t frame) const;
+  /// n / frame_rate [s], where a step ends exactly if there is a tolerance. Nothing after the duration.
+  [[nodiscard]] std::optional<double> time_of_frame(std::uint64_t frame) const;
 };
 
 /// `steps` replaces the scene's duration. Throws Error (fault_of the scene's `where`) for an unknown integrator, for one that
-/// cannot meet the scene's damping, and for a duration of more than 3e8 steps.
+/// cannot meet the scene's damping or does not estimate the error that the scene's tolerance is for, for integrator = "auto"
+/// without a tolerance, for steps with one, and for a duration of more than 3e8 steps.
 [[nodiscard]] TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps = {});
+
+/// Throws Error (fault_of the scene's `where`) if the scene's tolerance is below what forces of so many bits carry.
+void expect_carried(const SceneDescription& scene, int precision);
 
 }  // namespace pliant

@@ -84,6 +84,44 @@ TEST_CASE("a step longer than a frame gives several frames and one row of histor
   CHECK(read_text(folder.path / "frames/frame_0002.obj") != read_text(folder.path / "frames/frame_0003.obj"));
 }
 
+TEST_CASE("with a tolerance every frame is exactly at its time, and the summary counts steps") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --tolerance 1e-5 --integrator auto --frames obj --out " +
+                  folder.path.string());
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  std::istringstream rows(read_text(folder.path / "history.csv"));
+  std::string row;
+  std::getline(rows, row);
+  for (int frame = 0; frame <= 12; ++frame) {
+    REQUIRE(std::getline(rows, row));
+    CHECK(std::strtod(row.c_str() + row.find(',') + 1, nullptr) == frame / 60.0);
+  }
+  const std::filesystem::directory_iterator frames(folder.path / "frames");
+  CHECK(std::distance(begin(frames), end(frames)) == 13);
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["simulated_seconds"] == 0.2);
+  CHECK(summary["time_step"].is_null());
+  CHECK(summary["integrator"] == "dop853");
+  CHECK(summary["contacts"]["steps"] > 0);
+  const auto adaptive = summary["adaptive"];
+  CHECK(adaptive["tolerance"] == 1e-5);
+  CHECK(adaptive["accepted"] == summary["steps"]);
+  CHECK(adaptive["smallest_step"] > 0);
+  CHECK(adaptive["largest_step"] >= adaptive["smallest_step"]);
+  CHECK_THAT(result.output, Catch::Contains("rejected"));
+}
+
+TEST_CASE("a check with a tolerance estimates the number of steps") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --tolerance 1e-5 --check --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("by a tolerance of 1e-05") && Catch::Contains("steps:            about ") &&
+                                !Catch::Contains("inf") && !Catch::Contains("nan"));
+}
+
 TEST_CASE("zero steps write the start") {
   const ScratchFolder folder;
   const std::string common =
@@ -295,6 +333,14 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + scene + " --steps many", 2, {"--steps"});
   check_fails("run " + scene + " --time-step 0", 2, {"--time-step"});
   check_fails("run " + scene + " --time-step nan", 2, {"--time-step"});
+  check_fails("run " + scene + " --tolerance -1e-6", 2, {"--tolerance"});
+  check_fails("run " + scene + " --tolerance nan", 2, {"--tolerance"});
+  check_fails("run " + scene + " --tolerance 0.2", 2, {"--tolerance"});
+  check_fails("run " + scene + " --tolerance 1e-6 --time-step 0.1", 2, {"--tolerance", "--time-step"});
+  check_fails("run " + scene + " --tolerance 1e-6 --steps 10", 2, {"--tolerance", "--steps"});
+  check_fails("run " + scene + " --device cpu --tolerance 1e-8", 2, {"--tolerance", "fp32", "--precision 64"});
+  check_fails("run " + scene + " --device cpu --tolerance 1e-6 --integrator rk4", 2, {"--integrator", "rk4", "dop853"});
+  check_fails("run " + scene + " --device cpu --integrator auto", 2, {"--integrator", "tolerance"});
   check_fails("run " + scene + " --duration -1", 2, {"--duration"});
   check_fails("run " + scene + " --duration inf", 2, {"--duration"});
   check_fails("run " + scene + " --threads 0", 2, {"--threads"});

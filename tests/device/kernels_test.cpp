@@ -1,4 +1,5 @@
 // Every kernel on the GPU against the same kernel on the CPU, pass by pass, from the same input.
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -42,7 +43,21 @@ struct Bench {
         stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step),
         collider(*device, bodies, start.model, collision, 256) {}  // searches cut alike on every device
 
-  std::vector<Pass> step(std::uint32_t from_half) { return step_passes(*device, bodies, stepper, &collider, from_half); }
+  // Steps of an adaptive length.
+  Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision,
+        double tolerance)
+      : device(std::move(on)),
+        bodies(*device, start.model, start.state),
+        stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
+        collider(*device, bodies, start.model, collision, 256) {
+    pacer.emplace(*device, bodies, start.model, stepper, find_integrator(method.integrator), method.law,
+                  PaceLimits{.tolerance = tolerance, .first_step = method.time_step, .largest_step = 2 * method.time_step});
+    pacer->aim_at(20 * method.time_step);
+  }
+
+  std::vector<Pass> step(std::uint32_t from_half) {
+    return step_passes(*device, bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
+  }
 
   template <class T>
   std::vector<T> read(BufferId buffer) {
@@ -55,6 +70,7 @@ struct Bench {
   DeviceBodies bodies;
   Stepper stepper;
   Collider collider;
+  std::optional<Pacer> pacer;
 };
 
 template <class T>
@@ -74,6 +90,16 @@ std::vector<double> numbers_of(const physics::Frame& frame) {
   for (const std::uint32_t flag : {frame.non_finite_vertex, frame.turned, frame.deformed, frame.force_stale,
                                    frame.force_evaluations, frame.forces_skipped, frame.frame_changes, frame.halted})
     numbers.push_back(flag);
+  return numbers;
+}
+
+std::vector<double> numbers_of(const physics::Pace& pace) {
+  std::vector<double> numbers(offsetof(physics::Pace, estimate) / sizeof(double));
+  std::memcpy(numbers.data(), &pace, numbers.size() * sizeof(double));
+  for (const std::uint32_t estimate : pace.estimate) numbers.push_back(std::bit_cast<float>(estimate));
+  for (const std::uint32_t count :
+       {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.retries, pace.contact_steps})
+    numbers.push_back(count);
   return numbers;
 }
 
@@ -104,6 +130,9 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       const auto x = cpu.read<physics::Frame>(a), y = gpu.read<physics::Frame>(b);
       for (std::size_t f = 0; f < cpu.bodies.body_count; ++f)
         CHECK(largest_difference(numbers_of(y[f]), numbers_of(x[f])) < 1e-13);
+    } else if (slot.type == "Pace") {
+      const auto x = numbers_of(cpu.read<physics::Pace>(a).front()), y = numbers_of(gpu.read<physics::Pace>(b).front());
+      for (std::size_t k = 0; k < x.size(); ++k) CHECK(y[k] == Approx(x[k]).epsilon(1e-6));
     } else if (slot.type == "double") {
       const auto [x, y] = read_both<double>(cpu, gpu, a, b);
       CHECK(largest_difference(y, x) < 1e-6);
@@ -137,9 +166,7 @@ void compare_pass(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_
   copy_state(cpu, gpu, cpu_pass, gpu_pass);
 }
 
-void compare_steps(const Method& method, const CollisionDescription& collision, std::set<std::string_view>& seen) {
-  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
-  Bench cpu(make_cpu_device(2, 32), start, method, collision), gpu(make_gpu_device(0), start, method, collision);
+void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::string_view>& seen) {
   for (const auto& [on_cpu, on_gpu] : {std::pair{cpu.stepper.first_passes(), gpu.stepper.first_passes()},
                                        {cpu.collider.bounding_passes(0), gpu.collider.bounding_passes(0)}}) {
     compare_pass(cpu, gpu, on_cpu.front(), on_gpu.front());
@@ -147,8 +174,8 @@ void compare_steps(const Method& method, const CollisionDescription& collision, 
   }
   cpu.bodies.clear_boxes();
   gpu.bodies.clear_boxes();
-  for (std::uint32_t step = 0; step < 12; ++step) {
-    CAPTURE(method.integrator, step);
+  for (std::uint32_t step = 0; step < steps; ++step) {
+    CAPTURE(step);
     const auto cpu_passes = cpu.step(step & 1), gpu_passes = gpu.step(step & 1);
     REQUIRE(cpu_passes.size() == gpu_passes.size());
     for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
@@ -169,8 +196,21 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   CollisionDescription tree, brute;
   brute.search = ContactSearch::brute_force;
   brute.triangle_test = TriangleTest::moller;
-  compare_steps({"cv8", 0.01, DampingLaw::adaptive}, tree, seen);
-  compare_steps({"verlet", 0.01, DampingLaw::constant}, brute, seen);
+  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  for (const auto& [method, collision] : {std::pair<Method, CollisionDescription>{{"cv8", 0.01, DampingLaw::adaptive}, tree},
+                                          {{"verlet", 0.01, DampingLaw::constant}, brute}}) {
+    CAPTURE(method.integrator);
+    Bench cpu(make_cpu_device(2, 32), start, method, collision), gpu(make_gpu_device(0), start, method, collision);
+    compare_steps(cpu, gpu, 12, seen);
+  }
+  for (const char* integrator : {"dop853", "vern8"}) {
+    CAPTURE(integrator);
+    const Method method{integrator, 0.01, DampingLaw::adaptive};
+    Bench cpu(make_cpu_device(2, 32), start, method, tree, 1e-7), gpu(make_gpu_device(0), start, method, tree, 1e-7);
+    compare_steps(cpu, gpu, 40, seen);
+    const physics::Pace pace = cpu.pacer->pace();
+    CHECK((pace.accepted > 0 && pace.rejected > 0));
+  }
   std::size_t kernel_count = 0;
   for (const gl::ShaderFile& file : gl::embedded_shaders())
     if (file.name.starts_with("compute/kernels/") && file.name.find("/parts/") == std::string_view::npos) ++kernel_count;

@@ -211,7 +211,8 @@ Point plain_step(const RungeKutta& method, Point start, long double h) {
   return end;
 }
 
-Point nystrom_step(const NystromTableau& tableau, Point start, long double h) {
+// The accelerations at the stages; `end`, if any, becomes the step's end.
+Vector stage_accelerations(const NystromTableau& tableau, Point start, long double h, Point* end = nullptr) {
   Vector accelerations;
   for (int row = 0;; ++row) {
     Point p{start.x + tableau.c[row] * h * start.v, start.v};
@@ -219,9 +220,18 @@ Point nystrom_step(const NystromTableau& tableau, Point start, long double h) {
       p.x += h * h * tableau.position[row * tableau.stages + j] * accelerations[j];
       p.v += h * tableau.velocity[row * tableau.stages + j] * accelerations[j];
     }
-    if (row == tableau.stages) return p;
+    if (row == tableau.stages) {
+      if (end != nullptr) *end = p;
+      return accelerations;
+    }
     accelerations.push_back(acceleration(p));
   }
+}
+
+Point nystrom_step(const NystromTableau& tableau, Point start, long double h) {
+  Point end{};
+  (void)stage_accelerations(tableau, start, h, &end);
+  return end;
 }
 
 }  // namespace
@@ -310,6 +320,36 @@ TEST_CASE("stages that only an error estimate uses cost no force evaluation") {
   CHECK(evaluations_per_step(find_integrator("dop853")) == 12);
   CHECK(evaluations_per_step(find_integrator("verner78_8")) == 12);
   CHECK(evaluations_per_step(find_integrator("vern8")) == 12);
+}
+
+TEST_CASE("error weights are how much farther a step goes than the embedded one would") {
+  for (const Integrator& integrator : integrators()) {
+    if (!estimates_error(integrator)) continue;
+    CAPTURE(integrator.name);
+    const auto& method = std::get<RungeKutta>(integrator.method);
+    CHECK(estimate_order(method) == 8);
+    const Vector* embedded[] = {&method.b_hat, &method.b_hat2};
+    const NystromTableau tableau = nystrom_tableau(method, Stages::of_estimates);
+    CHECK(tableau.stages >= nystrom_tableau(method).stages);
+    const std::vector<double> weights = error_weights(method);
+    REQUIRE(weights.size() == std::size_t{4} * tableau.stages);
+    const Point start{0.7L, -1.1L}, end = plain_step(method, start, 0.4L);
+    const Vector accelerations = stage_accelerations(tableau, start, 0.4L);
+    for (std::size_t estimate = 0; estimate < 2; ++estimate) {
+      if (embedded[estimate]->empty()) continue;
+      RungeKutta other = method;
+      other.b = *embedded[estimate];
+      const Point other_end = plain_step(other, start, 0.4L);
+      Point difference{0, 0};
+      for (std::size_t j = 0; j < accelerations.size(); ++j) {
+        difference.x += 0.4L * 0.4L * weights[4 * j + 2 * estimate] * accelerations[j];
+        difference.v += 0.4L * weights[4 * j + 2 * estimate + 1] * accelerations[j];
+      }
+      CHECK(std::abs(difference.x - (end.x - other_end.x)) < 1e-14L);
+      CHECK(std::abs(difference.v - (end.v - other_end.v)) < 1e-14L);
+      CHECK(std::abs(difference.v) > 1e-13L);
+    }
+  }
 }
 
 TEST_CASE("an unknown integrator is an input error that lists the known ones") {

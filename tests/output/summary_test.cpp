@@ -38,6 +38,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
                             "threads",
                             "integrator",
                             "time_step",
+                            "adaptive",
                             "steps",
                             "simulated_seconds",
                             "wall_seconds",
@@ -78,6 +79,7 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(json["scene"] == summary.scene);
   CHECK(json["device"]["kind"] == "gpu");
   CHECK(json["time_step"] == 0.1);
+  CHECK(json["adaptive"].is_null());
   CHECK(json["steps"] == summary.steps);
   CHECK(json["energy"]["initial"] == summary.energy.initial);
   CHECK(json["energy"]["final"] == 2.5);
@@ -87,6 +89,19 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(keys(json["skipped"]) == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);
   CHECK(json["timings_ms"]["passes"]["refit"] == 0.25);
+}
+
+TEST_CASE("steps that a tolerance governs have no one length, but are counted") {
+  Summary summary;
+  summary.adaptive = {.tolerance = 1e-6, .accepted = 5, .rejected = 2, .smallest_step = 0.25, .largest_step = 0.5};
+  const Json json = written(summary);
+  CHECK(json["time_step"].is_null());
+  CHECK(keys(json["adaptive"]) == std::vector<std::string>{"tolerance", "accepted", "rejected", "smallest_step", "largest_step"});
+  CHECK(json["adaptive"]["tolerance"] == 1e-6);
+  CHECK(json["adaptive"]["accepted"] == 5);
+  CHECK(json["adaptive"]["rejected"] == 2);
+  CHECK(json["adaptive"]["smallest_step"] == 0.25);
+  CHECK(json["adaptive"]["largest_step"] == 0.5);
 }
 
 TEST_CASE("what is not a finite number is null") {

@@ -46,6 +46,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK(scene.file.filename() == "scene.toml");
   CHECK(scene.simulation.integrator.value == "dop853");
   CHECK_FALSE(scene.simulation.time_step);
+  CHECK_FALSE(scene.simulation.tolerance);
   CHECK(scene.simulation.duration == 2.0);
   CHECK(scene.simulation.damping_law == DampingLaw::adaptive);
   CHECK(scene.simulation.gravity == glm::dvec3(0.0));
@@ -137,6 +138,13 @@ TEST_CASE("time_step = \"auto\" leaves the step to be chosen") {
   CHECK_FALSE(load_text("[simulation]\ntime_step = \"auto\"\n" + smallest).simulation.time_step);
 }
 
+TEST_CASE("a tolerance replaces the step, and knows where it stands") {
+  const SceneDescription scene = load_text("[simulation]\ntolerance = 1e-6\n" + smallest);
+  CHECK(scene.simulation.tolerance == 1e-6);
+  CHECK_THAT(scene.simulation.tolerance_where, Catch::EndsWith("scene.toml:2: simulation.tolerance"));
+  CHECK_FALSE(scene.simulation.time_step);
+}
+
 TEST_CASE("an unknown key is an error that suggests the nearest known one") {
   check_input_error("[simulation]\ntime_stp = 0.1\n" + smallest, 2,
                     {"simulation.time_stp", "unknown key", "did you mean \"time_step\"?"});
@@ -147,7 +155,7 @@ TEST_CASE("an unknown key is an error that suggests the nearest known one") {
   check_input_error("[colision]\n" + smallest, 1, {"colision", "did you mean \"collision\"?"});
   check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2, {"collision.tree.whatever", "split, max_depth, leaf_size"});
   check_input_error("[simulation]\nwhatever = 1\n" + smallest, 2,
-                    {"known here: integrator, time_step, duration, damping_law, gravity"});
+                    {"known here: integrator, time_step, tolerance, duration, damping_law, gravity"});
 }
 
 TEST_CASE("a value of the wrong type is an error that says what to write") {
@@ -169,13 +177,18 @@ TEST_CASE("a value of the wrong type is an error that says what to write") {
 }
 
 TEST_CASE("a value out of range is an error that gives the range") {
-  for (const char* line :
-       {"simulation.time_step = 0", "simulation.time_step = -1", "simulation.time_step = nan", "simulation.time_step = inf",
-        "simulation.duration = -1e-9", "simulation.duration = inf", "simulation.gravity = [0, nan, 0]",
-        "collision.elasticity = -0.1", "collision.elasticity = 1.1", "collision.tree.max_depth = 0",
-        "collision.tree.max_depth = 65", "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4", "output.frame_rate = 0",
-        "output.frame_rate = 1e30", "output.frame_rate = 1e-30", "output.size = [0, 720]", "output.size = [1280, 99999]",
-        "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
+  for (const char* line : {"simulation.time_step = 0",     "simulation.time_step = -1",
+                           "simulation.time_step = nan",   "simulation.time_step = inf",
+                           "simulation.tolerance = -1e-6", "simulation.tolerance = nan",
+                           "simulation.tolerance = 0",     "simulation.tolerance = 1e-15",
+                           "simulation.tolerance = 1",     "simulation.duration = -1e-9",
+                           "simulation.duration = inf",    "simulation.gravity = [0, nan, 0]",
+                           "collision.elasticity = -0.1",  "collision.elasticity = 1.1",
+                           "collision.tree.max_depth = 0", "collision.tree.max_depth = 65",
+                           "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4",
+                           "output.frame_rate = 0",        "output.frame_rate = 1e30",
+                           "output.frame_rate = 1e-30",    "output.size = [0, 720]",
+                           "output.size = [1280, 99999]",  "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
     check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
   }
   for (const char* line :
@@ -199,6 +212,8 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
 
 TEST_CASE("keys that contradict each other are an error") {
   check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4, {"body.body0.total_stiffness", "beside stiffness"});
+  check_input_error("[simulation]\ntolerance = 1e-6\ntime_step = 0.1\n" + smallest, 2,
+                    {"simulation.tolerance", "beside time_step", "keep one"});
   check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "beside vertex_mass"});
 }
 

@@ -107,6 +107,76 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
   CHECK_NOTHROW(plan_time(scene_with("srkn11b", DampingLaw::none), model));
 }
 
+TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {
+  SceneDescription scene = scene_with("dop853", DampingLaw::none);
+  scene.simulation.tolerance = 1e-6;
+  scene.simulation.duration = 0.7;
+  const TimePlan plan = plan_time(scene, built(sphere(0)).model);
+  CHECK(plan.tolerance == 1e-6);
+  CHECK(plan.time_step <= 0.1 * plan.step_bound);
+  CHECK(plan.steps == 0);
+  for (std::uint64_t frame = 0; frame <= 42; ++frame) CHECK(plan.time_of_frame(frame) == static_cast<double>(frame) / 60);
+  CHECK(plan.time_of_frame(42) == plan.duration);
+  CHECK_FALSE(plan.time_of_frame(43));
+}
+
+TEST_CASE("a tolerance needs a method that estimates its error, and the remedy lists those") {
+  const Model model = built(sphere(0)).model;
+  for (const Integrator& integrator : integrators()) {
+    CAPTURE(integrator.name);
+    SceneDescription scene = scene_with(std::string(integrator.name), DampingLaw::none);
+    scene.simulation.tolerance = 1e-6;
+    if (estimates_error(integrator)) {
+      CHECK_NOTHROW(plan_time(scene, model));
+      continue;
+    }
+    const Error error = error_of([&] { return plan_time(scene, model); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {"scene.toml:3", "dop853, verner78_8, vern8, auto", "time_step"});
+  }
+}
+
+TEST_CASE("an automatic integrator estimates its error, whatever the law and the tolerance, and needs one") {
+  const Model model = built(sphere(0)).model;
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive}) {
+    SceneDescription scene = scene_with("auto", law);
+    const Error error = error_of([&] { return plan_time(scene, model); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {"scene.toml:3", "auto", "tolerance"});
+    for (const double tolerance : {1e-14, 1e-7, 1e-6, 1e-3, 0.1}) {
+      scene.simulation.tolerance = tolerance;
+      CHECK(estimates_error(*plan_time(scene, model).integrator));
+    }
+  }
+}
+
+TEST_CASE("a tolerance below what fp32 carries is an error where it stands, unless forces are in fp64") {
+  SceneDescription scene = scene_with("dop853", DampingLaw::none);
+  CHECK_NOTHROW(expect_carried(scene, 32));
+  scene.simulation.tolerance_where = "scene.toml:4: simulation.tolerance";
+  scene.simulation.tolerance = 1e-7;
+  CHECK_NOTHROW(expect_carried(scene, 32));
+  scene.simulation.tolerance = 0.99e-7;
+  CHECK_NOTHROW(expect_carried(scene, 64));
+  const auto check_carried = [&] {
+    expect_carried(scene, 32);
+    return 0;
+  };
+  const Error error = error_of(check_carried);
+  CHECK(error.kind() == ErrorKind::input);
+  check_says(error, {"scene.toml:4", "fp32", "1e-07", "--precision 64"});
+  scene.simulation.tolerance_where = "--tolerance";
+  CHECK(error_of(check_carried).kind() == ErrorKind::command_line);
+}
+
+TEST_CASE("a number of steps and a tolerance exclude each other") {
+  SceneDescription scene = scene_with("dop853", DampingLaw::none);
+  scene.simulation.tolerance = 1e-6;
+  const Error error = error_of([&] { return plan_time(scene, built(sphere(0)).model, 10); });
+  CHECK(error.kind() == ErrorKind::command_line);
+  check_says(error, {"--steps", "--duration"});
+}
+
 TEST_CASE("more steps than the device's clock counts are the fault of who set the length") {
   SceneDescription scene = scene_with("cv8", DampingLaw::none);
   scene.simulation.time_step = 1e-12;

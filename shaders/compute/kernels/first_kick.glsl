@@ -17,7 +17,7 @@ PARAMETER(4, double, drift_time)  // [s]
 
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
-  if (frame[b].halted != 0u) return;
+  if (frame[b].halted != not_halted) return;
   if (i == body[b].first_vertex) frame[b].force_stale = 0u;  // refresh_force has seen to it
   dvec3 spring_force = LOAD3(force, 3u * i);
   uint before = 6u * (from_half * vertex_count + i), after = 6u * ((1u - from_half) * vertex_count + i);

@@ -20,7 +20,7 @@ void pair_bodies(uint item) {
   uint a = item / body_count;
   uint b = item % body_count;
   if (a >= b || tree[a].y == 0u || tree[b].y == 0u) return;
-  if (frame[a].halted != 0u || frame[a].non_finite_vertex != no_vertex || frame[b].non_finite_vertex != no_vertex) return;
+  if (frame[a].halted != not_halted || frame[a].non_finite_vertex != no_vertex || frame[b].non_finite_vertex != no_vertex) return;
   if (!overlaps(box_of(a), box_of(b))) {
     atomicAdd(control[0].count[body_pairs_skipped], 1u);
     return;

@@ -18,7 +18,7 @@ PARAMETER(2, double, elasticity)
 void respond(uint i) {
   if (mark[i] != control[0].step) return;
   uint b = uint(rest_position[i].w);
-  if (frame[b].halted != 0u) return;
+  if (frame[b].halted != not_halted) return;
   uint before = from_half * vertex_count + i;
   uint after = (1u - from_half) * vertex_count + i;
   dvec3 displacement = LOAD3(motion, 6u * before);

@@ -18,7 +18,6 @@ PARAMETER(1, uint, from_half)
 PARAMETER(2, uint, damping_law)
 PARAMETER(3, uint, stage_index)
 PARAMETER(4, uint, stage_count)
-PARAMETER(5, double, time_step)
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
 #include "parts/end_step.glsl"
@@ -56,6 +55,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
     sums += (a * weights(j) + b * weights(j + 1u)) + (c * weights(j + 2u) + d * weights(j + 3u));
   }
   uint before = 6u * (from_half * vertex_count + i) + k, first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
+  double time_step = frame[s.body_index].time_step;
   double elapsed = tableau[next_row()].x * time_step;
   Pending p;
   p.rest = double(rest_position[i][int(k)]);

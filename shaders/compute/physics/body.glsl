@@ -33,6 +33,8 @@ struct Frame {
   double turn[9];        // the latest change of frame, R_old = R_new turn, row by row
   double shift[3];       // ... and what it subtracts from every turned position [m]
   double reference[3];   // the displacement that those at the next step's start are relative to [m]
+  double start_reference[3];  // ... at this step's start, where steps can be undone [m]
+  double time_step;      // of the step being made, the same for all bodies [s]
   uint box[6];             // of the world positions at the step's end: lower and upper corner, as ordered bits
   uint non_finite_vertex;  // the body's first one at the step's end, or no_vertex
   uint turned;             // 1: this step ends with a change of frame
@@ -41,8 +43,13 @@ struct Frame {
   uint force_evaluations;  // sums over all pairs of the body, so far
   uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
   uint frame_changes;      // so far
-  uint halted;             // 1: a step went non-finite; nothing moves any more
+  uint halted;             // whether the body moves: see below
 };
+
+// Values of Frame.halted.
+const uint not_halted = 0u;
+const uint halted_for_good = 1u;  // a step went non-finite; nothing moves any more
+const uint halted_for_now = 2u;   // until the next step: this one is none, or was undone
 
 const uint tableau_size = 1024u;  // room for 30 stages
 

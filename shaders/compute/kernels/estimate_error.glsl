@@ -1,0 +1,36 @@
+// One thread a vertex, after the last stage: how far the step's end is from those of the embedded methods. The largest such
+// distance is exact in any order: bits of floats that are not negative order as the floats do, and NaN above infinity.
+#include "../physics/body.glsl"
+#include "../physics/pace.glsl"
+WRITE(0, Paces, Pace, pace)
+WRITE(1, Frames, Frame, frame)
+READ(2, RestPositions, vec4, rest_position)
+READ(3, Accelerations, double, acceleration)  // [stage][vertex][3]
+READ(4, ErrorWeights, double, error_weight)   // [stage][4]: of the first estimate's position and velocity, then of the second's
+READ(5, ErrorScales, double, error_scale)     // [body][2]: of a displacement [1/m], of a velocity [s/m]
+PARAMETER(0, uint, vertex_count)
+PARAMETER(1, uint, stage_count)
+
+uint bits_of(dvec3 difference) { return floatBitsToUint(float(sqrt(dot(difference, difference)))) & 0x7fffffffu; }
+
+void estimate_error(uint i) {
+  uint b = uint(rest_position[i].w);
+  if (frame[b].halted != not_halted) return;
+  dvec3 position = dvec3(0), velocity = dvec3(0), second_position = dvec3(0), second_velocity = dvec3(0);
+  for (uint stage = 0u; stage < stage_count; ++stage) {
+    dvec3 a = LOAD3(acceleration, 3u * (stage * vertex_count + i));
+    position += error_weight[4u * stage] * a;
+    velocity += error_weight[4u * stage + 1u] * a;
+    second_position += error_weight[4u * stage + 2u] * a;
+    second_velocity += error_weight[4u * stage + 3u] * a;
+  }
+  double h = frame[b].time_step;
+  double of_position = h * h * error_scale[2u * b], of_velocity = h * error_scale[2u * b + 1u];
+  uint first = max(bits_of(of_position * position), bits_of(of_velocity * velocity));
+  uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
+  atomicMax(pace[0].estimate[0], first);
+  atomicMax(pace[0].estimate[1], second);
+  // The shortest step stands, but ends the run where its error is too large: by this vertex, if by none before it.
+  if (h <= shortest_step(pace[0]) && judged_error(first, second, pace[0].tolerance) > double(1))
+    atomicMin(frame[b].non_finite_vertex, i);
+}

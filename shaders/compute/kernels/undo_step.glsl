@@ -1,0 +1,32 @@
+// One thread a vertex, after a step that does not stand or was none: the state from before is the state after, bit for bit, and
+// until the next step the body rests.
+#include "../physics/body.glsl"
+#include "../physics/pace.glsl"
+READ(0, Paces, Pace, pace)
+READ(1, Bodies, Body, body)
+WRITE(2, Frames, Frame, frame)
+READ(3, RestPositions, vec4, rest_position)
+WRITE(4, Placements, real, placement)
+WRITE(5, Motions, double, motion)
+WRITE(6, WorldPositions, vec4, world_position)
+PARAMETER(0, uint, vertex_count)
+PARAMETER(1, uint, from_half)
+#include "parts/place.glsl"
+
+void rest_body(uint b) {
+  for (uint k = 0u; k < 3u; ++k) frame[b].reference[k] = frame[b].start_reference[k];
+  frame[b].non_finite_vertex = no_vertex;
+  frame[b].halted = halted_for_now;
+}
+
+void undo_step(uint i) {
+  if (pace[0].verdict != step_rejected && pace[0].verdict != step_empty) return;
+  uint b = uint(rest_position[i].w);
+  uint before = from_half * vertex_count + i, after = (1u - from_half) * vertex_count + i;
+  for (uint k = 0u; k < 6u; ++k) motion[6u * after + k] = motion[6u * before + k];
+  world_position[after] = world_position[before];
+  for (uint k = 0u; k < 3u; ++k)
+    place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]),
+          motion[6u * before + k] - frame[b].start_reference[k]);
+  if (i == body[b].first_vertex) rest_body(b);
+}

@@ -1,0 +1,33 @@
+#include "dynamics/automatic_integrator.hpp"
+
+#include <algorithm>
+
+namespace pliant {
+namespace {
+
+struct Choice {
+  DampingLaw law;
+  double least_tolerance;
+  std::string_view integrator;
+};
+
+// The first row whose law is the scene's and whose least tolerance is not above the scene's. The adaptive law has a kink, where
+// high orders are lost, so that the longest step counts for more than accuracy.
+// clang-format off
+constexpr Choice choices[] = {
+    {DampingLaw::none, 1e-6, "dop853"},
+    {DampingLaw::none, 0, "vern8"},
+    {DampingLaw::constant, 1e-6, "dop853"},
+    {DampingLaw::constant, 0, "vern8"},
+    {DampingLaw::adaptive, 0, "dop853"},
+};
+// clang-format on
+
+}  // namespace
+
+const Integrator& automatic_integrator(double tolerance, DampingLaw law) {
+  const auto fits = [&](const Choice& choice) { return choice.law == law && tolerance >= choice.least_tolerance; };
+  return find_integrator(std::ranges::find_if(choices, fits)->integrator);
+}
+
+}  // namespace pliant

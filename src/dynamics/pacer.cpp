@@ -1,0 +1,74 @@
+// See pacer.hpp; the controller itself is physics/pace.glsl.
+#include "dynamics/pacer.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/expect.hpp"
+#include "dynamics/stability.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double unbounded = 1e30;  // [s]
+
+std::vector<double> error_scales(const Model& model, DampingLaw law) {
+  std::vector<double> scales;
+  for (const ModelBody& body : model.bodies) {
+    const double radius = body.radius > 0 ? body.radius : body.unit_of_length();
+    const double rate = std::max(stiffest_frequency(body), largest_damping_rate(body, law));
+    scales.push_back(1 / radius);
+    scales.push_back(rate > 0 ? 1 / (radius * rate) : 0);  // without springs and damping there is no error
+  }
+  return scales;
+}
+
+physics::Pace first_pace(const RungeKutta& method, const PaceLimits& limits) {
+  PLIANT_EXPECT(limits.tolerance > 0 && limits.first_step > 0 && limits.largest_step > 0);
+  physics::Pace pace{};
+  pace.tolerance = limits.tolerance;
+  pace.largest_step = std::min(limits.largest_step, unbounded);
+  pace.first_step = std::min(limits.first_step, pace.largest_step);
+  pace.estimate_order = static_cast<std::uint32_t>(estimate_order(method));
+  pace.allowed = pace.first_step;
+  physics::start_anew(pace, 0);
+  return pace;
+}
+
+}  // namespace
+
+Pacer::Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator,
+             DampingLaw law, const PaceLimits& limits)
+    : device_(device), bodies_(bodies), stepper_(stepper) {
+  PLIANT_EXPECT(estimates_error(integrator));
+  const auto& method = std::get<RungeKutta>(integrator.method);
+  const std::vector<double> weights = error_weights(method);
+  PLIANT_EXPECT(weights.size() == std::size_t{4} * stepper.stage_count());
+  pace_ = DeviceArray<physics::Pace>(device, std::vector{first_pace(method, limits)}, "pace");
+  error_weights_ = DeviceArray<double>(device, weights, "error weights");
+  error_scales_ = DeviceArray<double>(device, error_scales(model, law), "error scales");
+}
+
+void Pacer::aim_at(double time) {
+  device_.write(pace_.id(), offsetof(physics::Pace, target), std::as_bytes(std::span(&time, 1)));
+}
+
+Pass Pacer::beginning_pass() const {
+  const DeviceBodies& b = bodies_;
+  return make_pass(device_, "begin_step", {pace_.id(), b.control.id(), b.frames.id()}, {}, b.body_count);
+}
+
+std::vector<Pass> Pacer::judging_passes(std::uint32_t from_half) const {
+  const DeviceBodies& b = bodies_;
+  return {make_pass(device_, "estimate_error",
+                    {pace_.id(), b.frames.id(), b.rest_positions.id(), stepper_.accelerations(), error_weights_.id(),
+                     error_scales_.id()},
+                    {b.vertex_count, stepper_.stage_count()}, b.vertex_count),
+          make_pass(device_, "judge_step", {pace_.id(), b.control.id(), b.frames.id()}, {}, 1),
+          make_pass(device_, "undo_step",
+                    {pace_.id(), b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.motions.id(),
+                     b.world_positions.id()},
+                    {b.vertex_count, from_half}, b.vertex_count)};
+}
+
+}  // namespace pliant

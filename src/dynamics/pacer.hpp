@@ -1,0 +1,47 @@
+// Records the dispatches that let a tolerance govern the steps: how long each is, and whether it stands.
+#pragma once
+#include <vector>
+
+#include "dynamics/stepper.hpp"
+#include "model/model.hpp"
+#include "physics/pace.glsl"
+
+namespace pliant {
+
+/// The error of a step is the largest over all vertices of |dx| / r and |dv| / (r omega): dx and dv are the distances to the
+/// embedded method's result, r the body's radius, omega its stiffest frequency or, if that is higher, its largest damping rate.
+struct PaceLimits {
+  double tolerance = 0;     // of the error; above 0
+  double first_step = 0;    // at the start and after a contact [s]
+  double largest_step = 0;  // [s]; may be infinite
+};
+
+class Pacer {
+ public:
+  /// Expects a stepper with Stages::of_estimates, of a method that estimates_error. All references but the model must outlive
+  /// the pacer. Without aim_at() every step is empty.
+  Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator,
+        DampingLaw law, const PaceLimits& limits);
+  Pacer(const Pacer&) = delete;
+  Pacer& operator=(const Pacer&) = delete;
+
+  /// Queues a change of where steps are to end [s]. Before it, steps are empty; none goes beyond it.
+  void aim_at(double time);
+  /// Waits for the queued steps.
+  [[nodiscard]] physics::Pace pace() const { return pace_.download().front(); }
+
+  /// Before the stepper's passes: fits the step to the target.
+  [[nodiscard]] Pass beginning_pass() const;
+  /// After them: estimates the error, judges, and undoes a step that does not stand.
+  [[nodiscard]] std::vector<Pass> judging_passes(std::uint32_t from_half) const;
+
+ private:
+  Device& device_;
+  DeviceBodies& bodies_;
+  const Stepper& stepper_;
+  DeviceArray<physics::Pace> pace_;    // one
+  DeviceArray<double> error_weights_;  // [stage][4]
+  DeviceArray<double> error_scales_;   // [body][2]: 1 / r [1/m], 1 / (r omega) [s/m]
+};
+
+}  // namespace pliant

@@ -1,0 +1,303 @@
+// Steps that a tolerance governs, on every device: accuracy, undone steps, exact times, determinism, contacts.
+#include <array>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "dynamics/stability.hpp"
+#include "support/collision_scene.hpp"
+
+namespace pliant {
+namespace {
+
+struct Adaptive {
+  std::string_view integrator = "dop853";
+  double tolerance = 1e-6;
+  std::optional<double> first_step = {};  // [s]; a tenth of the bound unless given
+  DampingLaw law = DampingLaw::none;
+};
+
+TimePlan plan_of(const Adaptive& adaptive, const Model& model) {
+  TimePlan plan;
+  plan.integrator = &find_integrator(adaptive.integrator);
+  plan.damping_law = adaptive.law;
+  plan.tolerance = adaptive.tolerance;
+  plan.step_bound = std::numeric_limits<double>::infinity();
+  for (const ModelBody& body : model.bodies) {
+    const double omega = stiffest_frequency(body);
+    plan.step_bound =
+        std::min(plan.step_bound, step_bound(*plan.integrator, omega * omega, largest_damping_rate(body, adaptive.law)));
+  }
+  plan.time_step = adaptive.first_step.value_or(0.1 * plan.step_bound);
+  if (adaptive.first_step) plan.step_bound = std::max(plan.step_bound, *adaptive.first_step);
+  return plan;
+}
+
+CollisionDescription with_response(ContactResponse response) {
+  CollisionDescription collision;
+  collision.response = response;
+  return collision;
+}
+
+struct Run {
+  Run(Device& device, const ModelAndState& start, const Adaptive& adaptive, ContactResponse response = ContactResponse::none)
+      : simulation(device, start.model, start.state, plan_of(adaptive, start.model), with_response(response)) {}
+  Simulation simulation;
+};
+
+// Squashed, sliding and turning.
+ModelAndState squashed() {
+  BodySetup setup = sphere(1);
+  setup.description.stretch = {1.2, 0.85, 1.05};
+  setup.description.velocity = {1, 2, -0.5};
+  setup.description.spin = {0.3, -0.2, 0.5};
+  return built(setup, {0, -1, 0});
+}
+
+bool same_bits(const State& a, const State& b) {
+  return a.motion.size() == b.motion.size() &&
+         std::memcmp(a.motion.data(), b.motion.data(), a.motion.size() * sizeof(double)) == 0;
+}
+
+// Position and velocity after a step on x'' = -omega^2 x from rest at x.
+std::array<double, 2> oscillator_step(const RungeKutta& method, double omega, double h, double x) {
+  std::vector<long double> v, a;
+  long double end[2] = {x, 0};
+  for (int i = 0; i < method.stages; ++i) {
+    long double at = x, speed = 0;
+    for (int j = 0; j < i; ++j) {
+      at += h * method.a[i * method.stages + j] * v[j];
+      speed += h * method.a[i * method.stages + j] * a[j];
+    }
+    v.push_back(speed);
+    a.push_back(-omega * omega * at);
+    end[0] += h * method.b[i] * v[i];
+    end[1] += h * method.b[i] * a[i];
+  }
+  return {static_cast<double>(end[0]), static_cast<double>(end[1])};
+}
+
+// Without the fourth component, which means nothing.
+std::vector<glm::vec3> drawn_positions(Simulation& simulation) {
+  std::vector<glm::vec3> positions;
+  for (const glm::vec4& position : simulation.world_positions()) positions.emplace_back(position);
+  return positions;
+}
+
+double largest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = larger(largest, glm::length(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("the error of a run follows the tolerance") {
+  const auto device = make_cpu_device(2, 64);
+  const ModelAndState start = squashed();
+  const double time = 20 / stiffest_omega(start.model);
+  const auto exact = evolve(*device, start, {"vern8", time / 2000}, 2000).world_positions(start.model);
+  for (const char* integrator : {"dop853", "verner78_8", "vern8"}) {
+    double before = 1;
+    for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+      CAPTURE(integrator, tolerance);
+      Run run(*device, start, {integrator, tolerance});
+      const StepReport report = run.simulation.advance_to(time);
+      CHECK(report.time == time);
+      const double error = largest_distance(run.simulation.state().world_positions(start.model), exact);
+      CHECK(error < 30 * tolerance);
+      CHECK(error < before / 10);
+      before = error;
+    }
+  }
+}
+
+TEST_CASE("the next step's length follows from how far the embedded methods come apart on an oscillator") {
+  BodySetup setup = two_vertices();
+  setup.description.stretch = {1.2, 1, 1};
+  const ModelAndState start = built(setup);
+  const double omega = stiffest_omega(start.model), h = 0.8 / omega;
+  for (const char* name : {"dop853", "verner78_8", "vern8"}) {
+    CAPTURE(name);
+    RungeKutta method = std::get<RungeKutta>(find_integrator(name).method);
+    const auto end = oscillator_step(method, omega, h, 0.1);  // each vertex is one of its own, 0.1 m off
+    physics::Pace pace{};
+    pace.target = 100;
+    pace.tolerance = 1e-4;
+    pace.allowed = pace.first_step = h;
+    pace.largest_step = 100;
+    pace.estimate_order = 8;
+    physics::start_anew(pace, 0);
+    const std::vector<long double> embedded[] = {method.b_hat, method.b_hat2};
+    for (int k = 0; k < 2 && !embedded[k].empty(); ++k) {
+      method.b = embedded[k];
+      const auto other = oscillator_step(method, omega, h, 0.1);
+      const double error = std::max(std::abs(end[0] - other[0]) / 0.5, std::abs(end[1] - other[1]) / (0.5 * omega));
+      pace.estimate[k] = std::bit_cast<std::uint32_t>(static_cast<float>(error));
+    }
+    physics::judge(pace, h);
+    const auto device = make_cpu_device(1, 64);
+    Run run(*device, start, {name, 1e-4, h});
+    CHECK(run.simulation.advance_toward(h).adaptive->next_step == Approx(pace.allowed).epsilon(1e-6));
+    CHECK(pace.allowed != h);
+  }
+}
+
+TEST_CASE("stages that only estimates use are taken with a tolerance alone") {
+  const ModelAndState start = squashed();
+  const auto device = make_cpu_device(1, 64);
+  Simulation fixed(*device, start.model, start.state, pliant::plan_of(Method{"vern8", 0.01}),
+                   with_response(ContactResponse::none));
+  fixed.advance(3);
+  CHECK(fixed.report().force_evaluations == 3 * 12);
+  Run run(*device, start, {"vern8"});
+  const StepReport report = run.simulation.advance_to(0.1);
+  CHECK(report.force_evaluations == 13 * (report.steps + report.adaptive->rejected));
+}
+
+TEST_CASE("a rejected step changes nothing") {
+  const ModelAndState start = squashed();
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    const double huge = 8 / stiffest_omega(start.model);
+    Run run(*test.device, start, {.tolerance = 1e-5, .first_step = huge});
+    const auto positions = drawn_positions(run.simulation);
+    StepReport report = run.simulation.advance_toward(huge);  // as many steps as the length allowed suggests: one
+    REQUIRE((report.steps == 0 && report.adaptive->rejected == 1 && report.time == 0));
+    CHECK(same_bits(run.simulation.state(), start.state));
+    CHECK((drawn_positions(run.simulation) == positions));
+    CHECK((report.reverted_vertices == 0 && !report.non_finite));
+    // What can't be seen is as it was, too: the step that stands at last is one that would have come first.
+    while (report.steps == 0) report = run.simulation.advance_toward(report.time + report.adaptive->next_step);
+    REQUIRE(report.steps == 1);
+    Run direct(*test.device, start, {.tolerance = 1e-5, .first_step = report.time});
+    CHECK(direct.simulation.advance_toward(report.time).adaptive->rejected == 0);
+    CHECK(same_bits(run.simulation.state(), direct.simulation.state()));
+    CHECK((drawn_positions(run.simulation) == drawn_positions(direct.simulation)));
+  }
+}
+
+TEST_CASE("a rejected step that was not finite is only rejected") {
+  const ModelAndState start = squashed();
+  const auto device = make_cpu_device(1, 32);
+  Run run(*device, start, {.first_step = 1e12});
+  const StepReport first = run.simulation.advance_toward(1e12);
+  CHECK((first.steps == 0 && first.adaptive->rejected == 1));
+  const StepReport report = run.simulation.advance_to(1);
+  CHECK_FALSE(report.non_finite);
+  CHECK(report.time == 1);
+}
+
+TEST_CASE("steps end at every time asked for, bit for bit, and empty ones sum no force") {
+  const ModelAndState start = squashed();
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Run run(*test.device, start, {.first_step = 1e-4});  // it grows, so that a batch is longer than the way
+    for (int frame = 1; frame <= 6; ++frame) CHECK(run.simulation.advance_to(frame / 7.0).time == frame / 7.0);
+    const StepReport report = run.simulation.report();
+    CHECK(report.force_evaluations + report.forces_skipped == 12 * (report.steps + report.adaptive->rejected));
+    CHECK(report.adaptive->smallest_step <= 1e-4);
+    CHECK(report.adaptive->largest_step > 1e-2);
+    const State state = run.simulation.state();
+    CHECK(run.simulation.advance_to(0.5) == report);  // in the past
+    CHECK(same_bits(run.simulation.state(), state));
+  }
+}
+
+TEST_CASE("a body that falls freely costs one step a target, on a parabola") {
+  BodySetup setup = sphere(1);
+  setup.description.stiffness = 0;
+  setup.description.velocity = {3, 0, 0};
+  const ModelAndState start = built(setup, {0, -10, 0});
+  const auto device = make_cpu_device(1, 32);
+  Run run(*device, start, {.first_step = 0.1});
+  const StepReport report = run.simulation.advance_to(2);
+  CHECK(report.adaptive->rejected == 0);
+  CHECK(report.steps < 20);
+  CHECK(report.force_evaluations == 0);
+  const auto from = start.state.world_positions(start.model), to = run.simulation.state().world_positions(start.model);
+  CHECK(glm::length(to[0] - from[0] - glm::dvec3(6, -20, 0)) < 1e-12);
+}
+
+TEST_CASE("a run that no step can continue ends as non-finite and names the vertex") {
+  ModelAndState start = squashed();
+  start.state.motion[6 * 17] = 1e300;
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Run run(*test.device, start, {});
+    const StepReport report = run.simulation.advance_to(1);
+    REQUIRE(report.non_finite);
+    CHECK(report.non_finite->step == 1);
+    CHECK(report.non_finite->body == 0);
+    CHECK(report.steps == 1);
+    CHECK(report.time < 1e-10);
+    const State state = run.simulation.state();
+    CHECK(run.simulation.advance_toward(2).steps == 1);
+    CHECK(same_bits(run.simulation.state(), state));
+  }
+}
+
+TEST_CASE("adaptive runs with contacts give the same bits on any number of threads") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  std::optional<StepReport> report;
+  State state;
+  for (const unsigned threads : {1u, 2u, 7u}) {
+    const auto device = make_cpu_device(threads, 32);
+    Run run(*device, start, {.law = DampingLaw::adaptive}, ContactResponse::reflect);
+    const StepReport now = run.simulation.advance_to(0.3);
+    CHECK(now.contact_steps > 0);
+    CHECK(now.time == 0.3);
+    if (report) CHECK((now == *report && same_bits(run.simulation.state(), state)));
+    report = now;
+    state = run.simulation.state();
+  }
+}
+
+TEST_CASE("the step after one with a contact is no longer than the first") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  const double first = 2e-4;
+  Run run(*device, start, {.first_step = first}, ContactResponse::reflect);
+  StepReport report = run.simulation.report();
+  double longest_before = 0, longest_since = 0;  // the first contact
+  int contacts = 0;
+  while (report.time < 0.2) {
+    const StepReport now = run.simulation.advance_toward(report.time + 0.99 * report.adaptive->next_step);  // one step
+    if (now.contact_steps > report.contact_steps) {
+      ++contacts;
+      CHECK(now.adaptive->next_step <= first);
+    } else {
+      double& longest = contacts == 0 ? longest_before : longest_since;
+      longest = std::max(longest, now.time - report.time);
+    }
+    report = now;
+  }
+  CHECK(contacts > 1);
+  CHECK(longest_before > 10 * first);
+  CHECK(longest_since > 2 * first);
+}
+
+TEST_CASE("triangles that touch are found whatever the latest step was") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  Run run(*device, start, {.first_step = 1e-3});  // bodies pass through each other
+  CHECK(run.simulation.intersections().pairs == 0);
+  run.simulation.advance_to(0.4);  // empty steps fill the last batch
+  CHECK(run.simulation.intersections().pairs > 0);
+}
+
+TEST_CASE("CPU and GPU take adaptive runs to the same place", "[gl]") {
+  const ModelAndState start = squashed();
+  const auto reference = make_cpu_device(1, 32);
+  Run run(*reference, start, {});
+  run.simulation.advance_to(1);
+  const auto expected = run.simulation.state().world_positions(start.model);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Run other(*test.device, start, {});
+    other.simulation.advance_to(1);
+    CHECK(largest_distance(other.simulation.state().world_positions(start.model), expected) < 1e-5);
+  }
+}
+
+}  // namespace pliant
