@@ -6,11 +6,14 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 
 #include "app/choose_device.hpp"
 #include "app/run_command.hpp"
+#include "bench/precision_report.hpp"
 #include "bench/report.hpp"
+#include "bench/stability_report.hpp"
 #include "core/error.hpp"
 #include "output/file.hpp"
 
@@ -20,9 +23,15 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
 // A measurement in hand is finished first; the second Ctrl-C does not wait for it.
+// A second one ends the program, unless it comes with the first: `timeout` sends two.
 void note_interrupt(int) {
+  static std::time_t first;
+  const std::time_t now = std::time(nullptr);
+  if (interrupted == 0)
+    first = now;
+  else if (now > first + 1)
+    std::_Exit(exit_interrupted);
   interrupted = 1;
-  std::signal(SIGINT, SIG_DFL);
 }
 
 bench::Selection selection_of(const BenchOptions& options) {
@@ -80,6 +89,16 @@ int bench_forces(const BenchOptions& options) {
 int bench_steps(const BenchOptions& options) {
   const bench::StepsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_steps);
+}
+
+int bench_precision(const BenchOptions& options) {
+  const bench::PrecisionOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_precision);
+}
+
+int bench_stability(const BenchOptions& options) {
+  const bench::StabilityOptions asked{.devices = selection_of(options), .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_stability);
 }
 
 }  // namespace pliant::app

@@ -15,12 +15,14 @@ struct BenchOptions {
   std::filesystem::path json;               // empty: no file
   bool quick = false;                       // figures of the right size in a few seconds
   bool all_variants = false;                // forces: every way of summing that a device knows
-  std::filesystem::path scenes = "scenes";  // steps: folder
+  std::filesystem::path scenes = "scenes";  // steps, precision: folder
 };
 
 /// Prints the machine and a table, and writes the file; an earlier one stays until then. After Ctrl-C with the rows that are
 /// finished. Return the exit code, 0 or exit_interrupted. Throw Error.
 int bench_forces(const BenchOptions& options);
 int bench_steps(const BenchOptions& options);
+int bench_precision(const BenchOptions& options);
+int bench_stability(const BenchOptions& options);
 
 }  // namespace pliant::app

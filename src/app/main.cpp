@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <new>
 
 #include "app/bench_command.hpp"
@@ -18,10 +19,10 @@ namespace {
 using namespace pliant;
 
 // CLI11's own number checks let nan and inf pass.
-CLI::Validator finite(double lowest, const char* range) {
-  const auto complaint = [lowest, range](const std::string& text) {
+CLI::Validator finite(double lowest, const char* range, double highest = std::numeric_limits<double>::max()) {
+  const auto complaint = [lowest, highest, range](const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
-    return std::isfinite(value) && value >= lowest ? std::string() : text + " is not " + range;
+    return value >= lowest && value <= highest ? std::string() : text + " is not " + range;
   };
   return {complaint, range};
 }
@@ -54,8 +55,13 @@ void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{300'000'000}));
   run->add_option("--duration", options.duration, "Simulated time [s]")->check(finite(0, "a number >= 0"))->excludes(steps);
-  run->add_option("--time-step", options.time_step, "Length of a step [s]")->check(finite(1e-30, "a number, 1e-30 or more"));
-  run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them");
+  CLI::Option* time_step = run->add_option("--time-step", options.time_step, "Length of a step [s]");
+  time_step->check(finite(1e-30, "a number, 1e-30 or more"));
+  run->add_option("--tolerance", options.tolerance, "Largest error of a step, by which steps then find their length")
+      ->check(finite(1e-14, "a number from 1e-14 to 0.1", 0.1))
+      ->excludes(time_step)
+      ->excludes(steps);
+  run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
   run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
       ->allow_extra_args(false)
       ->take_all();
@@ -95,12 +101,16 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
 }
 
 void add_bench(CLI::App& program, app::BenchOptions& options) {
-  CLI::App* bench = program.add_subcommand("bench", "Measure how fast this machine is; suites are forces and steps");
+  CLI::App* bench =
+      program.add_subcommand("bench", "Measure how fast this machine is; suites are forces, steps, precision, stability");
   bench->require_subcommand(1);
   CLI::App* forces = add_suite(*bench, options, "forces", "Spring forces by size of the body, beside what the hardware allows");
   forces->add_flag("--all-variants", options.all_variants, "Every way of summing forces, instead of the GPU's best one");
   CLI::App* steps = add_suite(*bench, options, "steps", "Whole steps of scenes, and of ever denser bodies in contact");
   steps->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
+  CLI::App* precision = add_suite(*bench, options, "precision", "Run time against error, beside other libraries' integrators");
+  precision->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny (default scenes)");
+  add_suite(*bench, options, "stability", "Steps at which methods blow up, drift of energy, and errors of fp32");
 }
 
 struct MeshOptions {
@@ -142,6 +152,8 @@ int execute(int count, char** arguments) {
   const CLI::App* suite = program.get_subcommand("bench");
   if (suite->got_subcommand("forces")) return app::bench_forces(bench);
   if (suite->got_subcommand("steps")) return app::bench_steps(bench);
+  if (suite->got_subcommand("precision")) return app::bench_precision(bench);
+  if (suite->got_subcommand("stability")) return app::bench_stability(bench);
   if (program.got_subcommand("info"))
     app::show_info(info);
   else

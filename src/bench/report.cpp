@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/report_parts.hpp"
+
 namespace pliant::bench {
 namespace {
 
@@ -15,36 +17,15 @@ Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json machine_json(const Machine& machine) {
-  return {{"version", machine.version},         {"commit", machine.commit},    {"cpu", machine.cpu},
-          {"cpu_threads", machine.cpu_threads}, {"gpu", or_null(machine.gpu)}, {"driver", or_null(machine.driver)},
-          {"compiler", machine.compiler},       {"date", machine.date}};
-}
-
-// Threads are the CPU's.
-template <class Row>
-Json threads_json(const Row& row) {
-  return row.device == "gpu" ? Json(nullptr) : Json(row.threads);
-}
-
 template <class Row>
 std::string threads_text(const Row& row) {
   return row.device == "gpu" ? "-" : std::to_string(row.threads);
 }
 
-// What was asked for, not what came of it: threads 0 are one a processor.
-Json options_json(const Selection& devices, bool quick) {
-  return {{"cpu", devices.cpu},
-          {"gpu", devices.gpu},
-          {"gpu_index", devices.gpu_index},
-          {"threads", devices.threads},
-          {"quick", quick}};
-}
-
 Json row_json(const ForcesRow& row) {
   return {{"device", row.device},
           {"precision", row.precision},
-          {"threads", threads_json(row)},
+          {"threads", threads_json(row.device, row.threads)},
           {"isa", row.isa},
           {"form", row.form},
           {"variant", row.variant},
@@ -62,7 +43,7 @@ Json row_json(const StepsRow& row) {
           {"family", row.family},
           {"device", row.device},
           {"precision", row.precision},
-          {"threads", threads_json(row)},
+          {"threads", threads_json(row.device, row.threads)},
           {"vertices", row.vertices},
           {"bodies", row.bodies},
           {"milliseconds_per_step", row.milliseconds_per_step},
@@ -96,10 +77,6 @@ Json suite_json(const char* suite, const Machine& machine, const Json& options, 
   for (const auto& row : result.rows) list.push_back(row_json(row));
   return {{"suite", suite}, {"options", options},       {"interrupted", result.interrupted}, {"machine", machine_json(machine)},
           {"rows", list},   {"notes", notes_of(result)}};
-}
-
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';  // replace: a scene's name need not be UTF-8
 }
 
 // Wide enough for the longest text in a column.

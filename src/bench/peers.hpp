@@ -1,0 +1,35 @@
+// Other libraries' integrators, for comparison: SUNDIALS ARKODE and Boost.odeint, where the build found them.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/peers_system.hpp"
+
+namespace pliant::bench {
+
+struct PeerMethod {
+  std::string library;      // "ARKODE" or "odeint"
+  std::string name;         // the library's, in short
+  bool adaptive = false;    // the library chooses its steps by a tolerance
+  double largest_step = 1;  // worth trying, times omega [rad]; of fixed steps
+  bool damps = true;        // whether it takes forces that depend on velocities
+
+  /// Takes `state` on by `duration` [s], in `effort` steps or with tolerance `effort`; relative, and absolute in units of the
+  /// start's root mean square. Answers the seconds spent, without setting up. Where it fails the state is not finite.
+  std::function<double(PeerSystem& system, std::vector<double>& state, double duration, double effort)> integrate;
+};
+
+/// Empty where the package was not there.
+[[nodiscard]] std::vector<PeerMethod> arkode_methods();
+[[nodiscard]] std::vector<PeerMethod> odeint_methods();
+
+/// Of both, those that can meet the system's damping.
+[[nodiscard]] std::vector<PeerMethod> peer_methods(bool damped);
+/// The libraries that were not there when pliant was built; a sentence each.
+[[nodiscard]] std::vector<std::string> missing_peers();
+
+/// Root mean square, for absolute tolerances.
+[[nodiscard]] double size_of_numbers(const std::vector<double>& state);
+
+}  // namespace pliant::bench

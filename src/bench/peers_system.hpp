@@ -1,0 +1,52 @@
+// One body as a system of first order, y' = f(y), which is how other libraries integrate. Its springs are summed by pliant's own
+// vectors in fp64 on one thread, so that a comparison tells integrators apart and nothing else.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "core/thread_pool.hpp"
+#include "device/cpu/spring_sums.hpp"
+#include "model/model.hpp"
+
+namespace pliant::bench {
+
+/// Numbers of a state: all displacements u [m], then all velocities over omega [m], three a vertex, so that tolerances weigh both
+/// alike.
+class PeerSystem {
+ public:
+  /// Expects one body, without gravity, in a frame that is not turned. `model` must outlive the system.
+  PeerSystem(const Model& model, DampingLaw law, double omega /* [rad/s] */);
+
+  [[nodiscard]] std::vector<double> numbers_of(const State& state) const;
+  /// In the frame of the start.
+  [[nodiscard]] State state_of(const std::vector<double>& numbers, const State& start) const;
+  [[nodiscard]] std::size_t size() const { return 6 * vertex_count_; }
+  [[nodiscard]] double omega() const { return omega_; }
+  [[nodiscard]] bool is_damped() const { return law_ != DampingLaw::none; }
+
+  /// f(y), of size() numbers each.
+  void rates(const double* y, double* rates);
+  /// Accelerations over the square of omega [m] at displacements u, half as many numbers; expects no damping.
+  void accelerations(const double* u, double* scaled);
+  /// Of all forces, so far.
+  [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
+
+ private:
+  void sum_springs(const double* u);
+  [[nodiscard]] double damping_rate(const glm::dvec3& force) const;  // [1/s]
+
+  const Model& model_;
+  DampingLaw law_;
+  double omega_;
+  std::size_t vertex_count_;
+  ThreadPool pool_{1};
+  cpu::SpringSums<double> springs_;
+  std::vector<glm::dvec4> rest_, positions_, displacements_;  // in the body's unit of length
+  std::vector<glm::dvec3> sums_;
+  std::uint64_t evaluations_ = 0;
+};
+
+}  // namespace pliant::bench

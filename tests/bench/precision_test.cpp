@@ -1,0 +1,243 @@
+// The suite `precision`: orders, other libraries' agreement, and the tables by made-up rows. Times decide nothing.
+#include "bench/precision.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/peers.hpp"
+#include "bench/precision_cases.hpp"
+#include "bench/precision_cheapest.hpp"
+#include "bench/precision_report.hpp"
+#include "mesh/generators.hpp"
+#include "simulation/simulation.hpp"
+#include "support/paths.hpp"
+
+namespace pliant::bench {
+namespace {
+
+// Ends when it hears of something that begins with `last`.
+Progress until(std::string last) {
+  return [last = std::move(last)](double, std::string_view next) { return !next.starts_with(last); };
+}
+
+PrecisionCase squashed_sphere(DampingLaw law) {
+  BodySetup setup{.mesh = generate_mesh("icosphere:1"), .description = {}};
+  setup.description.stretch = {0.8, 1.05, 1.1};
+  setup.description.damping = law == DampingLaw::adaptive ? 0.4 : 4;
+  PrecisionCase what;
+  what.start = build_model({&setup, 1}, glm::dvec3(0.0));
+  what.damping_law = law;
+  what.collision.response = ContactResponse::none;
+  what.omega = std::sqrt(what.start.model.vertex_count() * setup.description.stiffness);
+  what.duration = 5 / what.omega;
+  return what;
+}
+
+// By pliant, in steps of 1/200 rad.
+Ending truth_of(const PrecisionCase& what) {
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("vern8"), 1000), what.collision);
+  simulation.advance(1000);
+  return ending_of(what.start.model, simulation.state());
+}
+
+double error_of(const PeerMethod& method, double effort, const PrecisionCase& what, const Ending& truth) {
+  PeerSystem system(what.start.model, what.damping_law, what.omega);
+  std::vector<double> numbers = system.numbers_of(what.start.state);
+  method.integrate(system, numbers, what.duration, effort);
+  CHECK(system.evaluations() > 0);
+  return relative_error(what, truth, ending_of(what.start.model, system.state_of(numbers, what.start.state)));
+}
+
+TEST_CASE("other libraries come to pliant's end at a tight tolerance, under every damping law") {
+  const auto [law, tolerance, bound] =
+      GENERATE(table<DampingLaw, double, double>({{DampingLaw::none, 1e-12, 1e-10},
+                                                  {DampingLaw::constant, 1e-12, 1e-10},
+                                                  {DampingLaw::adaptive, 1e-10, 1e-5}}));  // whose kinks cost the order
+  const PrecisionCase what = squashed_sphere(law);
+  const Ending truth = truth_of(what);
+  for (const PeerMethod& method : peer_methods(law != DampingLaw::none)) {
+    if (!method.adaptive) continue;
+    CAPTURE(static_cast<int>(law), method.library, method.name);
+    CHECK(error_of(method, tolerance, what, truth) < bound);
+  }
+}
+
+TEST_CASE("other libraries' fixed steps have their methods' order") {
+  const std::map<std::string, double> orders{{"dormand_prince_7_4_5", 5},
+                                             {"verner_8_5_6", 6},
+                                             {"fehlberg_13_7_8", 8},
+                                             {"with pliant's vern8", 8},
+                                             {"dopri5", 5},
+                                             {"fehlberg78", 8},
+                                             {"symplectic_rkn_sb3a", 4},
+                                             {"adams_bashforth_moulton 8", 8}};
+  const PrecisionCase what = squashed_sphere(DampingLaw::none);
+  const Ending truth = truth_of(what);
+  for (const PeerMethod& method : peer_methods(false)) {
+    if (method.adaptive) continue;
+    const double steps = method.name.starts_with("adams") ? 60 : 10;
+    const double coarse = error_of(method, steps, what, truth), fine = error_of(method, 2 * steps, what, truth);
+    CAPTURE(method.library, method.name, coarse, fine);
+    CHECK(std::log2(coarse / fine) > orders.at(method.name) - 0.5);
+  }
+}
+
+TEST_CASE("errors of a case without damping fall with the methods' orders, and a case that was begun keeps its rows", "[long]") {
+  const PrecisionResult result = bench_precision({.devices = {.threads = 1}, .quick = true}, until("constant damping"));
+  REQUIRE(result.interrupted);
+  REQUIRE(result.cases.size() == 1);
+  CHECK(result.cases.front().reference_error < 1e-12);
+  for (const Integrator& integrator : integrators()) {
+    std::vector<std::pair<double, double>> points;  // step, error
+    for (const PrecisionRow& row : result.rows)
+      if (row.library == "pliant" && row.method == integrator.name && row.precision == 64 && row.step < 1.5 && row.error > 1e-11)
+        points.emplace_back(row.step, row.error);
+    CAPTURE(integrator.name);
+    REQUIRE(points.size() >= 2);
+    const auto [step, error] = points.back();
+    const auto [step_before, error_before] = points[points.size() - 2];
+    CHECK(std::log(error_before / error) / std::log(step_before / step) == Approx(integrator.order).margin(0.4));
+  }
+  double least_single = 1;
+  for (const PrecisionRow& row : result.rows)
+    if (row.precision == 32) least_single = std::min(least_single, row.error);
+  CHECK(least_single > 1e-9);  // fp32's floor
+  CHECK(least_single < 1e-5);
+}
+
+TEST_CASE("spheres of the first collision case do not touch, and those of the second do") {
+  for (const PrecisionCase& what : make_precision_cases("nowhere", true).cases) {
+    if (!what.name.starts_with("collision")) continue;
+    const auto device = make_cpu_device(1, 64);
+    Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("dop853"), 100), what.collision);
+    simulation.advance(100);
+    CHECK((simulation.report().contact_steps > 0) == (what.name == "collision, through contact"));
+  }
+}
+
+TEST_CASE("without its scene the bunny is left out, and a note says so") {
+  CHECK(make_precision_cases(source_dir() + "/scenes", false).notes.empty());
+  CHECK_THAT(make_precision_cases("nowhere", false).notes.at(0), Catch::Contains("bunny") && Catch::Contains("nowhere"));
+}
+
+TEST_CASE("an error is relative to the deformation, whatever the body's place") {
+  const PrecisionCases all = make_precision_cases("nowhere", true);
+  const PrecisionCase& what = all.cases.front();
+  Ending here = ending_of(what.start.model, what.start.state), there = here;
+  CHECK(relative_error(what, here, here) == 0);
+  double size = 0, count = 0;
+  for (std::size_t i = 0; i < here.positions.size(); ++i, ++count)
+    for (int k = 0; k < 3; ++k)
+      size += std::pow(here.positions[i][k] - static_cast<double>(what.start.model.rest_positions[i][k]), 2);
+  for (auto& velocity : there.velocities) velocity.x += 1e-3 * what.omega * std::sqrt(size / count);
+  CHECK(relative_error(what, here, there) == Approx(1e-3).epsilon(1e-9));
+  for (Ending* ending : {&here, &there})
+    for (auto& position : ending->positions) position.y += 64;
+  CHECK(relative_error(what, here, there) == Approx(1e-3).epsilon(1e-9));
+}
+
+TEST_CASE("times between two errors are interpolated by their logarithms, and beyond them not at all") {
+  const ErrorTime points[] = {{1e-2, 1}, {1e-4, 4}, {1e-8, 16}};
+  CHECK(seconds_to_reach(1e-2, points) == 1.0);
+  CHECK(seconds_to_reach(1e-3, points).value() == Approx(2));
+  CHECK(seconds_to_reach(1e-6, points).value() == Approx(8));
+  CHECK(seconds_to_reach(1e-1, points) == 1.0);
+  CHECK_FALSE(seconds_to_reach(1e-9, points));
+  CHECK_FALSE(seconds_to_reach(1e-1, {}));
+}
+
+TEST_CASE("an error that rises in between hides no cheaper run") {
+  const ErrorTime points[] = {{1e-6, 1}, {1e-3, 2}, {1e-8, 4}};
+  CHECK(seconds_to_reach(1e-6, points) == 1.0);
+}
+
+PrecisionRow row(std::string library, std::string method, int precision, double error, double seconds) {
+  return {.case_name = "case",
+          .library = std::move(library),
+          .method = std::move(method),
+          .precision = precision,
+          .step = 0.1,
+          .evaluations = 10,
+          .seconds = seconds,
+          .fastest_seconds = seconds,
+          .runs = 1,
+          .error = error};
+}
+
+PrecisionResult made_up() {
+  return {.cases = {{.name = "case", .vertices = 10, .bodies = 1, .damping_law = "none", .is_contest = true}},
+          .rows = {row("pliant", "coarse", 64, 1e-2, 1e-3), row("pliant", "coarse", 64, 1e-4, 4e-3),
+                   row("pliant", "fine", 64, 1e-3, 3e-3), row("pliant", "fine", 64, 1e-7, 5e-3),
+                   row("pliant", "fine", 32, 1e-5, 1e-3), row("odeint", "other", 64, 1e-3, 9e-3),
+                   row("odeint", "other", 64, 1e-7, 11e-3)},
+          .notes = {"a note"}};
+}
+
+TEST_CASE("the cheapest method is the one that the rows say") {
+  const std::vector<CheapestRow> rows = find_cheapest(made_up());
+  REQUIRE(rows.size() == 6);  // 1e-2 to 1e-7
+  const auto at = [&](double error) {
+    for (const CheapestRow& one : rows)
+      if (one.error == error) return one;
+    FAIL(error);
+    return rows.front();
+  };
+  CHECK(at(1e-2).pliant->contender.method == "coarse");
+  CHECK(at(1e-3).pliant->contender.method == "coarse");  // 2 ms
+  CHECK(at(1e-4).pliant->contender.method == "fine");
+  CHECK(at(1e-4).any->contender.precision == 32);
+  CHECK(at(1e-6).any->contender.precision == 64);
+  CHECK(at(1e-3).lead().value() == Approx(4.5));
+  CHECK_FALSE(at(1e-3).arkode);
+}
+
+TEST_CASE("a lost error is named, and a won comparison names none") {
+  PrecisionResult result = made_up();
+  REQUIRE(verdict_of(result).size() == 1);
+  CHECK_THAT(verdict_of(result).front(), !Catch::Contains("NOT"));
+  result.rows.push_back(row("ARKODE", "quick", 64, 1e-6, 2.5e-3));
+  CHECK_THAT(verdict_of(result).front(), Catch::Contains("NOT faster at 1e-04, 1e-05, 1e-06"));
+  result.rows.push_back(row("ARKODE", "exact", 64, 1e-9, 1));  // where pliant has nothing
+  CHECK_THAT(verdict_of(result).front(), Catch::Contains("1e-08, 1e-09"));
+  result.rows.resize(5);
+  CHECK(verdict_of(result).empty());  // nobody to compare with
+}
+
+TEST_CASE("the table has every method of one thread in fp64, the winners and the notes") {
+  CHECK_THAT(to_table(made_up()), Catch::Contains("coarse") && Catch::Contains("other") && Catch::Contains("coarse 2 ") &&
+                                      Catch::Contains("cpu x 1, fp32") && Catch::Contains("a note") && Catch::Contains("4.50"));
+}
+
+TEST_CASE("times that vary much are told, and steady ones are not") {
+  PrecisionResult result = made_up();
+  CHECK_THAT(to_table(result), !Catch::Contains("busy"));
+  result.rows.front().seconds *= 1.3;
+  CHECK_THAT(to_table(result), Catch::Contains("busy"));
+}
+
+TEST_CASE("the file of the suite precision has what a plot needs") {
+  PrecisionResult result = made_up();
+  result.rows.push_back(row("odeint", "other", 64, 1e-5, 7e-3));
+  result.rows.back().adaptive = true;
+  result.rows.back().tolerance = 1e-6;
+  const auto json = nlohmann::json::parse(to_json({}, {}, result));
+  CHECK(json["suite"] == "precision");
+  CHECK(json["rows"].size() == result.rows.size());
+  for (const auto& one : json["rows"])
+    for (const char* key :
+         {"case", "library", "method", "adaptive", "device", "precision", "threads", "evaluations", "seconds", "error"}) {
+      CAPTURE(key);
+      CHECK(one.contains(key));
+    }
+  CHECK(json["rows"].front()["tolerance"].is_null());
+  CHECK(json["rows"].back()["step"].is_null());
+  CHECK(json["cases"].front().contains("reference_error"));
+  CHECK(json["cheapest"].size() == 6);
+  CHECK(json["notes"].front() == "a note");
+}
+
+}  // namespace
+}  // namespace pliant::bench

@@ -1,0 +1,164 @@
+// Damping far beyond what a step resolves: with the exactly damped kick of verlet nothing blows up, at any step within the
+// undamped bound.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+#include "simulation/measure.hpp"
+#include "support/evolve.hpp"
+#include "support/paths.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double enormous = 1e6;  // c [kg/s]
+
+std::vector<SceneDescription> shipped_scenes() {
+  std::vector<SceneDescription> scenes;
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
+    if (entry.path().extension() == ".toml") scenes.push_back(load_scene(entry.path()));
+  return scenes;
+}
+
+SceneDescription shipped(const char* name) { return load_scene(source_dir() + "/scenes/" + name + ".toml"); }
+
+SceneDescription overdamped(SceneDescription scene, DampingLaw law) {
+  scene.simulation.integrator.value = "verlet";
+  scene.simulation.damping_law = law;
+  for (BodyDescription& body : scene.bodies) body.damping = enormous;
+  return scene;
+}
+
+// Squeezes every body along x, so that forces are at work from the start.
+ModelAndState squeezed(ModelAndState start) {
+  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i)
+    start.state.motion[6 * i] -= 0.2 * static_cast<double>(start.model.rest_positions[i].x);
+  return start;
+}
+
+class Course {
+ public:
+  Course(const ModelAndState& start, const TimePlan& plan, const CollisionDescription& collision)
+      : device_(make_cpu_device(2, 32)), model_(start.model), simulation_(*device_, start.model, start.state, plan, collision) {}
+
+  StepReport report() { return simulation_.report(); }
+  Measurement measured() { return measure(model_, simulation_.state(), glm::dvec3(0.0), pool_); }
+
+  // The largest energy seen, at the start and every `stride` steps; infinite where a vertex is not finite.
+  double largest_energy(std::uint64_t steps, std::uint64_t stride) {
+    double largest = measured().energy();
+    for (std::uint64_t done = 0; done < steps; done += stride) {
+      simulation_.advance(stride);
+      largest = larger(largest, measured().energy());
+    }
+    return report().non_finite ? std::numeric_limits<double>::infinity() : largest;
+  }
+
+ private:
+  std::unique_ptr<Device> device_;
+  const Model& model_;
+  ThreadPool pool_{2};
+  Simulation simulation_;
+};
+
+// What moves ends within a step, and what is bent creeps back to its shape: no step adds energy.
+void check_settles(const SceneDescription& scene, const ModelAndState& start, double part_of_bound, std::uint64_t steps,
+                   std::uint64_t stride) {
+  TimePlan plan = plan_time(scene, start.model);
+  plan.time_step = part_of_bound * plan.step_bound;
+  Course course(start, plan, scene.collision);
+  const double before = course.measured().energy();
+  CAPTURE(scene.file.string(), plan.time_step);
+  CHECK(course.largest_energy(steps, stride) <= before * (1 + 1e-9));
+  CHECK(course.measured().kinetic < 1e-3 * before);
+}
+
+void check_all_settle(DampingLaw law, std::initializer_list<double> parts_of_bound, std::uint64_t steps, std::uint64_t stride) {
+  for (const SceneDescription& shipped : shipped_scenes()) {
+    const SceneDescription scene = overdamped(shipped, law);
+    const ModelAndState start = squeezed(build_model(load_bodies(scene), scene.simulation.gravity));
+    for (const double part : parts_of_bound) check_settles(scene, start, part, steps, stride);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no damping blows verlet up: every shipped scene settles at c = 1e6, just within the undamped bound") {
+  check_all_settle(DampingLaw::constant, {0.99}, 4, 4);
+}
+
+TEST_CASE("every shipped scene settles at c = 1e6 by either law, at short steps and long ones", "[long]") {
+  for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) check_all_settle(law, {0.02, 0.5, 0.99}, 120, 20);
+}
+
+TEST_CASE("the damped kick is needed: a Runge-Kutta method blows up where verlet settles") {
+  for (const double damping : {2000.0, enormous}) {
+    BodySetup setup = sphere(1);
+    setup.description.stiffness = 40;
+    setup.description.damping = damping;
+    const ModelAndState start = squeezed(built(setup));
+    const double step = 1.9 / stiffest_omega(start.model);
+    CollisionDescription apart;
+    apart.response = ContactResponse::none;
+    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) {
+      CAPTURE(damping, static_cast<int>(law));
+      Course verlet(start, plan_of({"verlet", step, law}), apart);
+      const double before = verlet.measured().energy();
+      CHECK(verlet.largest_energy(400, 10) <= before * (1 + 1e-9));
+      Course cv8(start, plan_of({"cv8", step, law}), apart);
+      CHECK(cv8.largest_energy(400, 10) > 1e4 * before);
+    }
+  }
+}
+
+TEST_CASE("the paper's overdamped bunnies fly apart by its method and stop whole by verlet") {
+  for (const auto& [name, holds] : {std::pair("bunnies_overdamped", false), std::pair("bunnies_overdamped_verlet", true)}) {
+    const SceneDescription scene = shipped(name);
+    const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
+    const TimePlan plan = plan_time(scene, start.model);
+    Course course(start, plan, scene.collision);
+    const double before = course.measured().energy(), largest = course.largest_energy(plan.steps, 2);
+    CAPTURE(name);
+    CHECK((largest <= before * (1 + 1e-9)) == holds);
+    CHECK((largest > 100 * before) != holds);
+    CHECK((course.measured().kinetic < 1e-6 * before) == holds);
+  }
+}
+
+TEST_CASE("the paper's undamped bunnies are torn by its step and part whole by verlet", "[long]") {
+  for (const auto& [name, holds] : {std::pair("bunnies_undamped", false), std::pair("bunnies_undamped_verlet", true)}) {
+    const SceneDescription scene = shipped(name);
+    const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
+    const TimePlan plan = plan_time(scene, start.model);
+    CHECK((plan.time_step < plan.step_bound) == holds);
+    Course course(start, plan, scene.collision);
+    const double before = course.measured().energy(), largest = course.largest_energy(plan.steps, plan.steps / 17);
+    CAPTURE(name, before, largest);
+    CHECK(course.report().contact_steps > 10);
+    CHECK((largest < 1.3 * before) == holds);  // contacts add some
+    CHECK((largest > 100 * before) != holds);
+  }
+}
+
+TEST_CASE("a twin differs from the paper's scene in method and step alone") {
+  for (const char* name : {"bunnies_undamped", "bunnies_overdamped"}) {
+    const SceneDescription paper = shipped(name), twin = shipped((std::string(name) + "_verlet").c_str());
+    CAPTURE(name);
+    CHECK(twin.simulation.integrator.value == "verlet");
+    CHECK(twin.simulation.damping_law == paper.simulation.damping_law);
+    CHECK(twin.simulation.duration == paper.simulation.duration);
+    CHECK(twin.collision.elasticity == paper.collision.elasticity);
+    REQUIRE(twin.bodies.size() == paper.bodies.size());
+    for (std::size_t b = 0; b < paper.bodies.size(); ++b) {
+      CHECK(twin.bodies[b].mesh == paper.bodies[b].mesh);
+      CHECK(twin.bodies[b].position == paper.bodies[b].position);
+      CHECK(twin.bodies[b].velocity == paper.bodies[b].velocity);
+      CHECK(twin.bodies[b].stiffness == paper.bodies[b].stiffness);
+      CHECK(twin.bodies[b].damping == paper.bodies[b].damping);
+    }
+  }
+}
+
+}  // namespace pliant
