@@ -218,7 +218,7 @@ class Run {
   }
 
   std::string remedy_for_breakdown() const {
-    if (run_.plan.tolerance) return "lower stiffness, damping or velocities";
+    if (run_.plan.tolerance) return "loosen the tolerance, or lower stiffness, damping or velocities";
     if (run_.plan.time_step > run_.plan.step_bound)
       return fmt::format("shorten the time step to {:.4g} s or less", run_.plan.step_bound);
     return "shorten the time step, or lower stiffness, damping or velocities";
@@ -282,14 +282,21 @@ Estimate estimate_fixed(PreparedRun& run) {
   return {steps, steps * seconds_per_step(run)};
 }
 
-// Runs the scene for a second, at least one batch of steps, and takes the rest to be alike. Bodies that meet only later, or come
-// to rest, are beyond it.
+// Runs the scene for a second, at least one batch of steps, and takes the rest to be alike; no number where nothing came of it.
+// Bodies that meet only later, or come to rest, are beyond it.
 Estimate estimate_adaptive(PreparedRun& run) {
   Simulation trial(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   StepReport report = trial.report();
   Stopwatch watch;
-  while (report.time < run.plan.duration && watch.seconds() < 1 && !report.non_finite)
-    report = watch.time([&] { return trial.advance_toward(run.plan.duration); });
+  for (std::uint64_t frame = 1; watch.seconds() < 1 && report.time < run.plan.duration && !report.non_finite;) {
+    const double target = run.plan.time_of_frame(frame).value_or(run.plan.duration);
+    if (report.time < target)
+      report = watch.time([&] { return trial.advance_toward(target); });
+    else
+      ++frame;
+  }
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (report.non_finite || (report.time == 0 && run.plan.duration > 0)) return {nothing, nothing};
   const double part = run.plan.duration > 0 ? report.time / run.plan.duration : 1;
   return {static_cast<double>(report.steps) / part, watch.seconds() / part};
 }
@@ -297,6 +304,11 @@ Estimate estimate_adaptive(PreparedRun& run) {
 std::string length_of_steps(const TimePlan& plan) {
   if (plan.tolerance) return fmt::format("by a tolerance of {:g}", *plan.tolerance);
   return fmt::format("{:.6g} s ({:.3g} of the bound)", plan.time_step, plan.time_step / plan.step_bound);
+}
+
+std::string count_of_steps(const TimePlan& plan, double count) {
+  if (std::isnan(count)) return "unknown: no step of the trial stood, or it went non-finite";
+  return fmt::format("{}{:.0f}", plan.tolerance ? "about " : "", count);
 }
 
 void show_check(PreparedRun& run) {
@@ -308,10 +320,11 @@ void show_check(PreparedRun& run) {
   fmt::print("integrator:       {}\n", run.plan.integrator->name);
   fmt::print("stability bound:  {:.6g} s\n", run.plan.step_bound);
   fmt::print("time step:        {}\n", length_of_steps(run.plan));
-  fmt::print("steps:            {}{:.0f}\n", run.plan.tolerance ? "about " : "", estimate.steps);
+  fmt::print("steps:            {}\n", count_of_steps(run.plan, estimate.steps));
   fmt::print("device:           {} ({})\n", run.device->info().kind, run.device->info().name);
   fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
-  fmt::print("stepping time:    about {:.3g} s\n", estimate.seconds);
+  fmt::print("stepping time:    {}\n",
+             std::isnan(estimate.seconds) ? "unknown" : fmt::format("about {:.3g} s", estimate.seconds));
 }
 
 }  // namespace

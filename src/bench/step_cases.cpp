@@ -52,6 +52,9 @@ SceneDescription scene_at(const Family& family, SceneDescription scene, int leve
 }
 
 StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> setups) {
+  if (scene.simulation.tolerance)
+    throw Error(ErrorKind::input, scene.file.string(), "a tolerance gives steps no fixed length, so that none can be timed",
+                "give the scene a time_step, or take it out of the folder");
   StepCase made;
   made.start = build_model(setups, scene.simulation.gravity);
   made.plan = plan_time(scene, made.start.model);

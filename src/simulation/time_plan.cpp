@@ -69,11 +69,11 @@ void expect_method_damps(const TimePlan& plan, const std::string& where) {
 }
 
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
-  const double count = std::round(scene.simulation.duration / time_step);
+  const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance the least there can be
   const std::string& where = scene.simulation.length_where;
   if (!(count <= largest_step_count))
     throw Error(fault_of(where), where.empty() ? scene.file.string() : where, "the run takes more than 3e8 steps",
-                "shorten the duration or lengthen the time step");
+                "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
   return static_cast<std::uint64_t>(count);
 }
 
@@ -108,6 +108,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
     plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, plan.damping_law));
   if (plan.tolerance) {
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
+    count_steps(scene, std::min(plan.step_bound, 1 / plan.frame_rate));
   } else {
     plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
     plan.steps = steps ? *steps : count_steps(scene, plan.time_step);

@@ -1,6 +1,5 @@
-// GPUs approximate square roots and quotients, and not without bias: on an H200 strains come out 7e-9 of themselves too large or
-// too small. That is a tenth of a rounding, but the same in every step, so that it changes all frequencies. Forces are scaled by
-// it.
+// GPUs approximate square roots and quotients, and not without bias: on an H200 strains come out 6e-9 of themselves too large.
+// That is a tenth of a rounding, but the same in every step, so that it changes all frequencies. Forces are divided by it.
 #pragma once
 
 namespace pliant::gpu {
