@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -22,10 +23,10 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-// A measurement in hand is finished first; the second Ctrl-C does not wait for it.
-// A second one ends the program, unless it comes with the first: `timeout` sends two.
+// A measurement in hand is finished first. Another Ctrl-C does not wait for it, unless it comes with the first: `timeout` sends
+// two.
 void note_interrupt(int) {
-  static std::time_t first;
+  static std::atomic<std::time_t> first;
   const std::time_t now = std::time(nullptr);
   if (interrupted == 0)
     first = now;

@@ -6,6 +6,7 @@
 #include <nvector/nvector_serial.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -47,12 +48,55 @@ void mend(ARKodeButcherTable table) {
   if (!is_end) table->c[last] = 0.5;
 }
 
+// Vector operations compiled here: Debian builds those of SUNDIALS without optimisation, and they would cost ARKODE as much time
+// as the forces of a small body. Vectors that it clones take them over.
+int combine(int count, realtype* factors, N_Vector* vectors, N_Vector result) {
+  constexpr int most = 32;
+  PLIANT_EXPECT(count <= most);
+  const realtype* terms[most];
+  for (int k = 0; k < count; ++k) terms[k] = N_VGetArrayPointer(vectors[k]);
+  realtype* const to = N_VGetArrayPointer(result);
+  constexpr sunindextype block = 64;
+  for (sunindextype first = 0, size = N_VGetLength(result); first < size; first += block) {
+    const sunindextype length = std::min(block, size - first);
+    realtype sum[block] = {};
+    for (int k = 0; k < count; ++k)
+      for (sunindextype i = 0; i < length; ++i) sum[i] += factors[k] * terms[k][first + i];
+    std::copy_n(sum, length, to + first);  // after all terms, for the result may be one of them
+  }
+  return 0;
+}
+
+void add_two(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector result) {
+  realtype factors[] = {a, b};
+  N_Vector vectors[] = {x, y};
+  combine(2, factors, vectors, result);
+}
+
+void scale(realtype factor, N_Vector x, N_Vector result) { combine(1, &factor, &x, result); }
+
+realtype weighted_norm(N_Vector x, N_Vector weights) {
+  const realtype *const at = N_VGetArrayPointer(x), *const w = N_VGetArrayPointer(weights);
+  const sunindextype size = N_VGetLength(x);
+  realtype sum = 0;
+  for (sunindextype i = 0; i < size; ++i) sum += (at[i] * w[i]) * (at[i] * w[i]);
+  return std::sqrt(sum / static_cast<realtype>(size));
+}
+
+void optimise(N_Vector vector) {
+  vector->ops->nvlinearcombination = combine;
+  vector->ops->nvlinearsum = add_two;
+  vector->ops->nvscale = scale;
+  vector->ops->nvwrmsnorm = weighted_norm;
+}
+
 // Everything that one run holds.
 class Session {
  public:
   Session(PeerSystem& system, std::vector<double>& state) {
     PLIANT_EXPECT(SUNContext_Create(nullptr, &context_) == 0);
     state_ = N_VMake_Serial(static_cast<sunindextype>(state.size()), state.data(), context_);
+    optimise(state_);
     memory_ = ERKStepCreate(rates_of, 0, state_, context_);
     PLIANT_EXPECT(memory_ != nullptr);
     ERKStepSetUserData(memory_, &system);

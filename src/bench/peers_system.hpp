@@ -1,5 +1,5 @@
 // One body as a system of first order, y' = f(y), which is how other libraries integrate. Its springs are summed by pliant's own
-// vectors in fp64 on one thread, so that a comparison tells integrators apart and nothing else.
+// vectors in fp64 on one thread, so that forces cost every integrator the same.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
