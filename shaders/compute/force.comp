@@ -2,6 +2,10 @@
 // takes every LANES-th other vertex of the body and tries it on all of its own, so that what is loaded once serves VERTICES pairs.
 // Lanes' sums meet in shared memory. Beside them keepers, one a coordinate, load meanwhile what else is needed, and then finish the
 // vertices. With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
+//
+// With TILE the kernel runs all stages of a step in one dispatch: groups of a body wait for each other between two stages, which is
+// a third of what a dispatch costs. All groups must run at once for that. What others write meanwhile can't be read through caches of
+// one's own, so groups fetch a body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"
@@ -25,6 +29,10 @@ layout(local_size_x = TEAMS) in;
 #endif
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
+#ifdef TILE
+shared vec4 seen[TILE];        // x, and u.x
+shared vec2 seen_beside[TILE];  // u.y, u.z
+#endif
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // by axis, vertex and lane; later by run, and runs' rests
 #endif
 layout(location = 8) uniform uint item_count;  // shares
@@ -54,6 +62,7 @@ void add_spring(inout vec3 sum, vec3 x, vec3 d, float weight) {
   sum = vec3(FUSED(strain, x.x, sum.x), FUSED(strain, x.y, sum.y), FUSED(strain, x.z, sum.z));
 }
 
+uint placed_from() { return position_at(placement_slot(), vertex_count, 0u); }
 uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.vertex_count - 1u); }
 
 // Teams of one thread take neighbours together, so that their loads are neighbours too.
@@ -69,19 +78,25 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #define PAIR(k) add_spring(sum##k, x##k - other_x, u##k - other_u, weight);
 #define CLOSE(k) add(total##k, rest##k, sum##k);
 
+#ifdef TILE
+#define SEE(j) vec3 other_x = seen[j].xyz, other_u = vec3(seen[j].w, seen_beside[j]);
+#else
+#define SEE(j) vec3 other_x = placed[j].xyz, other_u = placed[(j) + vertex_count].xyz;
+#endif
+
 // The spring to vertex j, if there is one before `stop`.
-#define WHOLE(q)                                                                                    \
-  {                                                                                                 \
-    const float weight = 1.0;                                                                       \
-    vec3 other_x = placed[j + q * LANES].xyz, other_u = placed[j + q * LANES + vertex_count].xyz;   \
-    EACH(PAIR)                                                                                      \
+#define WHOLE(q)                                      \
+  {                                                   \
+    const float weight = 1.0;                         \
+    SEE(j + q * LANES)                                \
+    EACH(PAIR)                                        \
   }
-#define PART(q)                                                                                     \
-  {                                                                                                 \
-    uint other = min(j + q * LANES, stop - 1u);                                                     \
-    float weight = j + q * LANES < stop ? 1.0 : 0.0;                                                \
-    vec3 other_x = placed[other].xyz, other_u = placed[other + vertex_count].xyz;                   \
-    EACH(PAIR)                                                                                      \
+#define PART(q)                                       \
+  {                                                   \
+    uint other = min(j + q * LANES, stop - 1u);       \
+    float weight = j + q * LANES < stop ? 1.0 : 0.0;  \
+    SEE(other)                                        \
+    EACH(PAIR)                                        \
   }
 #if UNROLL == 2
 #define UNROLLED(f) f(0u) f(1u)
@@ -93,23 +108,18 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #error UNROLL is 2, 3 or 4
 #endif
 
-// Sums over every LANES-th vertex of the body from `lane` on: PLAINLY springs or so plainly, those sums exactly. UNROLL springs at a
-// time, so that their loads overlap; the last ones too, if need be with some left out.
+// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs or so plainly, those sums exactly.
+// UNROLL springs at a time, so that their loads overlap; the last ones too, if need be with some left out.
 //
 // Two vertices get the very same bits from their spring, with opposite signs. What sums do not add up to zero over a body is thus
 // rounding of sums alone, and it is what counts: nothing holds a body back from drifting and turning, so that a trajectory's error
 // grows with the power 3/2 of the steps. One lane alone therefore closes its sums early; many lanes' roundings cancel.
-#if LANES == 1
-#define PLAINLY 2u
-#elif VERTICES == 1
-#define PLAINLY 4u
-#else
-#define PLAINLY 16u
+#if PLAINLY % UNROLL != 0
+#error PLAINLY is a multiple of UNROLL
 #endif
-#define SUM_SPRINGS                                                                                 \
-  const uint stride = (PLAINLY + UNROLL - 1u) / UNROLL * UNROLL * LANES;                            \
-  uint end = base + s.body.first_vertex + s.body.vertex_count;                                      \
-  for (uint begin = base + s.body.first_vertex + lane; begin < end; begin += stride) {              \
+const uint stride = PLAINLY * LANES;
+#define SUM_SPRINGS(first, end)                                                                     \
+  for (uint begin = first + lane; begin < end; begin += stride) {                                   \
     uint stop = min(begin + stride, end), j = begin;                                                \
     EACH(CLEAR)                                                                                     \
     for (; j + (UNROLL - 1u) * LANES < stop; j += UNROLL * LANES) { UNROLLED(WHOLE) }               \
@@ -126,14 +136,13 @@ void finish(uint i, Share s, dvec3 force) {
 
 #define FINISH(k) \
   if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * (dvec3(total##k) + dvec3(rest##k)));
-void serve(Share s, uint base) {
+void serve(Share s, bool sums) {
   const uint lane = 0u;
-  uint team = gl_LocalInvocationID.x;
-  bool sums = deformed(s);
+  uint team = gl_LocalInvocationID.x, base = placed_from();
   if (!runs(s)) return;
   if (team == 0u && s.first_vertex == s.body.first_vertex) count_force(s, sums);
   EACH(OWN)
-  if (sums) { SUM_SPRINGS }
+  if (sums) { SUM_SPRINGS(base + s.body.first_vertex, base + s.body.first_vertex + s.body.vertex_count) }
   EACH(FINISH)
 }
 #else
@@ -152,11 +161,37 @@ vec3 load_partial(uint at) {
 }
 
 #define STORE(k) store_partial(PLACE(k) * LANES + lane, total##k);
-void sum_lanes(Share s, bool sums, uint base, uint team, uint lane) {
+#ifdef TILE
+void fetch(uint from, uint count) {
+  for (uint j = gl_LocalInvocationID.x; j < count; j += gl_WorkGroupSize.x) {
+    vec3 x = placed[from + j].xyz, u = placed[from + j + vertex_count].xyz;
+    seen[j] = vec4(x, u.x);
+    seen_beside[j] = u.yz;
+  }
+}
+
+void sum_lanes(Share s, bool sums) {
+  bool adds = gl_LocalInvocationID.x < LANES * TEAMS;
+  uint team = min(gl_LocalInvocationID.x / LANES, TEAMS - 1u), lane = gl_LocalInvocationID.x % LANES, base = placed_from();
   EACH(OWN)
-  if (sums) { SUM_SPRINGS }
+  for (uint tile = 0u; sums && tile < s.body.vertex_count; tile += TILE) {
+    uint count = min(s.body.vertex_count - tile, uint(TILE));
+    fetch(base + s.body.first_vertex + tile, count);
+    barrier();
+    if (adds) { SUM_SPRINGS(0u, count) }
+    if (tile + TILE < s.body.vertex_count) barrier();
+  }
+  if (adds) { EACH(STORE) }
+}
+#else
+void sum_lanes(Share s, bool sums) {
+  if (gl_LocalInvocationID.x >= LANES * TEAMS) return;
+  uint team = gl_LocalInvocationID.x / LANES, lane = gl_LocalInvocationID.x % LANES, base = placed_from();
+  EACH(OWN)
+  if (sums) { SUM_SPRINGS(base + s.body.first_vertex, base + s.body.first_vertex + s.body.vertex_count) }
   EACH(STORE)
 }
+#endif
 
 // Of a run of lanes, runs_of_lanes apart; its first two places keep the total and the rest.
 void sum_run(uint first) {
@@ -173,15 +208,15 @@ dvec3 sum_of_runs(uint first) {
   return total;
 }
 
-void serve(Share s, uint base) {
+void serve(Share s, bool sums) {
   uint thread = gl_LocalInvocationID.x;
   uint keeper = thread - LANES * TEAMS;
   uint place = keeper / 3u, k = keeper % 3u, i = s.first_vertex + place;
   bool keeps = thread >= LANES * TEAMS && place < s.vertex_count;
-  bool going = runs(s), sums = deformed(s);  // both asked for before either is needed
+  bool going = runs(s);
   Pending pending;
   if (keeps) pending = before_force(i, k, s);
-  if (thread < LANES * TEAMS) sum_lanes(s, sums, base, thread / LANES, thread % LANES);
+  sum_lanes(s, sums);
   barrier();
   if (thread < runs_of_lanes * VERTICES * TEAMS) sum_run(thread / runs_of_lanes * LANES + thread % runs_of_lanes);
   barrier();
@@ -198,9 +233,36 @@ void serve(Share s, uint base) {
 }
 #endif
 
+#ifdef TILE
+// Until every group of the body has come here so often. All of them run, so none waits in vain; the limit is for the case that a
+// driver breaks its word, which halts the body.
+void wait_for_others(Share s, uint often) {
+  const uint share_size = VERTICES * TEAMS;
+  uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
+  memoryBarrierBuffer();
+  barrier();
+  if (gl_LocalInvocationID.x == 0u) {
+    atomicAdd(frame[s.body_index].arrivals, 1u);
+    while (atomicAdd(frame[s.body_index].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
+    if (polls == most_polls) frame[s.body_index].halted = halted_waiting;
+    memoryBarrierBuffer();
+  }
+  barrier();
+}
+
+void serve_stages(Share s) {
+  bool sums = deformed(s);
+  for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
+    if (sums && stage_index > 0u) wait_for_others(s, stage_index);
+    barrier();  // shared memory changes from here on
+    serve(s, sums);
+  }
+}
+#else
+void serve_stages(Share s) { serve(s, deformed(s)); }
+#endif
+
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  if (group >= item_count) return;
-  Share s = share[group];
-  serve(s, position_at(placement_slot(), vertex_count, 0u));
+  if (group < item_count) serve_stages(share[group]);
 }

@@ -13,7 +13,7 @@ inline ErrorKind fault_of(const std::string& where) {
   return where.starts_with("--") ? ErrorKind::command_line : ErrorKind::input;
 }
 
-/// Thrown only while loading and building, never while stepping.
+/// Thrown while loading and building, or where a device fails; never for what numbers do.
 class Error : public std::runtime_error {
  public:
   /// `where` names a file, line, field or element and may be empty; `remedy` says what to do about it.

@@ -41,6 +41,7 @@ struct Pass {
 struct ForceVariant {
   std::string name;
   std::uint32_t share_size = 0;  // vertices that one item of a force kernel serves, at most
+  bool all_stages = false;       // whether its kernels can run every stage of a step in one dispatch
 };
 
 struct DeviceInfo {
@@ -72,10 +73,15 @@ class Device {
   /// `name` is the file's and its function's: kernels/NAME.glsl. Throws Error (device) when it does not build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
   /// Kernels that sum springs (kernels/parts/force_kernel.glsl) come in variants; their items are shares of bodies.
-  [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant) = 0;
+  /// One with `all_stages` runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once()
+  /// items.
+  [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
+  /// Items of a force kernel that certainly run side by side, so that they may wait for each other; 0 where that is not known.
+  [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// The variant that is fastest for so many vertices in all.
-  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
+  /// The variant that is fastest for so many vertices in all: for single sums, or for whole steps, where all stages may run at
+  /// once.
+  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count, bool whole_steps = false) const = 0;
   /// By how much of themselves springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

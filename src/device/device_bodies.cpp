@@ -52,7 +52,7 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, device.best_force_variant(model.vertex_count())) {}
+    : DeviceBodies(device, model, state, device.best_force_variant(model.vertex_count(), true)) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t variant)
     : vertex_count(model.vertex_count()),
@@ -67,6 +67,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       placements(device, std::size_t{2} * physics::slot_count * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
                  "placements"),
       control(device, std::vector{first_control()}, "control") {
+  all_stages_at_once = device.force_variants()[variant].all_stages && shares.size() <= device.shares_at_once();
   motions.upload(state.motion);
   world_positions.upload(rounded_world_positions(model, state));
 }

@@ -17,6 +17,7 @@ struct DeviceBodies {
 
   std::uint32_t vertex_count = 0, body_count = 0;
   std::size_t force_variant;
+  bool all_stages_at_once = false;  // whether force kernels run all stages of a step in one dispatch
   DeviceArray<physics::Body> bodies;
   DeviceArray<physics::Share> shares;  // of all bodies, what one item of a force kernel serves
   DeviceArray<physics::Frame> frames;

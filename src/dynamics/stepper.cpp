@@ -1,4 +1,4 @@
-// A step of a Runge-Kutta method is a dispatch a stage; of a splitting, a dispatch a force.
+// A step of a Runge-Kutta method is a dispatch a stage, of a splitting a dispatch a force; or one for all of these.
 #include "dynamics/stepper.hpp"
 
 #include <cstddef>
@@ -26,9 +26,27 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau) {
     for (std::size_t j = 0; j + 1 < next; ++j) rows.push_back(weights(j));
     rows.resize(next * (2 + (stages + 3) / 4 * 4));
   }
+  return rows;
+}
+
+// The rows that splitting_stage.glsl reads, for steps of the given length [s].
+std::vector<glm::dvec2> splitting_rows(const Splitting& method, double time_step) {
+  std::vector<glm::dvec2> rows;
+  const auto seconds = [&](long double fraction) { return static_cast<double>(fraction * static_cast<long double>(time_step)); };
+  long double elapsed = method.drift[0];
+  for (std::size_t stage = 0; stage < method.drift.size(); ++stage) {
+    const long double drift = stage + 1 < method.drift.size() ? method.drift[stage + 1] : 0;
+    elapsed += drift;
+    rows.emplace_back(seconds(method.kick[stage + 1]), seconds(drift));
+    rows.emplace_back(seconds(elapsed), 0);
+  }
+  return rows;
+}
+
+DeviceArray<glm::dvec2> tableau_of(Device& device, std::vector<glm::dvec2> rows) {
   PLIANT_EXPECT(rows.size() <= physics::tableau_size);
   rows.resize(physics::tableau_size);
-  return rows;
+  return DeviceArray<glm::dvec2>(device, rows, "tableau");
 }
 
 }  // namespace
@@ -44,10 +62,12 @@ Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integra
     const NystromTableau tableau = nystrom_tableau(*method, stages);
     PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
-    tableau_ = DeviceArray<glm::dvec2>(device, stage_rows(tableau), "tableau");
+    tableau_ = tableau_of(device, stage_rows(tableau));
     accelerations_ = DeviceArray<double>(device, 3 * count * stage_count_, "accelerations");
   } else {
-    stage_count_ = static_cast<std::uint32_t>(std::get<Splitting>(integrator.method).drift.size());
+    const auto& splitting = std::get<Splitting>(integrator.method);
+    stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
+    tableau_ = tableau_of(device, splitting_rows(splitting, time_step));
   }
 }
 
@@ -60,7 +80,7 @@ std::vector<Pass> Stepper::first_passes() const {
 
 std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
   if (const auto* splitting = std::get_if<Splitting>(&integrator_.method)) return splitting_passes(*splitting, from_half);
-  return runge_kutta_passes(from_half);
+  return stage_passes("runge_kutta_stage", accelerations_.id(), from_half);
 }
 
 std::vector<Pass> Stepper::following_passes(std::uint32_t from_half) const {
@@ -73,46 +93,38 @@ std::vector<Pass> Stepper::following_passes(std::uint32_t from_half) const {
                 {b.vertex_count, from_half}, b.vertex_count)};
 }
 
-Pass Stepper::force_pass(std::string_view name, std::initializer_list<BufferId> buffers,
-                         std::initializer_list<Parameter> parameters) const {
-  return make_pass(name, device_.force_kernel(name, bodies_.force_variant), buffers, parameters,
-                   static_cast<std::uint32_t>(bodies_.shares.size()));
-}
-
 Pass Stepper::refresh_pass() const {
   const DeviceBodies& b = bodies_;
-  return force_pass("refresh_force", {b.shares.id(), b.frames.id(), b.placements.id(), forces_.id()}, {b.vertex_count});
+  return make_pass("refresh_force", device_.force_kernel("refresh_force", b.force_variant),
+                   {b.shares.id(), b.frames.id(), b.placements.id(), forces_.id()}, {b.vertex_count},
+                   static_cast<std::uint32_t>(b.shares.size()));
 }
 
-std::vector<Pass> Stepper::runge_kutta_passes(std::uint32_t from_half) const {
+std::vector<Pass> Stepper::stage_passes(std::string_view name, BufferId results, std::uint32_t from_half) const {
   const DeviceBodies& b = bodies_;
-  std::vector<Pass> result;
-  for (std::uint32_t stage = 0; stage < stage_count_; ++stage)
-    result.push_back(force_pass("runge_kutta_stage",
-                                {b.shares.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.placements.id(),
-                                 accelerations_.id(), b.motions.id(), b.world_positions.id(), tableau_.id()},
-                                {b.vertex_count, from_half, law_, stage, stage_count_}));
-  return result;
+  const KernelId kernel = device_.force_kernel(name, b.force_variant, b.all_stages_at_once);
+  std::vector<Pass> passes;
+  for (std::uint32_t stage = 0; stage < (b.all_stages_at_once ? 1 : stage_count_); ++stage)
+    passes.push_back(make_pass(name, kernel,
+                               {b.shares.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.placements.id(),
+                                results, b.motions.id(), b.world_positions.id(), tableau_.id()},
+                               {b.vertex_count, from_half, law_, stage, stage_count_},
+                               static_cast<std::uint32_t>(b.shares.size())));
+  return passes;
 }
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
   const DeviceBodies& b = bodies_;
-  const auto seconds = [&](long double fraction) { return static_cast<double>(fraction * static_cast<long double>(time_step_)); };
+  const auto first = [&](const std::vector<long double>& fractions) {
+    return static_cast<double>(fractions[0] * static_cast<long double>(time_step_));
+  };
   std::vector<Pass> result = {
       refresh_pass(),
       make_pass(device_, "first_kick",
                 {b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), forces_.id(), b.motions.id()},
-                {b.vertex_count, from_half, law_, seconds(method.kick[0]), seconds(method.drift[0])}, b.vertex_count)};
-  long double elapsed = method.drift[0];
-  for (std::uint32_t stage = 0; stage < stage_count_; ++stage) {
-    const long double drift = stage + 1 < stage_count_ ? method.drift[stage + 1] : 0;
-    elapsed += drift;
-    result.push_back(
-        force_pass("splitting_stage",
-                   {b.shares.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.placements.id(), forces_.id(),
-                    b.motions.id(), b.world_positions.id()},
-                   {b.vertex_count, from_half, law_, seconds(method.kick[stage + 1]), seconds(drift), seconds(elapsed), stage}));
-  }
+                {b.vertex_count, from_half, law_, first(method.kick), first(method.drift)}, b.vertex_count)};
+  const std::vector<Pass> stages = stage_passes("splitting_stage", forces_.id(), from_half);
+  result.insert(result.end(), stages.begin(), stages.end());
   return result;
 }
 

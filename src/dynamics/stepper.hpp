@@ -33,9 +33,8 @@ class Stepper {
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 
  private:
-  [[nodiscard]] Pass force_pass(std::string_view name, std::initializer_list<BufferId> buffers,
-                                std::initializer_list<Parameter> parameters) const;
-  [[nodiscard]] std::vector<Pass> runge_kutta_passes(std::uint32_t from_half) const;
+  /// All stages: a pass each, or one where the bodies are small enough.
+  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, BufferId results, std::uint32_t from_half) const;
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
   Device& device_;
@@ -46,7 +45,7 @@ class Stepper {
   std::uint32_t stage_count_;
   DeviceArray<double> forces_;         // [vertex][3]: a splitting's kept spring forces [N]
   DeviceArray<double> accelerations_;  // [stage][vertex][3]
-  DeviceArray<glm::dvec2> tableau_;
+  DeviceArray<glm::dvec2> tableau_;    // rows as the kernels of stages read them
 };
 
 }  // namespace pliant

@@ -87,6 +87,17 @@ bool is_software_renderer(const std::string& renderer) {
   return std::ranges::any_of(names, [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
+/// The context is current.
+std::uint32_t count_multiprocessors() {
+  constexpr GLenum sm_count_nv = 0x933B;  // of GL_NV_shader_thread_group, which glad's loader leaves out
+  GLint extensions = 0, count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &extensions);
+  for (GLuint k = 0; k < static_cast<GLuint>(extensions); ++k)
+    if (reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, k)) == "GL_NV_shader_thread_group"sv)
+      glGetIntegerv(sm_count_nv, &count);
+  return static_cast<std::uint32_t>(count);
+}
+
 /// Makes a context to learn what it is; empty, with the reason, when there is none.
 std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std::string& reason) {
   const auto refuse = [&](std::string_view why) {
@@ -100,7 +111,8 @@ std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std
   if (context == EGL_NO_CONTEXT) return refuse("no OpenGL 4.5 core context without a window");
   std::optional<OpenAdapter> found;
   if (make_current_and_load(display, context)) {
-    found = OpenAdapter{{0, gl_string(GL_RENDERER), gl_string(GL_VENDOR), gl_string(GL_VERSION), false, 0}, display};
+    found = OpenAdapter{
+        {0, gl_string(GL_RENDERER), gl_string(GL_VENDOR), gl_string(GL_VERSION), false, 0, count_multiprocessors()}, display};
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &found->adapter.largest_buffer);
     found->adapter.is_software = is_software_renderer(found->adapter.renderer);
   }

@@ -12,8 +12,9 @@ struct Adapter {
   int index = 0;         // as in --gpu N
   std::string renderer;  // GL_RENDERER
   std::string vendor, version;
-  bool is_software = false;         // llvmpipe, softpipe, swrast
-  std::int64_t largest_buffer = 0;  // that a shader can use [bytes]
+  bool is_software = false;           // llvmpipe, softpipe, swrast
+  std::int64_t largest_buffer = 0;    // that a shader can use [bytes]
+  std::uint32_t multiprocessors = 0;  // each runs at least one work group at a time; 0: the driver does not tell
 };
 
 /// Every EGL device (EGL_EXT_platform_device, then EGL_MESA_platform_surfaceless) that gives an OpenGL 4.5 core context;

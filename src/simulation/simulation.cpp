@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 
 namespace pliant {
@@ -40,6 +41,12 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
     report.frame_changes += frames[b].frame_changes;
     report.pair_interactions += frames[b].force_evaluations * vertices * (vertices - 1);
   }
+}
+
+void expect_groups_met(const std::vector<physics::Frame>& frames) {
+  if (std::ranges::none_of(frames, [](const physics::Frame& frame) { return frame.halted == physics::halted_waiting; })) return;
+  throw Error(ErrorKind::device, "", "the GPU did not run all work groups of a body at once, as its driver promises",
+              "close other programs that use the GPU, or use --device cpu");
 }
 
 }  // namespace
@@ -144,7 +151,9 @@ StepReport Simulation::report() {
   add_collision_counts(report, control);
   if (responds_ && collider_.uses_trees())
     report.refits_skipped = report.steps * model_.bodies.size() - total(control, physics::trees_refitted);
-  add_force_counts(report, model_, bodies_.frames.download());
+  const std::vector<physics::Frame> frames = bodies_.frames.download();
+  expect_groups_met(frames);
+  add_force_counts(report, model_, frames);
   return report;
 }
 

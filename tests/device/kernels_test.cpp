@@ -41,7 +41,9 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step),
-        collider(*device, bodies, start.model, collision, 256) {}  // searches cut alike on every device
+        collider(*device, bodies, start.model, collision, 256) {  // searches cut alike on every device
+    bodies.all_stages_at_once = false;  // and stages, too
+  }
 
   // Steps of an adaptive length.
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision,
@@ -50,6 +52,7 @@ struct Bench {
         bodies(*device, start.model, start.state),
         stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
         collider(*device, bodies, start.model, collision, 256) {
+    bodies.all_stages_at_once = false;
     pacer.emplace(*device, bodies, start.model, stepper, find_integrator(method.integrator), method.law,
                   PaceLimits{.tolerance = tolerance, .first_step = method.time_step, .largest_step = 2 * method.time_step});
     pacer->aim_at(20 * method.time_step);

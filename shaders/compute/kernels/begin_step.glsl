@@ -7,7 +7,7 @@ READ(1, Controls, Control, control)
 WRITE(2, Frames, Frame, frame)
 
 void begin_step(uint b) {
-  if (frame[b].halted == halted_for_good) return;
+  if (frame[b].halted != not_halted && frame[b].halted != halted_for_now) return;
   frame[b].time_step = next_step(pace[0], control[0].contact_steps);
   frame[b].halted = frame[b].time_step > double(0) ? not_halted : halted_for_now;
   for (uint k = 0u; k < 3u; ++k) frame[b].start_reference[k] = frame[b].reference[k];

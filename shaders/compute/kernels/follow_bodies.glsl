@@ -125,6 +125,7 @@ void follow_bodies(uint b) {
   dvec3 origin = LOAD3(frame[b].reference, 0u);
   Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
   frame[b].turned = 0u;
+  frame[b].arrivals = 0u;
   if (frame[b].halted != not_halted) return;
   if (frame[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, frame[b].non_finite_vertex);
   for (uint other = 0u; other < body_count; ++other)

@@ -1,4 +1,4 @@
-// A force kernel, once a stage: the acceleration at this stage, then the placement for the next stage, or the step's end.
+// A force kernel of stages: the acceleration at this stage, then the placement for the next stage, or the step's end.
 // Second-order form: with abar = A A and bbar = b A, x_s = x + c_s h v + h^2 sum abar_sj a_j, so only accelerations are kept.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
@@ -7,25 +7,19 @@
 READ(0, Shares, Share, share)
 WRITE(1, Frames, Frame, frame)
 READ(2, RestPositions, vec4, rest_position)
-READ(3, PlacementsBefore, real4, placed)        // the slots that are read: readable only, which GPUs cache better
-WRITE(4, Placements, real, placement)
 WRITE(5, Accelerations, double, acceleration)   // [stage][vertex][3]; a stage's velocity stands there until its acceleration does
 WRITE(6, Motions, double, motion)               // two halves: the state before the step and after it
 WRITE(7, WorldPositions, float, world_position)  // two halves likewise
-CONSTANTS(8, Tableau, dvec2, tableau, tableau_size)  // a row for each next stage, the last for the end: see next_row()
 PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, from_half)
 PARAMETER(2, uint, damping_law)
-PARAMETER(3, uint, stage_index)
-PARAMETER(4, uint, stage_count)
+#include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
 #include "parts/end_step.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return stage_index == 0u ? start_slot : stage_index & 1u; }
-
-bool is_last() { return stage_index + 1u == stage_count; }
 
 // All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
 struct Pending {
@@ -39,7 +33,7 @@ struct Pending {
   double velocity_weight;  // [s]
 };
 
-// The row of the stage that comes next: its c; then weights for position (h^2) and velocity (h), this stage's first, then those of
+// The tableau has a row for each next stage, the last for the end. The row of the stage that comes next: its c; then weights for position (h^2) and velocity (h), this stage's first, then those of
 // earlier stages in turn, with zeros up to a multiple of four.
 uint next_row() { return stage_index * (2u + ((stage_count + 3u) & ~3u)); }
 uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }

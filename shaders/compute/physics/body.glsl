@@ -44,12 +44,16 @@ struct Frame {
   uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
   uint frame_changes;      // so far
   uint halted;             // whether the body moves: see below
+  uint arrivals;           // of work groups that wait for each other within this step
+  uint padding;
 };
 
 // Values of Frame.halted.
 const uint not_halted = 0u;
 const uint halted_for_good = 1u;  // a step went non-finite; nothing moves any more
 const uint halted_for_now = 2u;   // until the next step: this one is none, or was undone
+const uint halted_waiting = 3u;   // for good: its work groups do not run at once, though they should
+const uint most_polls = 1u << 22;  // before that is said; some seconds
 
 const uint tableau_size = 1024u;  // room for 30 stages
 

@@ -79,11 +79,13 @@ class CpuDevice final : public Device {
     throw Error(ErrorKind::device, std::string(name), "no such kernel on the CPU", "");
   }
 
-  KernelId force_kernel(std::string_view name, std::size_t variant) override {
+  KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
+    PLIANT_EXPECT(!all_stages);
     return kernel(name) + static_cast<KernelId>(variant * kernels_.size());
   }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
+  std::uint32_t shares_at_once() const override { return 0; }
+  std::size_t best_force_variant(std::uint32_t, bool) const override { return variants_.size() - 1; }
 
   double strain_bias() override { return 0; }
 

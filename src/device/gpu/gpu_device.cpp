@@ -21,14 +21,21 @@ constexpr std::size_t constants_slot = 8;
 // How force.comp cuts its work.
 struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
+  std::uint32_t plainly;        // springs that a lane adds up before it goes on exactly
+  std::uint32_t tile;           // vertices fetched at a time where groups run all stages; what shared memory leaves room for, in
+                                // multiples that add up in the same order as without; 0: no room
   std::uint32_t most_vertices;  // of all bodies together, up to which this is the fastest
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
 };
 // The first is for processors that run shaders. The others were measured on an H200: few vertices need many lanes each, and where
 // there are many a lane serves several with what it loads. Small groups do worse: the compiler then takes so many registers a
-// thread that few of them fit.
-constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 0}, {64, 1, 10, 4, 2600}, {32, 2, 20, 3, 8000}, {64, 4, 8, 3, 0xffffffffu}};
+// thread that few of them fit. The third is for all stages at once alone, where every group has a multiprocessor to itself.
+constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 2, 0, 0},
+                                  {64, 1, 10, 4, 4, 768, 2600},
+                                  {64, 2, 10, 4, 8, 512, 0},
+                                  {32, 2, 20, 3, 18, 576, 8000},
+                                  {64, 4, 8, 3, 18, 0, 0xffffffffu}};
 
 class GpuDevice final : public Device {
  public:
@@ -38,7 +45,7 @@ class GpuDevice final : public Device {
     for (const Lanes& choice : lane_choices)
       variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
                                        choice.vertices == 1 ? "vertex" : "vertices"),
-                           choice.teams * choice.vertices});
+                           choice.teams * choice.vertices, choice.tile != 0});
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -68,22 +75,31 @@ class GpuDevice final : public Device {
     return build(std::string(name), "compute/main.comp",
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
   }
-  KernelId force_kernel(std::string_view name, std::size_t variant) override {
+  KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
     PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
-    return build(fmt::format("{}, {}", name, variants_[variant].name), "compute/force.comp",
-                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
-                  {"LANES", std::to_string(lanes.lanes)},
-                  {"VERTICES", std::to_string(lanes.vertices)},
-                  {"TEAMS", std::to_string(lanes.teams)},
-                  {"KEEPERS", std::to_string(lanes.keepers())},
-                  {"UNROLL", std::to_string(lanes.unroll)}});
+    PLIANT_EXPECT(!all_stages || lanes.tile != 0);
+    std::vector<gl::Define> defines = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
+                                       {"LANES", std::to_string(lanes.lanes)},
+                                       {"VERTICES", std::to_string(lanes.vertices)},
+                                       {"TEAMS", std::to_string(lanes.teams)},
+                                       {"KEEPERS", std::to_string(lanes.keepers())},
+                                       {"UNROLL", std::to_string(lanes.unroll)},
+                                       {"PLAINLY", std::to_string(lanes.plainly)}};
+    if (all_stages) defines.push_back({"TILE", std::to_string(lanes.tile)});
+    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), "compute/force.comp",
+                 defines);
   }
+  // A group for each multiprocessor: that many run at once, however many registers and how much shared memory a group takes.
+  std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t vertex_count) const override {
+  std::size_t best_force_variant(std::uint32_t vertex_count, bool whole_steps) const override {
     if (context_.adapter().is_software) return 0;
     std::size_t best = 1;
     while (vertex_count > lane_choices[best].most_vertices) ++best;
+    for (std::size_t v = best; whole_steps && v < variants_.size(); ++v)
+      if (variants_[v].all_stages && vertex_count <= shares_at_once() * variants_[v].share_size)
+        return v;  // saves more than the best lanes do
     return best;
   }
 

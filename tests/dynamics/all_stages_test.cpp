@@ -1,0 +1,75 @@
+// Stages that one dispatch runs, with work groups that wait for each other, against a dispatch a stage.
+#include <catch2/catch.hpp>
+
+#include "dynamics/stepper.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+// Deformed and moving, and a second body that is neither; of few enough vertices for a work group each, or not.
+ModelAndState bodies_of(int level, std::uint32_t vertices) {
+  std::vector<BodySetup> setups{sphere(level), sphere(level)};
+  for (BodySetup& setup : setups) {
+    setup.mesh.triangles.clear();
+    setup.mesh.positions.resize(std::min<std::size_t>(setup.mesh.positions.size(), vertices));
+  }
+  setups[0].description.stretch = {0.8, 1.1, 1};
+  setups[0].description.velocity = {1, 2, 3};
+  setups[1].description.position = {5, 0, 0};
+  return build_model(setups, {0, -1, 0});
+}
+
+struct Outcome {
+  std::vector<double> motion;
+  std::uint32_t force_evaluations, forces_skipped, arrivals;
+  bool operator==(const Outcome&) const = default;
+};
+
+Outcome after_five_steps(Device& device, const ModelAndState& start, const Method& method, std::size_t variant, bool all_stages) {
+  DeviceBodies bodies(device, start.model, start.state, variant);
+  bodies.all_stages_at_once = all_stages;
+  const Stepper stepper(device, bodies, find_integrator(method.integrator), method.law, method.time_step);
+  device.run(stepper.first_passes());
+  const std::size_t passes = stepper.passes(0).size();
+  CHECK((all_stages ? passes <= 3 : passes >= stepper.stage_count()));
+  for (std::uint32_t step = 0; step < 5; ++step) {
+    device.run(stepper.passes(step % 2));
+    device.run(stepper.following_passes(step % 2));
+  }
+  const State state = bodies.download(1);
+  const physics::Frame& frame = state.frames.front();
+  return {state.motion, frame.force_evaluations, frame.forces_skipped, frame.arrivals};
+}
+
+void check_all_stages(Device& device, const ModelAndState& start, std::size_t variant) {
+  CAPTURE(device.force_variants()[variant].name, start.model.vertex_count());
+  for (const Method& method :
+       {Method{"cv8", 0.05, DampingLaw::adaptive}, {"rk4", 0.05}, {"srkn11b", 0.05}, {"verlet", 0.05, DampingLaw::constant}}) {
+    CAPTURE(method.integrator);
+    const Outcome one_by_one = after_five_steps(device, start, method, variant, false);
+    REQUIRE(one_by_one.motion != start.state.motion);
+    CHECK(after_five_steps(device, start, method, variant, true) == one_by_one);
+  }
+}
+
+TEST_CASE("all stages in one dispatch give the very bits of a dispatch a stage", "[gl]") {
+  for (const TestDevice& test : all_devices())
+    for (std::size_t variant = 0; variant < test.device->force_variants().size(); ++variant) {
+      const ForceVariant& lanes = test.device->force_variants()[variant];
+      if (!lanes.all_stages) continue;
+      check_all_stages(*test.device, bodies_of(1, lanes.share_size), variant);
+      const ModelAndState large = bodies_of(3, ~0u);
+      if (large.model.vertex_count() <= test.device->shares_at_once() * lanes.share_size)
+        check_all_stages(*test.device, large, variant);
+    }
+}
+
+TEST_CASE("a device that does not say how many work groups run at once is never made to wait", "[gl]") {
+  const ModelAndState start = bodies_of(1, 8);
+  for (const TestDevice& test : all_devices())
+    if (test.device->shares_at_once() == 0) CHECK_FALSE(DeviceBodies(*test.device, start.model, start.state).all_stages_at_once);
+}
+
+}  // namespace
+}  // namespace pliant
