@@ -34,7 +34,7 @@ struct Lanes {
 constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 2, 0, 0},
                                   {64, 1, 10, 4, 4, 768, 2600},
                                   {64, 2, 10, 4, 8, 512, 0},
-                                  {32, 2, 20, 3, 18, 576, 8000},
+                                  {32, 2, 20, 4, 20, 640, 8000},
                                   {64, 4, 8, 3, 18, 0, 0xffffffffu}};
 
 class GpuDevice final : public Device {
