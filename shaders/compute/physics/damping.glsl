@@ -22,13 +22,18 @@ FN double damping_rate(uint law, double damping, double inverse_mass, double for
 struct Decay { double keep; double gain; };
 
 FN Decay decay(double z) {
+  Decay result;
+  if (z == double(0)) {  // the series comes to the same, by a dozen divisions
+    result.keep = double(1);
+    result.gain = double(1);
+    return result;
+  }
   uint doublings = 0u;
   double y = z;
   while (abs(y) > double(0.25) && doublings < 12u) {
     y = y * double(0.5);
     ++doublings;
   }
-  Decay result;
   if (abs(y) > double(0.25)) {  // z beyond 1000: e^-z is zero in fp64
     result.keep = double(0);
     result.gain = double(1) / z;
