@@ -41,13 +41,17 @@ uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + 
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
 double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
 dvec2 weights(uint j) { return tableau[next_row() + 2u + j]; }
+dvec2 weigh_four(uint j, double a, double b, double c, double d) {
+  return (a * weights(j) + b * weights(j + 1u)) + (c * weights(j + 2u) + d * weights(j + 3u));
+}
+dvec2 sum_earlier(uint i, uint k) {  // for position and velocity
+  dvec2 sums = dvec2(0);
+  for (uint j = 0u; j < stage_index; j += 4u)
+    sums += weigh_four(j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
+  return sums;
+}
 
-Pending before_force(uint i, uint k, IN(Share) s) {
-  dvec2 sums = dvec2(0);  // for position and velocity
-  for (uint j = 0u; j < stage_index; j += 4u) {
-    double a = earlier(i, k, j), b = earlier(i, k, j + 1u), c = earlier(i, k, j + 2u), d = earlier(i, k, j + 3u);
-    sums += (a * weights(j) + b * weights(j + 1u)) + (c * weights(j + 2u) + d * weights(j + 3u));
-  }
+Pending before_force_with(uint i, uint k, IN(Share) s, dvec2 sums) {
   uint before = 6u * (from_half * vertex_count + i) + k, first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
   double time_step = frame[s.body_index].time_step;
   double elapsed = tableau[next_row()].x * time_step;
@@ -63,6 +67,8 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   p.velocity_weight = time_step * tableau[next_row() + 1u].y;
   return p;
 }
+
+Pending before_force(uint i, uint k, IN(Share) s) { return before_force_with(i, k, s, sum_earlier(i, k)); }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   double a = spring_force * s.body.inverse_mass + p.gravity;

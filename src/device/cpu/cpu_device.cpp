@@ -169,13 +169,12 @@ class CpuDevice final : public Device {
   }
 
   void finish_forces(const cpu::ForceFunctions& force, const cpu::KernelArguments& arguments) {
-    constexpr std::uint32_t range_length = 64;
     ranges_.clear();
     share_sums_.assign(tasks_.size(), nullptr);
     for_shares([&](std::uint32_t share, const cpu::ShareTask& task, const glm::dvec3* sums) {
       share_sums_[share] = sums;
-      for (std::uint32_t first = 0; first < task.vertex_count; first += range_length)
-        ranges_.push_back({share, first, std::min(first + range_length, task.vertex_count)});
+      for (std::uint32_t first = 0; first < task.vertex_count; first += cpu::longest_range)
+        ranges_.push_back({share, first, std::min(first + cpu::longest_range, task.vertex_count)});
     });
     pool_.for_ranges(static_cast<std::uint32_t>(ranges_.size()), 2, [&](std::uint32_t first, std::uint32_t end) {
       for (; first < end; ++first) {

@@ -41,6 +41,8 @@ struct ShareTask {
   const void* displacements = nullptr;  // likewise
 };
 
+inline constexpr std::uint32_t longest_range = 64;  // of vertices that a force kernel finishes at once
+
 /// A force kernel: first says what it needs summed, then finishes vertices first to end - 1 of a share with the sums over their
 /// springs of strain times length [units], one a vertex of the share.
 struct ForceFunctions {
