@@ -10,11 +10,12 @@ const uint damping_adaptive = 2u;  // the paper's equation 3
 
 // g = 0, c/m, or min(|F_s| / 10, 10) c/m, with the square of the net spring force F_s [N^2].
 FN double damping_rate(uint law, double damping, double inverse_mass, double force_squared) {
+  if (law == damping_none) return double(0);
+  if (law == damping_constant) return damping * inverse_mass;
   // GLSL reads literals as fp32. Square roots and divisions are slow on GPUs: these two are folded away.
   const double tiny = double(1e-30) * double(1e-30), tenth = double(1) / double(10);
   double force = force_squared * inversesqrt(max(force_squared, tiny));
-  double factor = law == damping_constant ? double(1) : min(tenth * force, double(10));
-  return law == damping_none ? double(0) : factor * damping * inverse_mass;
+  return min(tenth * force, double(10)) * damping * inverse_mass;
 }
 
 // What a kick of duration t leaves of the velocity, e^-z, and its effect per acceleration and time, (1 - e^-z) / z, with z = g t.
