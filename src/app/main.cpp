@@ -96,7 +96,8 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
   suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
       ->check(CLI::Range(1, 4096));
   suite->add_option("--json", options.json, "File to write the results to");
-  suite->add_flag("--quick", options.quick, "A rough measurement in a few seconds");
+  suite->add_flag("--quick", options.quick,
+                  "A rough measurement: seconds for forces and steps, about a minute for precision and stability");
   return suite;
 }
 

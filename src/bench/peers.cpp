@@ -6,17 +6,18 @@
 namespace pliant::bench {
 
 std::vector<PeerMethod> peer_methods(bool damped) {
-  std::vector<PeerMethod> all = arkode_methods();
-  std::vector<PeerMethod> more = odeint_methods();
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  std::vector<PeerMethod> all;
+  for (std::vector<PeerMethod> of_one : {arkode_methods(), cvode_methods(), odeint_methods()})
+    all.insert(all.end(), std::make_move_iterator(of_one.begin()), std::make_move_iterator(of_one.end()));
   if (damped) std::erase_if(all, [](const PeerMethod& method) { return !method.damps; });
   return all;
 }
 
 std::vector<std::string> missing_peers() {
   std::vector<std::string> missing;
-  if (arkode_methods().empty()) missing.emplace_back("ARKODE: left out, as the build did not find it (Debian: libsundials-dev)");
-  if (odeint_methods().empty()) missing.emplace_back("odeint: left out, as the build did not find it (Debian: libboost-dev)");
+  if (sundials_version().empty())
+    missing.emplace_back("ARKODE and CVODE: left out, as the build did not find them (Debian: libsundials-dev)");
+  if (boost_version().empty()) missing.emplace_back("odeint: left out, as the build did not find it (Debian: libboost-dev)");
   return missing;
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "bench/peers.hpp"
@@ -20,13 +20,15 @@ namespace {
 struct Limits {
   double longest_run;  // [s]
   double most_evaluations;
-  double refinement;  // of fixed steps, from row to row
-  double sharpening;  // of tolerances
+  double sharpening;  // of tolerances, from row to row
   int rounds;
 };
-constexpr Limits full_limits{.longest_run = 1.5, .most_evaluations = 4000, .refinement = 2, .sharpening = 10, .rounds = 3};
-constexpr Limits quick_limits{.longest_run = 0.06, .most_evaluations = 1200, .refinement = 2, .sharpening = 10, .rounds = 3};
+constexpr Limits full_limits{.longest_run = 1.5, .most_evaluations = 4000, .sharpening = 10, .rounds = 3};
+constexpr Limits quick_limits{.longest_run = 0.06, .most_evaluations = 1200, .sharpening = 10, .rounds = 3};
 constexpr double loosest_tolerance = 1e-2, tightest_tolerance = 1e-14;
+constexpr double refinement = 2, contest_refinement = std::numbers::sqrt2;  // of fixed steps, from row to row
+constexpr double largest_error = 0.1;                                       // that says more than that a run failed
+constexpr double most_doubled = 8;                                          // times steps of 1 rad
 constexpr double falling = 0.8;  // an error above so much of the best before does not fall
 
 struct Run {
@@ -72,11 +74,10 @@ Reference find_reference(Device& device, const PrecisionCase& what) {
 }
 
 PrecisionCaseInfo info_of(const PrecisionCase& what, double reference_error) {
-  constexpr std::array<const char*, 3> laws{"none", "constant", "adaptive"};
   return {.name = what.name,
           .vertices = what.start.model.vertex_count(),
           .bodies = static_cast<std::uint32_t>(what.start.model.bodies.size()),
-          .damping_law = laws[static_cast<std::size_t>(what.damping_law)],
+          .damping_law = name_of(what.damping_law),
           .duration = what.duration,
           .omega = what.omega,
           .reference_step = what.omega * what.duration / (2.0 * static_cast<double>(what.reference_steps)),
@@ -106,7 +107,7 @@ class Sweeps {
       const auto run = [this, &device, &integrator](double steps) {
         return run_once(device, what_, integrator, static_cast<std::uint64_t>(steps));
       };
-      if (!shorten_steps(like, name_of(place), what_.largest_step(integrator), run)) return false;
+      if (!shorten_steps(like, name_of(place), is_of_contest(place) ? contest_refinement : refinement, run)) return false;
     }
     return true;
   }
@@ -117,11 +118,24 @@ class Sweeps {
       const PrecisionRow like{
           .case_name = what_.name, .library = method.library, .method = method.name, .adaptive = method.adaptive};
       const auto run = [this, method](double effort) { return run_once(*system_, what_, method, effort); };
-      const bool on = method.adaptive ? sharpen_tolerance(like, run)
-                                      : shorten_steps(like, method.library, method.largest_step / what_.omega, run);
+      const bool on =
+          method.adaptive ? sharpen_tolerance(like, run) : shorten_steps(like, method.library, contest_refinement, run);
       if (!on) return false;
     }
     return true;
+  }
+
+  double seconds_of_rates() {
+    std::vector<double> numbers = system_->numbers_of(what_.start.state), rates(numbers.size());
+    return seconds_each(quick_effort,
+                        [&](std::uint64_t repetitions) {
+                          Stopwatch watch;
+                          watch.time([&] {
+                            for (std::uint64_t k = 0; k < repetitions; ++k) system_->rates(numbers.data(), rates.data());
+                          });
+                          return watch.seconds();
+                        })
+        .fastest;
   }
 
   bool repeat() {
@@ -158,13 +172,32 @@ class Sweeps {
     int without_progress = 0;
   };
 
-  bool shorten_steps(PrecisionRow like, const std::string& where, double largest_step, const RunAt& run) {
+  static bool is_of_contest(const Place& place) { return place.device == "cpu" && place.precision == 64 && place.threads == 1; }
+
+  // With which a method is stable enough to end near the truth: from steps of 1 rad on by doubling and halving, then by
+  // bisection.
+  double fewest_steps(const RunAt& run) const {
+    const auto serves = [&](double steps) { return relative_error(what_, reference_.ending, run(steps).ending) < largest_error; };
+    const double first = std::ceil(what_.omega * what_.duration);
+    double enough = first;
+    while (!serves(enough) && enough < most_doubled * first) enough *= 2;
+    double too_few = std::floor(enough / 2);
+    for (; enough <= first && too_few > 0 && serves(too_few); too_few = std::floor(too_few / 2)) enough = too_few;
+    while (enough - too_few > 1) {
+      const double middle = std::floor((enough + too_few) / 2);
+      (serves(middle) ? enough : too_few) = middle;
+    }
+    return enough;
+  }
+
+  bool shorten_steps(PrecisionRow like, const std::string& where, double factor, const RunAt& run) {
+    if (!go_on_(fmt::format("{}, {}, {}", what_.name, where, like.method))) return false;
     Course course;
-    for (double wanted = what_.duration / largest_step; may_go_on(course); wanted *= limits_.refinement) {
-      const double steps = std::ceil(wanted * (1 - 1e-12));
+    for (double wanted = fewest_steps(run); may_go_on(course); wanted *= factor) {
+      const double steps = std::round(wanted);
       like.step = what_.omega * what_.duration / steps;
       if (!go_on_(fmt::format("{}, {}, {}", what_.name, where, like.method))) return false;
-      measure(like, steps, run, limits_.refinement, course);
+      measure(like, steps, run, factor, course);
     }
     return true;
   }
@@ -184,7 +217,6 @@ class Sweeps {
            course.next_evaluations <= limits_.most_evaluations;
   }
 
-  // Keeps the run unless its error says no more than that it failed.
   void measure(PrecisionRow row, double effort, const RunAt& run_at, double growth, Course& course) {
     const Run run = run_at(effort);
     row.evaluations = run.evaluations;
@@ -192,7 +224,7 @@ class Sweeps {
     row.error = relative_error(what_, reference_.ending, run.ending);
     course.next_seconds = growth * run.seconds;
     course.next_evaluations = growth * static_cast<double>(run.evaluations);
-    if (!(row.error < 1)) return;
+    if (!(row.error < largest_error)) return;
     course.without_progress = row.error < falling * course.best_error ? 0 : course.without_progress + 1;
     course.best_error = std::min(course.best_error, row.error);
     if (row.error <= reference_.error) course.without_progress = 2;  // less can't be told
@@ -215,6 +247,8 @@ class Suite {
         all_(make_precision_cases(options.scenes, options.quick)),
         progress_(progress) {
     result_.notes = all_.notes;
+    if (!sundials_version().empty()) result_.versions["SUNDIALS"] = sundials_version();
+    if (!boost_version().empty()) result_.versions["Boost"] = boost_version();
     for (std::string& missing : missing_peers()) result_.notes.push_back(std::move(missing));
     for (const Place& place : places_) devices_.push_back(open(place));
     reference_device_ = make_cpu_device(options.devices.threads, 64);
@@ -242,6 +276,7 @@ class Suite {
     result_.cases.push_back(info_of(what, reference.error));
     Sweeps sweeps(what, std::move(reference), limits_, [&](std::string_view next) { return progress_(done, next); });
     const bool on = sweep(sweeps, what) && sweeps.repeat();
+    result_.cases.back().is_complete = on;
     const std::vector<PrecisionRow> rows = sweeps.rows();
     result_.rows.insert(result_.rows.end(), rows.begin(), rows.end());
     return on;
@@ -251,7 +286,9 @@ class Suite {
     for (std::size_t p = 0; p < places_.size(); ++p) {
       run_once(*devices_[p], what, find_integrator("dop853"), 1);  // builds the kernels
       if (!sweeps.pliant(*devices_[p], places_[p])) return false;
-      if (p == 0 && what.with_peers && places_[p].device == "cpu" && !sweeps.peers()) return false;
+      if (p > 0 || !what.with_peers || places_[p].device != "cpu") continue;
+      if (!sweeps.peers()) return false;
+      result_.cases.back().seconds_of_rates = sweeps.seconds_of_rates();
     }
     return true;
   }

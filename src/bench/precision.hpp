@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct PrecisionOptions {
 /// One run. The members' names are the keys of the file.
 struct PrecisionRow {
   std::string case_name;  // key: case
-  std::string library;    // "pliant", "ARKODE" or "odeint"
+  std::string library;    // "pliant" or one of peer_libraries
   std::string method;
   bool adaptive = false;  // the library chose its steps by `tolerance`
   std::string device = "cpu";
@@ -40,21 +41,25 @@ struct PrecisionCaseInfo {
   std::string name;
   std::uint32_t vertices = 0, bodies = 0;
   std::string damping_law;
-  double duration = 0;         // [s]
-  double omega = 0;            // [rad/s]
-  double reference_step = 0;   // omega times the step of the reference, vern8 in fp64 [rad]
-  double reference_error = 0;  // its distance from one with steps twice as long: errors below this can't be told
-  bool is_contest = false;     // whether it belongs to the comparison with other libraries
+  double duration = 0;          // [s]
+  double omega = 0;             // [rad/s]
+  double reference_step = 0;    // omega times the step of the reference, vern8 in fp64 [rad]
+  double reference_error = 0;   // its distance from one with steps twice as long: errors below this can't be told
+  bool is_contest = false;      // whether it belongs to the comparison with other libraries
+  bool is_complete = false;     // else it was interrupted, and nobody has won
+  double seconds_of_rates = 0;  // that other libraries' systems take for one evaluation; 0 where they take no part [s]
 };
 
 struct PrecisionResult {
   std::vector<PrecisionCaseInfo> cases;
   std::vector<PrecisionRow> rows;
+  std::map<std::string, std::string> versions = {};  // of other libraries' packages
   std::vector<std::string> notes;
   bool interrupted = false;  // by Progress
 };
 
-/// Steps are shortened until an error stops falling, cannot be told any more, or would take too long. Throws Error.
+/// Steps are shortened from the longest stable ones on, until an error stops falling, cannot be told any more, or would take too
+/// long. Ends with errors above 0.1 are no rows. Throws Error.
 [[nodiscard]] PrecisionResult bench_precision(const PrecisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

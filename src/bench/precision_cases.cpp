@@ -24,10 +24,12 @@ BodySetup sphere(int level) {
 }
 
 double omega_of(const Model& model) {
-  double squared = 0;
-  for (const ModelBody& body : model.bodies) squared = std::max(squared, body.vertex_count * body.stiffness / body.vertex_mass);
-  return std::sqrt(squared);
+  double omega = 0;
+  for (const ModelBody& body : model.bodies) omega = std::max(omega, stiffest_frequency(body));
+  return omega;
 }
+
+double omega_of(const BodySetup& setup) { return omega_of(build_model({&setup, 1}, glm::dvec3(0.0)).model); }
 
 // `phase` is omega times the duration [rad], `reference_step` omega times the coarser reference's step.
 PrecisionCase make_case(std::string name, std::span<const BodySetup> setups, double phase, double reference_step) {
@@ -52,7 +54,7 @@ PrecisionCase undamped_sphere(int level, double phase) {
 // Strong enough to matter: amplitudes fall by the factor e in 20 rad, that is some three periods.
 PrecisionCase damped_sphere(int level, double phase, DampingLaw law, double reference_step) {
   BodySetup setup = sphere(level);
-  const double omega = std::sqrt(static_cast<double>(setup.mesh.positions.size()) * setup.description.stiffness);
+  const double omega = omega_of(setup);
   setup.description.damping = 0.1 * omega * (law == DampingLaw::adaptive ? 0.1 : 1);  // which goes up to ten times that
   const bool smooth = law == DampingLaw::constant;
   PrecisionCase made = make_case(smooth ? "constant damping" : "adaptive damping", {&setup, 1}, phase, reference_step);
@@ -64,7 +66,7 @@ PrecisionCase damped_sphere(int level, double phase, DampingLaw law, double refe
 // Two ringing spheres approach slowly, and touch after some 12 rad.
 PrecisionCase collision(int level, const char* name, double phase, double reference_step) {
   BodySetup setups[] = {sphere(level), sphere(level)};
-  const double omega = std::sqrt(static_cast<double>(setups[0].mesh.positions.size()) * setups[0].description.stiffness);
+  const double omega = omega_of(setups[0]);
   for (const int k : {0, 1}) {
     const double side = k == 0 ? -1 : 1;
     setups[k].description.position = {1.4 * side, 0.07 * side, 0};
@@ -111,11 +113,7 @@ TimePlan PrecisionCase::plan(const Integrator& integrator, std::uint64_t steps) 
 
 double PrecisionCase::largest_step(const Integrator& integrator) const {
   double bound = INFINITY;
-  for (const ModelBody& body : start.model.bodies) {
-    const double factor = damping_law == DampingLaw::none ? 0 : damping_law == DampingLaw::constant ? 1 : 10;
-    const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;
-    bound = std::min(bound, step_bound(integrator, stiffest, factor * body.damping / body.vertex_mass));
-  }
+  for (const ModelBody& body : start.model.bodies) bound = std::min(bound, step_bound(integrator, body, damping_law));
   return std::isfinite(bound) ? bound : 1 / omega;
 }
 

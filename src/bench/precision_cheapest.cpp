@@ -4,28 +4,94 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "bench/timing.hpp"
 
 namespace pliant::bench {
 namespace {
 
+constexpr double level_margin = 0.05;
+constexpr int errors_a_decade = 10;
+
 // Between neighbours on both sides of the error.
-double interpolate(double error, const ErrorTime& worse, const ErrorTime& better) {
+double interpolate(double error, const ErrorCost& worse, const ErrorCost& better) {
   const double part = std::log(worse.error / error) / std::log(worse.error / better.error);
-  return worse.seconds * std::pow(better.seconds / worse.seconds, part);
+  return worse.cost * std::pow(better.cost / worse.cost, part);
 }
 
-void keep_least(std::optional<double>& least, double seconds) { least = least ? std::min(*least, seconds) : seconds; }
+void keep_least(std::optional<double>& least, std::optional<double> cost) {
+  if (cost && (!least || *cost < *least)) least = cost;
+}
 
-Admission one_thread_of(std::string library) {
-  return [library = std::move(library)](const Contender& contender) {
-    return contender.library == library && contender.device == "cpu" && contender.precision == 64 && contender.threads == 1;
-  };
+PrecisionPlace place_of(const PrecisionRow& row) { return {row.library, row.device, row.precision, row.threads}; }
+
+bool is_one_thread_of(std::string_view library, const PrecisionPlace& place) {
+  return place == PrecisionPlace{std::string(library), "cpu", 64, 1};
+}
+
+Admission one_thread_of(std::string_view library) {
+  return [library](const Contender& contender) { return is_one_thread_of(library, contender.place); };
 }
 
 bool is_asked_of_contest(double error) {
   return error <= 1.001 * largest_contest_error && error >= 0.999 * smallest_contest_error;
+}
+
+using Cost = double (*)(const PrecisionRow&);
+// Whatever else the machine does can only slow a run down.
+double seconds_of(const PrecisionRow& row) { return row.fastest_seconds; }
+double evaluations_of(const PrecisionRow& row) { return static_cast<double>(row.evaluations); }
+
+std::vector<ErrorCost> points_of(const PrecisionResult& result, const std::string& case_name, const Contender& contender,
+                                 Cost cost) {
+  std::vector<ErrorCost> points;
+  for (const PrecisionRow& row : result.rows)
+    if (row.case_name == case_name && contender_of(row) == contender) points.push_back({row.error, cost(row)});
+  return points;
+}
+
+// Every method's points at one place, with each cost.
+struct PlacePoints {
+  std::vector<std::vector<ErrorCost>> seconds, evaluations;
+  double largest_error = 0, smallest_error = INFINITY;
+};
+
+PlacePoints points_at(const PrecisionResult& result, const std::string& case_name, const PrecisionPlace& place) {
+  PlacePoints points;
+  for (const Contender& contender : contenders_of(result, case_name)) {
+    if (contender.place != place) continue;
+    points.seconds.push_back(points_of(result, case_name, contender, seconds_of));
+    points.evaluations.push_back(points_of(result, case_name, contender, evaluations_of));
+    for (const ErrorCost& point : points.seconds.back()) {
+      points.largest_error = std::max(points.largest_error, point.error);
+      points.smallest_error = std::min(points.smallest_error, point.error);
+    }
+  }
+  return points;
+}
+
+double least_of(double error, const std::vector<std::vector<ErrorCost>>& methods) {
+  std::optional<double> least;
+  for (const std::vector<ErrorCost>& points : methods) keep_least(least, cost_to_reach(error, points));
+  return least.value();
+}
+
+CostCurve curve_at(const PrecisionResult& result, const std::string& case_name, const PrecisionPlace& place) {
+  CostCurve curve{.case_name = case_name, .place = place, .errors = {}, .seconds = {}, .evaluations = {}};
+  const PlacePoints points = points_at(result, case_name, place);
+  const auto index_of = [](double error) { return -errors_a_decade * std::log10(error); };
+  const int last = static_cast<int>(std::floor(index_of(points.smallest_error)));
+  for (int k = static_cast<int>(std::ceil(index_of(points.largest_error))); k <= last; ++k) {
+    curve.errors.push_back(std::pow(10.0, -static_cast<double>(k) / errors_a_decade));
+    curve.seconds.push_back(least_of(curve.errors.back(), points.seconds));
+    curve.evaluations.push_back(least_of(curve.errors.back(), points.evaluations));
+  }
+  return curve;
+}
+
+const PrecisionCaseInfo& info_of(const PrecisionResult& result, const std::string& case_name) {
+  return *std::ranges::find(result.cases, case_name, &PrecisionCaseInfo::name);
 }
 
 }  // namespace
@@ -35,19 +101,17 @@ std::span<const double> asked_errors() {
   return errors;
 }
 
-std::optional<double> seconds_to_reach(double error, std::span<const ErrorTime> points) {
+std::optional<double> cost_to_reach(double error, std::span<const ErrorCost> points) {
   std::optional<double> least;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].error <= error) keep_least(least, points[k].seconds);
+    if (points[k].error <= error) keep_least(least, points[k].cost);
     if (k > 0 && points[k - 1].error > error && points[k].error < error)
       keep_least(least, interpolate(error, points[k - 1], points[k]));
   }
   return least;
 }
 
-Contender contender_of(const PrecisionRow& row) {
-  return {row.library, row.method, row.adaptive, row.device, row.precision, row.threads};
-}
+Contender contender_of(const PrecisionRow& row) { return {place_of(row), row.method, row.adaptive}; }
 
 std::vector<Contender> contenders_of(const PrecisionResult& result, const std::string& case_name) {
   std::vector<Contender> contenders;
@@ -59,17 +123,14 @@ std::vector<Contender> contenders_of(const PrecisionResult& result, const std::s
 
 std::optional<double> seconds_to_reach(double error, const PrecisionResult& result, const std::string& case_name,
                                        const Contender& contender) {
-  std::vector<ErrorTime> points;
-  for (const PrecisionRow& row : result.rows)
-    if (row.case_name == case_name && contender_of(row) == contender) points.push_back({row.error, row.seconds});
-  return seconds_to_reach(error, points);
+  return cost_to_reach(error, points_of(result, case_name, contender, seconds_of));
 }
 
 std::string name_of_method(const Contender& contender) { return contender.method + (contender.adaptive ? " (adaptive)" : ""); }
 
-std::string name_of_place(const Contender& contender) {
-  if (contender.library != "pliant") return contender.library;
-  return contender.device == "gpu" ? "gpu" : fmt::format("cpu x {}, fp{}", contender.threads, contender.precision);
+std::string name_of_place(const PrecisionPlace& place) {
+  if (place.library != "pliant") return place.library;
+  return place.device == "gpu" ? "gpu" : fmt::format("cpu x {}, fp{}", place.threads, place.precision);
 }
 
 std::optional<Winner> find_winner(double error, const PrecisionResult& result, const std::string& case_name,
@@ -84,8 +145,11 @@ std::optional<Winner> find_winner(double error, const PrecisionResult& result, c
 }
 
 std::optional<double> CheapestRow::lead() const {
-  if (!pliant || (!arkode && !odeint)) return std::nullopt;
-  return std::min(arkode ? arkode->seconds : INFINITY, odeint ? odeint->seconds : INFINITY) / pliant->seconds;
+  std::optional<double> fastest;
+  for (const std::optional<Winner>& peer : peers)
+    if (peer) keep_least(fastest, peer->seconds);
+  if (!pliant || !fastest) return std::nullopt;
+  return *fastest / pliant->seconds;
 }
 
 std::vector<CheapestRow> find_cheapest(const PrecisionResult& result) {
@@ -97,34 +161,76 @@ std::vector<CheapestRow> find_cheapest(const PrecisionResult& result) {
                       .error = error,
                       .any = winner([](const Contender&) { return true; }),
                       .pliant = winner(one_thread_of("pliant")),
-                      .arkode = winner(one_thread_of("ARKODE")),
-                      .odeint = winner(one_thread_of("odeint"))};
+                      .peers = {}};
+      std::ranges::transform(peer_libraries, row.peers.begin(),
+                             [&](std::string_view library) { return winner(one_thread_of(library)); });
       if (row.any) rows.push_back(std::move(row));
     }
   return rows;
 }
 
-std::vector<std::string> verdict_of(const PrecisionResult& result) {
-  const std::vector<CheapestRow> rows = find_cheapest(result);
-  std::vector<std::string> verdict;
+const char* name_of(Standing standing) {
+  return standing == Standing::faster ? "faster" : standing == Standing::level ? "level" : "slower";
+}
+
+Standing standing_of(double lead) {
+  if (lead > 1 + level_margin) return Standing::faster;
+  return lead < 1 / (1 + level_margin) ? Standing::slower : Standing::level;
+}
+
+std::vector<ContestEntry> contest_of(const PrecisionResult& result) {
+  std::vector<ContestEntry> contest;
+  for (const CheapestRow& row : find_cheapest(result)) {
+    const PrecisionCaseInfo& info = info_of(result, row.case_name);
+    const bool has_rival = std::ranges::any_of(row.peers, [](const auto& peer) { return peer.has_value(); });
+    if (!info.is_contest || !info.is_complete || !has_rival || !is_asked_of_contest(row.error)) continue;
+    const std::optional<double> lead = row.lead();
+    contest.push_back({row.case_name, row.error, lead, lead ? standing_of(*lead) : Standing::slower});
+  }
+  return contest;
+}
+
+std::string verdict_of(const std::vector<ContestEntry>& contest) {
+  if (contest.empty()) return {};
+  std::vector<std::string> slower;
+  std::size_t faster = 0;
+  for (const ContestEntry& entry : contest) {
+    faster += entry.standing == Standing::faster;
+    if (entry.standing == Standing::slower) slower.push_back(fmt::format("{} at {:.0e}", entry.case_name, entry.error));
+  }
+  std::string verdict =
+      fmt::format("one thread, fp64: of {} comparisons with the fastest other library pliant is faster in {}, level in {}",
+                  contest.size(), faster, contest.size() - faster - slower.size());
+  return verdict +
+         (slower.empty() ? ", slower in none" : fmt::format(", SLOWER in {}: {}", slower.size(), fmt::join(slower, ", ")));
+}
+
+std::vector<EvaluationCost> evaluation_costs(const PrecisionResult& result) {
+  std::vector<EvaluationCost> costs;
+  const auto add = [&](const PrecisionCaseInfo& info, std::string_view library) {
+    std::vector<double> seconds;
+    for (const PrecisionRow& row : result.rows)
+      if (row.case_name == info.name && is_one_thread_of(library, place_of(row)))
+        seconds.push_back(seconds_of(row) / evaluations_of(row));
+    if (!seconds.empty()) costs.push_back({info.name, std::string(library), median(std::move(seconds))});
+  };
   for (const PrecisionCaseInfo& info : result.cases) {
     if (!info.is_contest) continue;
-    std::vector<std::string> lost;
-    double least = INFINITY, most = 0;
-    for (const CheapestRow& row : rows) {
-      if (row.case_name != info.name || !is_asked_of_contest(row.error) || (!row.arkode && !row.odeint)) continue;
-      const double lead = row.lead().value_or(0);
-      least = std::min(least, lead);
-      most = std::max(most, lead);
-      if (lead <= 1) lost.push_back(fmt::format("{:.0e}", row.error));
-    }
-    if (most == 0) continue;
-    verdict.push_back(
-        fmt::format("{}, one thread, fp64, errors 1e-3 to 1e-10: pliant is {:.2f} to {:.2f} times as fast as the faster library",
-                    info.name, least, most));
-    if (!lost.empty()) verdict.back() += fmt::format("; NOT faster at {}", fmt::join(lost, ", "));
+    add(info, "pliant");
+    for (const std::string_view library : peer_libraries) add(info, library);
   }
-  return verdict;
+  return costs;
+}
+
+std::vector<CostCurve> cost_curves(const PrecisionResult& result) {
+  std::vector<CostCurve> curves;
+  for (const PrecisionCaseInfo& info : result.cases) {
+    std::vector<PrecisionPlace> places;
+    for (const Contender& contender : contenders_of(result, info.name))
+      if (std::ranges::find(places, contender.place) == places.end()) places.push_back(contender.place);
+    for (const PrecisionPlace& place : places) curves.push_back(curve_at(result, info.name, place));
+  }
+  return curves;
 }
 
 }  // namespace pliant::bench

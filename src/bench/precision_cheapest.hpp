@@ -1,11 +1,13 @@
-// Which method reaches an error in the least time.
+// Which method reaches an error at the least cost.
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "bench/peers.hpp"
 #include "bench/precision.hpp"
 
 namespace pliant::bench {
@@ -15,22 +17,29 @@ namespace pliant::bench {
 /// Those for which pliant shall be ahead of other libraries.
 inline constexpr double largest_contest_error = 1e-3, smallest_contest_error = 1e-10;
 
-struct ErrorTime {
+struct ErrorCost {
   double error = 0;
-  double seconds = 0;  // both above zero
+  double cost = 0;  // both above zero
 };
 
-/// The least time that reaches `error`. Points are in the order of growing work; between neighbours logarithms are interpolated,
-/// and beyond them nothing is: where all points are better, the least time of these. Empty where none is good enough.
-[[nodiscard]] std::optional<double> seconds_to_reach(double error, std::span<const ErrorTime> points);
+/// The least cost that reaches `error`. Points are in the order of growing work; between neighbours logarithms are interpolated,
+/// and beyond them nothing is: where all points are better, the least cost of these. Empty where none is good enough.
+[[nodiscard]] std::optional<double> cost_to_reach(double error, std::span<const ErrorCost> points);
 
-/// The method, device, precision and threads of some rows.
-struct Contender {
-  std::string library, method;
-  bool adaptive = false;
-  std::string device;
+/// Where a row was measured.
+struct PrecisionPlace {
+  std::string library, device;
   int precision = 64;
   unsigned threads = 1;
+
+  bool operator==(const PrecisionPlace&) const = default;
+};
+
+/// The method of some rows, and their place.
+struct Contender {
+  PrecisionPlace place;
+  std::string method;
+  bool adaptive = false;
 
   bool operator==(const Contender&) const = default;
 };
@@ -43,7 +52,7 @@ struct Contender {
 /// Such as "vern8", "verner_8_5_6 (adaptive)".
 [[nodiscard]] std::string name_of_method(const Contender& contender);
 /// Such as "cpu x 1, fp64", "gpu", "ARKODE".
-[[nodiscard]] std::string name_of_place(const Contender& contender);
+[[nodiscard]] std::string name_of_place(const PrecisionPlace& place);
 
 struct Winner {
   Contender contender;
@@ -59,16 +68,48 @@ using Admission = std::function<bool(const Contender&)>;
 struct CheapestRow {
   std::string case_name;
   double error = 0;
-  std::optional<Winner> any, pliant, arkode, odeint;
+  std::optional<Winner> any, pliant;
+  std::array<std::optional<Winner>, peer_libraries.size()> peers;
 
-  /// Time of the faster library over pliant's; empty where one of both is missing.
+  /// Time of the fastest other library over pliant's; empty where one of both is missing.
   [[nodiscard]] std::optional<double> lead() const;
 };
 
 /// For every case and asked error that some method reaches.
 [[nodiscard]] std::vector<CheapestRow> find_cheapest(const PrecisionResult& result);
 
-/// What came of the comparison with other libraries: sentences, the lost errors by name. Empty without their rows.
-[[nodiscard]] std::vector<std::string> verdict_of(const PrecisionResult& result);
+enum class Standing { faster, level, slower };
+[[nodiscard]] const char* name_of(Standing standing);
+/// Times differ by some percent from run to run: leads within 5 % either way are level.
+[[nodiscard]] Standing standing_of(double lead);
+
+/// One entry of the comparison with other libraries: a contest's case that was not interrupted, at an error that pliant shall
+/// lead at and some other library reaches. Where pliant does not reach it, it is slower, with no lead.
+struct ContestEntry {
+  std::string case_name;
+  double error = 0;
+  std::optional<double> lead;
+  Standing standing = Standing::slower;
+};
+[[nodiscard]] std::vector<ContestEntry> contest_of(const PrecisionResult& result);
+
+/// What came of the contest: a sentence; empty without entries.
+[[nodiscard]] std::string verdict_of(const std::vector<ContestEntry>& contest);
+
+/// Time of a run over its force evaluations, on one thread in fp64: the median over a library's rows [s].
+struct EvaluationCost {
+  std::string case_name, library;
+  double seconds = 0;
+};
+/// Of the contest's cases. What is beyond PrecisionCaseInfo::seconds_of_rates is the integrator's own.
+[[nodiscard]] std::vector<EvaluationCost> evaluation_costs(const PrecisionResult& result);
+
+/// The least that an error costs at one place by any method, at ten errors a decade: what a picture draws.
+struct CostCurve {
+  std::string case_name;
+  PrecisionPlace place;
+  std::vector<double> errors, seconds, evaluations;  // errors falling
+};
+[[nodiscard]] std::vector<CostCurve> cost_curves(const PrecisionResult& result);
 
 }  // namespace pliant::bench

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <functional>
+#include <map>
+#include <string>
 
 #include "bench/precision_cheapest.hpp"
 #include "bench/report_parts.hpp"
 
 namespace pliant::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double unsteady_ratio = 1.2, unsteady_share = 0.1;  // of medians over the fastest runs, and of rows
 
@@ -42,30 +42,49 @@ Json case_json(const PrecisionCaseInfo& info) {
           {"omega", info.omega},
           {"reference_step", info.reference_step},
           {"reference_error", info.reference_error},
-          {"is_contest", info.is_contest}};
+          {"is_contest", info.is_contest},
+          {"is_complete", info.is_complete},
+          {"seconds_of_rates", info.seconds_of_rates > 0 ? Json(info.seconds_of_rates) : Json(nullptr)}};
 }
 
 Json winner_json(const std::optional<Winner>& winner) {
   if (!winner) return nullptr;
-  return {
-      {"place", name_of_place(winner->contender)}, {"method", name_of_method(winner->contender)}, {"seconds", winner->seconds}};
+  return {{"place", name_of_place(winner->contender.place)},
+          {"method", name_of_method(winner->contender)},
+          {"seconds", winner->seconds}};
 }
 
 Json cheapest_json(const CheapestRow& row) {
-  return {{"case", row.case_name},
-          {"error", row.error},
-          {"any", winner_json(row.any)},
-          {"pliant", winner_json(row.pliant)},
-          {"ARKODE", winner_json(row.arkode)},
-          {"odeint", winner_json(row.odeint)},
-          {"lead", row.lead() ? Json(*row.lead()) : Json(nullptr)}};
+  Json json{{"case", row.case_name}, {"error", row.error}, {"any", winner_json(row.any)}, {"pliant", winner_json(row.pliant)}};
+  for (std::size_t k = 0; k < peer_libraries.size(); ++k) json[std::string(peer_libraries[k])] = winner_json(row.peers[k]);
+  json["lead"] = or_null(row.lead());
+  return json;
 }
 
-template <class Items, class ToJson>
-Json list_of(const Items& items, ToJson to_json_of) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push_back(to_json_of(item));
-  return list;
+Json contest_json(const ContestEntry& entry) {
+  return {
+      {"case", entry.case_name}, {"error", entry.error}, {"lead", or_null(entry.lead)}, {"standing", name_of(entry.standing)}};
+}
+
+Json cost_json(const EvaluationCost& cost) {
+  return {{"case", cost.case_name}, {"library", cost.library}, {"seconds", cost.seconds}};
+}
+
+// Four digits are more than a picture shows.
+std::vector<double> rounded(std::vector<double> values) {
+  for (double& value : values) value = std::stod(fmt::format("{:.3e}", value));
+  return values;
+}
+
+Json curve_json(const CostCurve& curve) {
+  return {{"case", curve.case_name},
+          {"library", curve.place.library},
+          {"device", curve.place.device},
+          {"precision", curve.place.precision},
+          {"threads", threads_json(curve.place.device, curve.place.threads)},
+          {"errors", rounded(curve.errors)},
+          {"seconds", rounded(curve.seconds)},
+          {"evaluations", rounded(curve.evaluations)}};
 }
 
 // What was left out, what came of the comparison, and how far to trust times.
@@ -76,7 +95,7 @@ std::vector<std::string> notes_of(const PrecisionResult& result) {
   if (static_cast<double>(unsteady) > unsteady_share * static_cast<double>(result.rows.size()))
     notes.push_back(fmt::format("the machine was busy: {} of {} rows took over {} times their fastest run; measure again",
                                 unsteady, result.rows.size(), unsteady_ratio));
-  for (std::string& sentence : verdict_of(result)) notes.push_back(std::move(sentence));
+  if (std::string verdict = verdict_of(contest_of(result)); !verdict.empty()) notes.push_back(std::move(verdict));
   return notes;
 }
 
@@ -92,8 +111,9 @@ std::string table_of_methods(const PrecisionResult& result, const std::string& c
   for (const double error : asked_errors()) table += fmt::format(" {:>7.0e}", error);
   table += '\n';
   for (const Contender& contender : contenders_of(result, case_name)) {
-    if (contender.device != "gpu" && (contender.precision != 64 || contender.threads != 1)) continue;
-    table += fmt::format("{:<14} {:<30}", name_of_place(contender), name_of_method(contender));
+    const PrecisionPlace& place = contender.place;
+    if (place.device != "gpu" && (place.precision != 64 || place.threads != 1)) continue;
+    table += fmt::format("{:<14} {:<30}", name_of_place(place), name_of_method(contender));
     for (const double error : asked_errors())
       table += fmt::format(" {:>7}", milliseconds(seconds_to_reach(error, result, case_name, contender)));
     table += '\n';
@@ -106,13 +126,52 @@ std::string text_of(const std::optional<Winner>& winner) {
 }
 
 std::string table_of_cheapest(const PrecisionResult& result, const std::string& case_name) {
-  std::string table = fmt::format("{:<7} {:<34} | {:<20} {:<36} {:<36} {:>6}\n", "error", "cheapest [ms]", "fp64 x 1: pliant",
-                                  "ARKODE", "odeint", "lead");
-  for (const CheapestRow& row : find_cheapest(result))
-    if (row.case_name == case_name)
-      table += fmt::format("{:<7.0e} {:<34} | {:<20} {:<36} {:<36} {:>6}\n", row.error,
-                           fmt::format("{}, {}", name_of_place(row.any->contender), text_of(row.any)), text_of(row.pliant),
-                           text_of(row.arkode), text_of(row.odeint), row.lead() ? fmt::format("{:.2f}", *row.lead()) : "-");
+  std::string table = fmt::format("{:<7} {:<34} | {:<20}", "error", "cheapest [ms]", "fp64 x 1: pliant");
+  for (const std::string_view library : peer_libraries) table += fmt::format(" {:<36}", library);
+  table += '\n';
+  for (const CheapestRow& row : find_cheapest(result)) {
+    if (row.case_name != case_name) continue;
+    table += fmt::format("{:<7.0e} {:<34} | {:<20}", row.error,
+                         fmt::format("{}, {}", name_of_place(row.any->contender.place), text_of(row.any)), text_of(row.pliant));
+    for (const std::optional<Winner>& peer : row.peers) table += fmt::format(" {:<36}", text_of(peer));
+    table += '\n';
+  }
+  return table;
+}
+
+std::string text_of(const ContestEntry& entry) {
+  return entry.lead ? fmt::format("{:.2f} {}", *entry.lead, name_of(entry.standing)) : "not reached";
+}
+
+// A line for each error, a column for each case.
+std::string table_of_contest(const PrecisionResult& result) {
+  const std::vector<ContestEntry> contest = contest_of(result);
+  if (contest.empty()) return {};
+  std::map<double, std::map<std::string, std::string>, std::greater<>> cells;
+  for (const ContestEntry& entry : contest) cells[entry.error][entry.case_name] = text_of(entry);
+  std::string table = fmt::format("{:<24}", "pliant faster by");
+  for (const auto& info : result.cases)
+    if (info.is_contest && info.is_complete) table += fmt::format(" {:>24}", info.name);
+  table += '\n';
+  for (auto& [error, of_cases] : cells) {
+    table += fmt::format("{:<24.0e}", error);
+    for (const auto& info : result.cases)
+      if (info.is_contest && info.is_complete) table += fmt::format(" {:>24}", of_cases[info.name]);
+    table += '\n';
+  }
+  return table + "than the fastest other library; level: within 5 %\n\n";
+}
+
+std::string table_of_evaluations(const PrecisionResult& result) {
+  std::string table;
+  for (const PrecisionCaseInfo& info : result.cases) {
+    if (!info.is_contest || info.seconds_of_rates == 0) continue;
+    table += fmt::format("us an evaluation, {}: the other libraries' forces alone {:.2f}; with the integrator", info.name,
+                         1e6 * info.seconds_of_rates);
+    for (const EvaluationCost& cost : evaluation_costs(result))
+      if (cost.case_name == info.name) table += fmt::format(" {} {:.2f}", cost.library, 1e6 * cost.seconds);
+    table += '\n';
+  }
   return table;
 }
 
@@ -122,6 +181,7 @@ std::string to_table(const PrecisionResult& result) {
   std::string table;
   for (const PrecisionCaseInfo& info : result.cases)
     table += heading_of(info) + table_of_methods(result, info.name) + '\n' + table_of_cheapest(result, info.name) + '\n';
+  table += table_of_contest(result) + table_of_evaluations(result);
   for (const std::string& note : notes_of(result)) table += note + '\n';
   return table;
 }
@@ -129,14 +189,16 @@ std::string to_table(const PrecisionResult& result) {
 std::string to_json(const Machine& machine, const PrecisionOptions& options, const PrecisionResult& result) {
   Json asked = options_json(options.devices, options.quick);
   asked["scenes"] = options.scenes.string();
-  return text_of(Json{{"suite", "precision"},
-                      {"options", asked},
-                      {"interrupted", result.interrupted},
-                      {"machine", machine_json(machine)},
-                      {"cases", list_of(result.cases, case_json)},
-                      {"rows", list_of(result.rows, row_json)},
-                      {"cheapest", list_of(find_cheapest(result), cheapest_json)},
-                      {"notes", notes_of(result)}});
+  Json file = suite_json("precision", asked, result.interrupted, machine);
+  file["versions"] = Json(result.versions);
+  file["cases"] = list_of(result.cases, case_json);
+  file["rows"] = list_of(result.rows, row_json);
+  file["cheapest"] = list_of(find_cheapest(result), cheapest_json);
+  file["contest"] = list_of(contest_of(result), contest_json);
+  file["evaluation_costs"] = list_of(evaluation_costs(result), cost_json);
+  file["curves"] = list_of(cost_curves(result), curve_json);
+  file["notes"] = notes_of(result);
+  return text_of(file);
 }
 
 }  // namespace pliant::bench

@@ -7,10 +7,11 @@
 
 namespace pliant::bench {
 
-/// A case each: milliseconds to every asked error by method on one thread in fp64, then the cheapest of all.
+/// A case each: milliseconds to every asked error by method on one thread in fp64, then the cheapest of all; then the contest.
 [[nodiscard]] std::string to_table(const PrecisionResult& result);
 
-/// {suite, options{...}, interrupted, machine{...}, cases[...], rows[...], cheapest[...], notes[...]}.
+/// {suite, options{...}, interrupted, machine{...}, versions{...}, cases[...], rows[...], cheapest[...], contest[...],
+/// evaluation_costs[...], curves[...], notes[...]}.
 [[nodiscard]] std::string to_json(const Machine& machine, const PrecisionOptions& options, const PrecisionResult& result);
 
 }  // namespace pliant::bench

@@ -3,19 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/report_parts.hpp"
 
 namespace pliant::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-template <class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 template <class Row>
 std::string threads_text(const Row& row) {
@@ -72,11 +64,11 @@ std::vector<std::string> notes_of(const ForcesResult& result) {
 }
 
 template <class Result>
-Json suite_json(const char* suite, const Machine& machine, const Json& options, const Result& result) {
-  Json list = Json::array();
-  for (const auto& row : result.rows) list.push_back(row_json(row));
-  return {{"suite", suite}, {"options", options},       {"interrupted", result.interrupted}, {"machine", machine_json(machine)},
-          {"rows", list},   {"notes", notes_of(result)}};
+Json file_json(const char* suite, const Machine& machine, const Json& options, const Result& result) {
+  Json file = suite_json(suite, options, result.interrupted, machine);
+  file["rows"] = list_of(result.rows, [](const auto& row) { return row_json(row); });
+  file["notes"] = notes_of(result);
+  return file;
 }
 
 // Wide enough for the longest text in a column.
@@ -140,16 +132,15 @@ std::string to_text(const FamilyCrossover& crossover) {
 std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result) {
   Json asked = options_json(options.devices, options.quick);
   asked["all_variants"] = options.all_variants;
-  return text_of(suite_json("forces", machine, asked, result));
+  return text_of(file_json("forces", machine, asked, result));
 }
 
 std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result) {
   Json asked = options_json(options.devices, options.quick);
   asked["scenes"] = options.scenes.string();
-  Json json = suite_json("steps", machine, asked, result);
-  json["crossovers"] = Json::array();
-  for (const FamilyCrossover& crossover : result.crossovers) json["crossovers"].push_back(crossover_json(crossover));
-  return text_of(json);
+  Json file = file_json("steps", machine, asked, result);
+  file["crossovers"] = list_of(result.crossovers, crossover_json);
+  return text_of(file);
 }
 
 }  // namespace pliant::bench

@@ -1,6 +1,7 @@
 // What the files of all suites have in common, for their reports alone.
 #pragma once
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "bench/machine.hpp"
@@ -8,12 +9,28 @@
 
 namespace pliant::bench {
 
-[[nodiscard]] nlohmann::ordered_json machine_json(const Machine& machine);
+using Json = nlohmann::ordered_json;
+
 /// What was asked for, not what came of it: threads 0 are one a processor.
-[[nodiscard]] nlohmann::ordered_json options_json(const Selection& devices, bool quick);
+[[nodiscard]] Json options_json(const Selection& devices, bool quick);
+/// {suite, options, interrupted, machine}, with which every file starts.
+[[nodiscard]] Json suite_json(const char* suite, const Json& options, bool interrupted, const Machine& machine);
 /// Threads are the CPU's: null for the GPU.
-[[nodiscard]] nlohmann::ordered_json threads_json(const std::string& device, unsigned threads);
-/// As a file. Text that is no UTF-8 is replaced: a scene's name need not be any.
-[[nodiscard]] std::string text_of(const nlohmann::ordered_json& json);
+[[nodiscard]] Json threads_json(const std::string& device, unsigned threads);
+/// As a file: a line for each member, and for each element of a list. Text that is no UTF-8 is replaced: a scene's name need not
+/// be any. Expects an object.
+[[nodiscard]] std::string text_of(const Json& object);
+
+template <class Value>
+[[nodiscard]] Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+template <class Items, class ToJson>
+[[nodiscard]] Json list_of(const Items& items, const ToJson& json_of) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
 
 }  // namespace pliant::bench

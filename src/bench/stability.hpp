@@ -70,7 +70,7 @@ struct ErrorRow {
   double turns = 0;
   std::uint64_t steps = 0;
   /// Root mean square of the distances between positions at the end, over amplitude times radius; when tumbling, over the radius
-  /// alone. Null in the file for the fp64 run itself; but when tumbling that of an fp64 run from a start 1e-12 m away, since the
+  /// alone. Null in the file for the fp64 run itself; but when tumbling that of an fp64 run from the nudged() start, since the
   /// body's own vibrations are chaotic: after a thousand turns they leave no digit of where it points.
   std::optional<double> error = {};
   double energy_change = 0;            // relative

@@ -20,6 +20,8 @@ namespace {
 constexpr double growth_limit = 1e-4;  // of amplitude, a step; as dynamics/stability.hpp has it
 constexpr double growth_in_all = 1e4;  // of energy; undamped splittings swing by 200 a quarter of a percent below their limit
 constexpr double blow_up = 30;         // of energy; they swing by 10 at 0.95 of it
+constexpr double still = 0.01;         // of the start's energy: what is left of a body at rest
+constexpr std::uint64_t judged_stride = 4;
 constexpr std::uint64_t window = 1000;
 
 CollisionDescription alone() {
@@ -89,18 +91,26 @@ TimePlan with_step(TimePlan plan, double time_step) {
 
 }  // namespace
 
-double Sphere::omega() const { return std::sqrt(vertex_count() * stiffness); }
+ModelBody Sphere::body() const {
+  ModelBody body;
+  body.vertex_count = vertex_count();
+  body.stiffness = stiffness;
+  body.damping = damping;
+  return body;
+}
+
+double Sphere::omega() const { return stiffest_frequency(body()); }
 
 ModelAndState Sphere::build() const {
   BodySetup setup{.mesh = generate_mesh("icosphere:" + std::to_string(level)), .description = {}};
-  BodyDescription& body = setup.description;
-  body.name = "sphere";
-  body.stiffness = stiffness;
-  body.damping = damping;
-  body.stretch = {1 - squash, 1 + 0.5 * squash, 1 + 0.5 * squash};
-  body.position = position;
-  body.velocity = velocity;
-  body.spin = spin;
+  BodyDescription& description = setup.description;
+  description.name = "sphere";
+  description.stiffness = stiffness;
+  description.damping = damping;
+  description.stretch = {1 - squash, 1 + 0.5 * squash, 1 + 0.5 * squash};
+  description.position = position;
+  description.velocity = velocity;
+  description.spin = spin;
   return build_model({&setup, 1}, glm::dvec3(0.0));
 }
 
@@ -148,24 +158,24 @@ std::optional<double> find_limit(Device& device, const ModelAndState& start, con
 }
 
 Verdict judge(Device& device, const ModelAndState& start, const TimePlan& plan, std::uint64_t steps) {
-  PLIANT_EXPECT(steps >= 32);
-  constexpr std::uint64_t samples = 8;
+  PLIANT_EXPECT(steps >= 4 * judged_stride);
   const double before = energy_of(start);
-  const std::uint64_t stride = steps / 4 / samples;
   Experiment experiment(device, start, plan);
-  experiment.advance(steps - samples * stride);
-  double kinetic = 0, largest = 0, last = 0;
-  for (std::uint64_t k = 0; k < samples && experiment.is_finite(); ++k) {
-    experiment.advance(stride);
+  Measurement last_quarter;  // the largest of each
+  double largest = 0, last = 0;
+  for (std::uint64_t done = 0; done < steps; done += judged_stride) {
+    experiment.advance(judged_stride);
     const Measurement now = experiment.measured();
     last = now.energy();
-    if (!std::isfinite(last)) break;
-    kinetic = std::max(kinetic, now.kinetic);
+    if (!std::isfinite(last)) return {Outcome::blown_up, std::numeric_limits<double>::infinity()};
     largest = std::max(largest, last);
+    if (4 * done < 3 * steps) continue;
+    last_quarter.kinetic = std::max(last_quarter.kinetic, now.kinetic);
+    last_quarter.elastic = std::max(last_quarter.elastic, now.elastic);
   }
-  if (!experiment.is_finite() || !std::isfinite(last)) return {Outcome::blown_up, std::numeric_limits<double>::infinity()};
   if (largest > blow_up * before) return {Outcome::blown_up, last / before};
-  return {kinetic < 0.01 * before ? Outcome::damped : Outcome::stable, last / before};
+  if (last_quarter.kinetic > still * before) return {Outcome::stable, last / before};
+  return {last_quarter.elastic > still * before ? Outcome::creeping : Outcome::damped, last / before};
 }
 
 std::optional<double> first_blow_up(Device& device, const ModelAndState& start, const TimePlan& plan, double predicted) {

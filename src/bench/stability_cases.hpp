@@ -21,6 +21,7 @@ struct Sphere {
   glm::dvec3 spin{0.0};      // [rad/s]
 
   [[nodiscard]] std::uint32_t vertex_count() const { return 10u * (1u << (2 * level)) + 2; }
+  [[nodiscard]] ModelBody body() const;  // its material, for bounds
   /// The stiffest mode's angular frequency, sqrt(N k / m) [rad/s].
   [[nodiscard]] double omega() const;
   [[nodiscard]] ModelAndState build() const;
@@ -42,9 +43,11 @@ void breathe(ModelAndState& start, double amplitude);
                                                double predicted);
 
 enum class Outcome {
-  stable,    // the rest
-  damped,    // kinetic energy stayed below a hundredth of the start's energy in the last quarter
-  blown_up,  // a vertex is not finite, or the energy has passed 30 times the start's
+  stable,    // the rest: moves on
+  damped,    // at rest in its own shape: kinetic and elastic energy stayed below a hundredth of the start's energy in the last
+             // quarter
+  creeping,  // kinetic energy did: so damped that it is not back in its shape yet
+  blown_up,  // a vertex was not finite at some time, or the energy above 30 times the start's
 };
 
 struct Verdict {
@@ -52,7 +55,7 @@ struct Verdict {
   double energy_ratio = 0;  // the end's energy over the start's; infinite where a vertex is not finite
 };
 
-/// After so many steps: at least 32.
+/// Over so many steps, looked at every four: at least 16.
 [[nodiscard]] Verdict judge(Device& device, const ModelAndState& start, const TimePlan& plan, std::uint64_t steps);
 
 /// The shortest step that blows up within 400 steps, of those every 2 % of `predicted` [s] from 0.4 to 1.2 of it; empty where
@@ -76,7 +79,7 @@ struct LongRun {
 
 [[nodiscard]] LongRun run_long(Device& device, const ModelAndState& start, const TimePlan& plan, std::uint64_t steps);
 
-/// The same start with every vertex moved by 1e-12 m: what becomes of that shows how well determined an end is.
+/// The same start with every coordinate 1e-12 m larger or smaller: what becomes of that shows how well determined an end is.
 [[nodiscard]] ModelAndState nudged(ModelAndState start);
 
 /// Root mean square over vertices of the distance between the states' world positions [m]; infinite where one is not finite.

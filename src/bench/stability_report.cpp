@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "bench/report_parts.hpp"
@@ -11,12 +11,11 @@
 namespace pliant::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
+Json finite_or_null(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
 const char* name_of(Outcome outcome) {
-  return outcome == Outcome::stable ? "stable" : outcome == Outcome::damped ? "damped" : "blown up";
+  constexpr std::array<const char*, 4> names{"stable", "damped", "creeping", "blown up"};
+  return names[static_cast<std::size_t>(outcome)];
 }
 
 std::string line(const LimitRow& row) {
@@ -47,7 +46,7 @@ std::string lines_of(const StabilityResult& result, const std::string& header) {
   return lines.empty() ? lines : header + lines + '\n';
 }
 
-char letter(const MapRow& row) { return row.outcome == Outcome::blown_up ? '#' : row.outcome == Outcome::damped ? '.' : 'o'; }
+char letter(const MapRow& row) { return "o.~#"[static_cast<std::size_t>(row.outcome)]; }
 
 // A line for each damping, a letter for each step, and a bar where the predicted bound lies.
 std::string maps(const StabilityResult& result) {
@@ -70,7 +69,7 @@ std::string maps(const StabilityResult& result) {
   }
   if (text.empty()) return text;
   return "maps: steps from 0.1 to 4 of the undamped bound, for each damping c [kg/s];\n"
-         "o stable, . damped to rest, # blown up, | the predicted bound\n\n" +
+         "o stable, . damped to rest, ~ creeping back to shape, # blown up, | the predicted bound\n\n" +
          text + "\n\n";
 }
 
@@ -84,7 +83,7 @@ Json row_json(const LimitRow& row) {
           {"damping", row.damping},
           {"amplitude", row.amplitude},
           {"predicted_step", row.predicted_step},
-          {"measured_step", or_null(row.measured_step)}};
+          {"measured_step", finite_or_null(row.measured_step)}};
 }
 
 Json row_json(const MapRow& row) {
@@ -101,7 +100,7 @@ Json row_json(const MapRow& row) {
           {"predicted_bound", row.predicted_bound},
           {"steps", row.steps},
           {"outcome", name_of(row.outcome)},
-          {"energy_ratio", or_null(row.energy_ratio)}};
+          {"energy_ratio", finite_or_null(row.energy_ratio)}};
 }
 
 Json row_json(const DriftRow& row) {
@@ -112,7 +111,7 @@ Json row_json(const DriftRow& row) {
           {"vertices", row.vertices},
           {"omega_step", row.omega_step},
           {"steps", row.steps},
-          {"energy_drift", or_null(row.energy_drift)},
+          {"energy_drift", finite_or_null(row.energy_drift)},
           {"predicted_drift", row.predicted_drift}};
 }
 
@@ -127,9 +126,9 @@ Json row_json(const ErrorRow& row) {
           {"distance", row.distance},
           {"turns", row.turns},
           {"steps", row.steps},
-          {"error", or_null(row.error)},
-          {"energy_change", or_null(row.energy_change)},
-          {"angular_momentum_change", or_null(row.angular_momentum_change)},
+          {"error", finite_or_null(row.error)},
+          {"energy_change", finite_or_null(row.energy_change)},
+          {"angular_momentum_change", finite_or_null(row.angular_momentum_change)},
           {"frame_changes", row.frame_changes}};
 }
 
@@ -151,14 +150,11 @@ std::string to_table(const StabilityResult& result) {
 }
 
 std::string to_json(const Machine& machine, const StabilityOptions& options, const StabilityResult& result) {
-  Json rows = Json::array();
-  for (const StabilityRow& row : result.rows) rows.push_back(std::visit([](const auto& known) { return row_json(known); }, row));
-  return text_of({{"suite", "stability"},
-                  {"options", options_json(options.devices, options.quick)},
-                  {"interrupted", result.interrupted},
-                  {"machine", machine_json(machine)},
-                  {"rows", rows},
-                  {"notes", result.notes}});
+  Json file = suite_json("stability", options_json(options.devices, options.quick), result.interrupted, machine);
+  file["rows"] = list_of(
+      result.rows, [](const StabilityRow& row) { return std::visit([](const auto& known) { return row_json(known); }, row); });
+  file["notes"] = result.notes;
+  return text_of(file);
 }
 
 }  // namespace pliant::bench

@@ -126,4 +126,10 @@ double step_bound(const Integrator& integrator, double omega_squared, double dam
   return splitting_bound(std::get<Splitting>(integrator.method), omega, damping_rate_max);
 }
 
+double step_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
+  const double rate = largest_damping_rate(body, law);
+  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;  // omega^2
+  return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
+}
+
 }  // namespace pliant

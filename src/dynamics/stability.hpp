@@ -18,6 +18,9 @@ namespace pliant {
 [[nodiscard]] double step_bound(const Integrator& integrator, double omega_squared /* N k/m [1/s^2] */,
                                 double damping_rate_max /* [1/s] */);
 
+/// The same for a body: of its stiffest mode, and of its own translation, which springs do not hold back.
+[[nodiscard]] double step_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law);
+
 /// Angular frequency of the body's stiffest small motion [1/s].
 [[nodiscard]] double stiffest_frequency(const ModelBody& body);
 

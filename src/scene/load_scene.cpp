@@ -236,7 +236,9 @@ class TableReader {
 // ---- The scene's keys ----
 
 const std::vector<Choice<DampingLaw>> damping_laws = {
-    {"none", DampingLaw::none}, {"constant", DampingLaw::constant}, {"adaptive", DampingLaw::adaptive}};
+    {name_of(DampingLaw::none), DampingLaw::none},
+    {name_of(DampingLaw::constant), DampingLaw::constant},
+    {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
 const std::vector<Choice<ContactResponse>> responses = {{"none", ContactResponse::none}, {"reflect", ContactResponse::reflect}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},

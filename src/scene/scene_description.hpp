@@ -17,6 +17,10 @@ struct Named {
 };
 
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
+/// As scenes and reports write it.
+constexpr const char* name_of(DampingLaw law) {
+  return law == DampingLaw::none ? "none" : law == DampingLaw::constant ? "constant" : "adaptive";
+}
 enum class ContactResponse { none, reflect };
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };

@@ -19,13 +19,6 @@ constexpr double first_step_fraction = 0.1;  // of the bound, where a tolerance 
 constexpr double smallest_tolerance_32 = 1e-7;
 constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
 
-double bound_of(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
-  const double rate = largest_damping_rate(body, law);
-  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;  // omega^2
-  // The stiffest mode, and the body's own translation, which springs do not hold back.
-  return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
-}
-
 double automatic_step(double bound, double frame_rate) {
   const double frame_time = 1 / frame_rate;
   if (!std::isfinite(bound)) return frame_time;
@@ -105,7 +98,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   expect_method_damps(plan, simulation.integrator.where);
   expect_method_estimates(plan, simulation.integrator.where);
   for (const ModelBody& body : model.bodies)
-    plan.step_bound = std::min(plan.step_bound, bound_of(*plan.integrator, body, plan.damping_law));
+    plan.step_bound = std::min(plan.step_bound, step_bound(*plan.integrator, body, plan.damping_law));
   if (plan.tolerance) {
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
     count_steps(scene, std::min(plan.step_bound, 1 / plan.frame_rate));

@@ -1,6 +1,7 @@
 // The suite `precision`: orders, other libraries' agreement, and the tables by made-up rows. Times decide nothing.
 #include "bench/precision.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -51,17 +52,24 @@ double error_of(const PeerMethod& method, double effort, const PrecisionCase& wh
   return relative_error(what, truth, ending_of(what.start.model, system.state_of(numbers, what.start.state)));
 }
 
+// Catch2 of version 2 knows no skipped tests.
+void say_what_is_skipped() {
+  for (const std::string& missing : missing_peers()) WARN("skipped for " << missing);
+}
+
 TEST_CASE("other libraries come to pliant's end at a tight tolerance, under every damping law") {
   const auto [law, tolerance, bound] =
       GENERATE(table<DampingLaw, double, double>({{DampingLaw::none, 1e-12, 1e-10},
                                                   {DampingLaw::constant, 1e-12, 1e-10},
                                                   {DampingLaw::adaptive, 1e-10, 1e-5}}));  // whose kinks cost the order
+  say_what_is_skipped();
   const PrecisionCase what = squashed_sphere(law);
   const Ending truth = truth_of(what);
   for (const PeerMethod& method : peer_methods(law != DampingLaw::none)) {
     if (!method.adaptive) continue;
+    const bool multistep = method.library == "CVODE";  // whose tolerance is a step's, of many short ones
     CAPTURE(static_cast<int>(law), method.library, method.name);
-    CHECK(error_of(method, tolerance, what, truth) < bound);
+    CHECK(error_of(method, tolerance, what, truth) < (multistep ? 10 : 1) * bound);
   }
 }
 
@@ -72,8 +80,10 @@ TEST_CASE("other libraries' fixed steps have their methods' order") {
                                              {"with pliant's vern8", 8},
                                              {"dopri5", 5},
                                              {"fehlberg78", 8},
+                                             {"with pliant's vern8", 8},
                                              {"symplectic_rkn_sb3a", 4},
                                              {"adams_bashforth_moulton 8", 8}};
+  say_what_is_skipped();
   const PrecisionCase what = squashed_sphere(DampingLaw::none);
   const Ending truth = truth_of(what);
   for (const PeerMethod& method : peer_methods(false)) {
@@ -82,6 +92,21 @@ TEST_CASE("other libraries' fixed steps have their methods' order") {
     const double coarse = error_of(method, steps, what, truth), fine = error_of(method, 2 * steps, what, truth);
     CAPTURE(method.library, method.name, coarse, fine);
     CHECK(std::log2(coarse / fine) > orders.at(method.name) - 0.5);
+  }
+}
+
+TEST_CASE("pliant's coefficients of Vern8 take the same steps in every library") {
+  say_what_is_skipped();
+  const PrecisionCase what = squashed_sphere(DampingLaw::none);
+  const Ending truth = truth_of(what);
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("vern8"), 10), what.collision);
+  simulation.advance(10);
+  const double own = relative_error(what, truth, ending_of(what.start.model, simulation.state()));
+  for (const PeerMethod& method : peer_methods(false)) {
+    if (method.name != "with pliant's vern8" || method.adaptive) continue;
+    CAPTURE(method.library);
+    CHECK(error_of(method, 10, what, truth) / own == Approx(1).epsilon(0.01));
   }
 }
 
@@ -139,19 +164,19 @@ TEST_CASE("an error is relative to the deformation, whatever the body's place") 
   CHECK(relative_error(what, here, there) == Approx(1e-3).epsilon(1e-9));
 }
 
-TEST_CASE("times between two errors are interpolated by their logarithms, and beyond them not at all") {
-  const ErrorTime points[] = {{1e-2, 1}, {1e-4, 4}, {1e-8, 16}};
-  CHECK(seconds_to_reach(1e-2, points) == 1.0);
-  CHECK(seconds_to_reach(1e-3, points).value() == Approx(2));
-  CHECK(seconds_to_reach(1e-6, points).value() == Approx(8));
-  CHECK(seconds_to_reach(1e-1, points) == 1.0);
-  CHECK_FALSE(seconds_to_reach(1e-9, points));
-  CHECK_FALSE(seconds_to_reach(1e-1, {}));
+TEST_CASE("costs between two errors are interpolated by their logarithms, and beyond them not at all") {
+  const ErrorCost points[] = {{1e-2, 1}, {1e-4, 4}, {1e-8, 16}};
+  CHECK(cost_to_reach(1e-2, points) == 1.0);
+  CHECK(cost_to_reach(1e-3, points).value() == Approx(2));
+  CHECK(cost_to_reach(1e-6, points).value() == Approx(8));
+  CHECK(cost_to_reach(1e-1, points) == 1.0);
+  CHECK_FALSE(cost_to_reach(1e-9, points));
+  CHECK_FALSE(cost_to_reach(1e-1, {}));
 }
 
 TEST_CASE("an error that rises in between hides no cheaper run") {
-  const ErrorTime points[] = {{1e-6, 1}, {1e-3, 2}, {1e-8, 4}};
-  CHECK(seconds_to_reach(1e-6, points) == 1.0);
+  const ErrorCost points[] = {{1e-6, 1}, {1e-3, 2}, {1e-8, 4}};
+  CHECK(cost_to_reach(1e-6, points) == 1.0);
 }
 
 PrecisionRow row(std::string library, std::string method, int precision, double error, double seconds) {
@@ -168,12 +193,14 @@ PrecisionRow row(std::string library, std::string method, int precision, double 
 }
 
 PrecisionResult made_up() {
-  return {.cases = {{.name = "case", .vertices = 10, .bodies = 1, .damping_law = "none", .is_contest = true}},
-          .rows = {row("pliant", "coarse", 64, 1e-2, 1e-3), row("pliant", "coarse", 64, 1e-4, 4e-3),
-                   row("pliant", "fine", 64, 1e-3, 3e-3), row("pliant", "fine", 64, 1e-7, 5e-3),
-                   row("pliant", "fine", 32, 1e-5, 1e-3), row("odeint", "other", 64, 1e-3, 9e-3),
-                   row("odeint", "other", 64, 1e-7, 11e-3)},
-          .notes = {"a note"}};
+  return {
+      .cases = {{.name = "case", .vertices = 10, .bodies = 1, .damping_law = "none", .is_contest = true, .is_complete = true}},
+      .rows = {row("pliant", "coarse", 64, 1e-2, 1e-3), row("pliant", "coarse", 64, 1e-4, 4e-3),
+               row("pliant", "fine", 64, 1e-3, 3e-3), row("pliant", "fine", 64, 1e-7, 5e-3),
+               row("pliant", "fine", 32, 1e-5, 1e-3), row("odeint", "other", 64, 1e-3, 9e-3),
+               row("odeint", "other", 64, 1e-7, 11e-3)},
+      .versions = {{"Boost", "1.74.0"}},
+      .notes = {"a note"}};
 }
 
 TEST_CASE("the cheapest method is the one that the rows say") {
@@ -188,27 +215,59 @@ TEST_CASE("the cheapest method is the one that the rows say") {
   CHECK(at(1e-2).pliant->contender.method == "coarse");
   CHECK(at(1e-3).pliant->contender.method == "coarse");  // 2 ms
   CHECK(at(1e-4).pliant->contender.method == "fine");
-  CHECK(at(1e-4).any->contender.precision == 32);
-  CHECK(at(1e-6).any->contender.precision == 64);
+  CHECK(at(1e-4).any->contender.place.precision == 32);
+  CHECK(at(1e-6).any->contender.place.precision == 64);
   CHECK(at(1e-3).lead().value() == Approx(4.5));
-  CHECK_FALSE(at(1e-3).arkode);
+  CHECK_FALSE(at(1e-3).peers[0]);
 }
 
 TEST_CASE("a lost error is named, and a won comparison names none") {
   PrecisionResult result = made_up();
-  REQUIRE(verdict_of(result).size() == 1);
-  CHECK_THAT(verdict_of(result).front(), !Catch::Contains("NOT"));
+  const auto verdict = [&] { return verdict_of(contest_of(result)); };
+  CHECK_THAT(verdict(), Catch::Contains("faster in 5, level in 0, slower in none"));  // 1e-3 to 1e-7
   result.rows.push_back(row("ARKODE", "quick", 64, 1e-6, 2.5e-3));
-  CHECK_THAT(verdict_of(result).front(), Catch::Contains("NOT faster at 1e-04, 1e-05, 1e-06"));
-  result.rows.push_back(row("ARKODE", "exact", 64, 1e-9, 1));  // where pliant has nothing
-  CHECK_THAT(verdict_of(result).front(), Catch::Contains("1e-08, 1e-09"));
+  CHECK_THAT(verdict(), Catch::Contains("SLOWER in 3: case at 1e-04, case at 1e-05, case at 1e-06"));
+  result.rows.push_back(row("CVODE", "exact", 64, 1e-9, 1));  // where pliant has nothing
+  CHECK_THAT(verdict(), Catch::Contains("case at 1e-08, case at 1e-09"));
+  result.cases.front().is_complete = false;
+  CHECK(verdict().empty());
+  result = made_up();
   result.rows.resize(5);
-  CHECK(verdict_of(result).empty());  // nobody to compare with
+  CHECK(verdict().empty());  // nobody to compare with
+}
+
+TEST_CASE("leads within 5 % are level, either way") {
+  CHECK(standing_of(1.06) == Standing::faster);
+  CHECK(standing_of(1.04) == Standing::level);
+  CHECK(standing_of(1 / 1.04) == Standing::level);
+  CHECK(standing_of(1 / 1.06) == Standing::slower);
+}
+
+TEST_CASE("a curve runs through what the best methods of one place reach, and costs rise along it") {
+  const std::vector<CostCurve> curves = cost_curves(made_up());
+  REQUIRE(curves.size() == 3);  // pliant in fp64 and in fp32, odeint
+  const CostCurve& curve = curves.front();
+  REQUIRE(curve.errors.size() == 51);  // 1e-2 to 1e-7
+  CHECK(curve.errors.front() == Approx(1e-2));
+  CHECK(curve.errors.back() == Approx(1e-7));
+  CHECK(curve.seconds[10] == Approx(2e-3));  // "coarse" at 1e-3
+  CHECK(curve.seconds.back() == Approx(5e-3));
+  CHECK(std::ranges::is_sorted(curve.seconds));
+  CHECK(curve.evaluations.front() == Approx(10));
+}
+
+TEST_CASE("an evaluation's cost is a median over a library's rows on one thread in fp64") {
+  const std::vector<EvaluationCost> costs = evaluation_costs(made_up());
+  REQUIRE(costs.size() == 2);
+  CHECK(costs[0].library == "pliant");
+  CHECK(costs[0].seconds == Approx(3.5e-4));
+  CHECK(costs[1].seconds == Approx(1e-3));
 }
 
 TEST_CASE("the table has every method of one thread in fp64, the winners and the notes") {
   CHECK_THAT(to_table(made_up()), Catch::Contains("coarse") && Catch::Contains("other") && Catch::Contains("coarse 2 ") &&
-                                      Catch::Contains("cpu x 1, fp32") && Catch::Contains("a note") && Catch::Contains("4.50"));
+                                      Catch::Contains("cpu x 1, fp32") && Catch::Contains("a note") &&
+                                      Catch::Contains("4.50 faster"));
 }
 
 TEST_CASE("times that vary much are told, and steady ones are not") {
@@ -235,7 +294,11 @@ TEST_CASE("the file of the suite precision has what a plot needs") {
   CHECK(json["rows"].front()["tolerance"].is_null());
   CHECK(json["rows"].back()["step"].is_null());
   CHECK(json["cases"].front().contains("reference_error"));
+  CHECK(json["versions"]["Boost"] == "1.74.0");
   CHECK(json["cheapest"].size() == 6);
+  CHECK(json["contest"].size() == 5);
+  CHECK(json["curves"].size() == 3);
+  CHECK(json["evaluation_costs"].front()["library"] == "pliant");
   CHECK(json["notes"].front() == "a note");
 }
 

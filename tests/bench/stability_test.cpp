@@ -64,10 +64,17 @@ TEST_CASE("a stable body is told from a damped one and from one that blows up") 
   CHECK(outcome("verlet", DampingLaw::none, 1) == Outcome::stable);
   CHECK(outcome("verlet", DampingLaw::none, 2.2) == Outcome::blown_up);
   CHECK(outcome("rk4", DampingLaw::none, 2.88) == Outcome::blown_up);  // steady, but inside out
-  for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) {
-    CHECK(outcome("verlet", law, 1.9) == Outcome::damped);
-    CHECK(outcome("cv8", law, 1.9) == Outcome::blown_up);
-  }
+  CHECK(outcome("verlet", DampingLaw::constant, 1.9) == Outcome::damped);
+  CHECK(outcome("verlet", DampingLaw::adaptive, 1.9) == Outcome::creeping);  // up to ten times the damping
+  for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) CHECK(outcome("cv8", law, 1.9) == Outcome::blown_up);
+}
+
+TEST_CASE("a body so damped that it hardly moves is not taken for one at rest in its shape") {
+  const auto device = make_cpu_device(1, 32);
+  const Sphere body{.damping = 1e6, .squash = 0.2, .velocity = {1, 0, 0}};  // shapes come back in g / omega^2 = 600 s
+  const Verdict verdict =
+      judge(*device, body.build(), plan_of(find_integrator("verlet"), DampingLaw::constant, 1.9 / body.omega()), 400);
+  CHECK(verdict.outcome == Outcome::creeping);
 }
 
 TEST_CASE("a squashed body's energy grows not at all when judged before it moves") {
@@ -100,7 +107,7 @@ TEST_CASE("far from the world's origin fp32 is as exact as at it") {
   const double near = error_at({0, 0, 0}), far = error_at({1e4, -6e3, 3e3});
   CHECK(near > 0);
   CHECK(near < 1e-6);
-  CHECK(far < 10 * near);
+  CHECK(far / near == Approx(1).margin(0.5));  // forces see differences alone, so that roundings differ but not their size
 }
 
 TEST_CASE("relative errors of fp32 stay below 2e-6 from amplitudes of 1e-4 to 0.5") {

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <memory>
 
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
