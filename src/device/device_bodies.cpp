@@ -72,7 +72,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   world_positions.upload(rounded_world_positions(model, state));
 }
 
-void DeviceBodies::clear_boxes() {
+void DeviceBodies::prepare_search() {
   std::vector<physics::Frame> cleared = frames.download();
   for (physics::Frame& frame : cleared) {
     std::fill_n(frame.box, 3, ~0u);

@@ -28,8 +28,9 @@ struct DeviceBodies {
   DeviceArray<physics::Control> control;   // one
 
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes every body's box empty, as the last pass of a step does, and ends a halt for now.
-  void clear_boxes();
+  /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as the last pass of a step leaves them,
+  /// and none halted for now.
+  void prepare_search();
   /// Of all bodies' steps from here on [s].
   void set_time_step(double time_step);
 };

@@ -172,7 +172,7 @@ Intersections Simulation::intersections() {
   const std::uint32_t current = half();
   const std::vector<std::uint32_t> marks_before = collider_.marks();
   bodies_.control.upload(std::span(&probe, 1));
-  bodies_.clear_boxes();
+  bodies_.prepare_search();
   device_.run(collider_.bounding_passes(current));
   device_.run(collider_.contact_passes(current));
 
@@ -183,7 +183,7 @@ Intersections Simulation::intersections() {
       result.bodies.push_back(model_.body_index(i));
   collider_.restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
-  bodies_.clear_boxes();  // the next step's are its own
+  bodies_.prepare_search();  // the next step's are its own
   return result;
 }
 

@@ -175,8 +175,8 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
     compare_pass(cpu, gpu, on_cpu.front(), on_gpu.front());
     seen.insert(on_cpu.front().name);
   }
-  cpu.bodies.clear_boxes();
-  gpu.bodies.clear_boxes();
+  cpu.bodies.prepare_search();
+  gpu.bodies.prepare_search();
   for (std::uint32_t step = 0; step < steps; ++step) {
     CAPTURE(step);
     const auto cpu_passes = cpu.step(step & 1), gpu_passes = gpu.step(step & 1);

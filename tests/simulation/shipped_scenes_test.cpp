@@ -61,7 +61,7 @@ PairSet pairs_by_tree(Device& device, const ModelAndState& start, const Collisio
   DeviceBodies bodies(device, start.model, start.state);
   Collider collider(device, bodies, start.model, description);
   bodies.world_positions.upload(positions);
-  bodies.clear_boxes();
+  bodies.prepare_search();
   device.run(collider.bounding_passes(0));
   device.run(collider.contact_passes(0));
   const Forest& forest = collider.forest();

@@ -244,7 +244,7 @@ std::uint32_t contacts_at_gap(Device& device, float gap, const CollisionDescript
   DeviceBodies bodies(device, start.model, start.state);
   const Collider collider(device, bodies, start.model, description);
   bodies.world_positions.upload(positions);  // the very bits: the model rounds
-  bodies.clear_boxes();
+  bodies.prepare_search();
   device.run(collider.bounding_passes(0));
   device.run(collider.contact_passes(0));
   const physics::Control control = bodies.control.download().front();
