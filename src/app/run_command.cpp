@@ -22,8 +22,6 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-constexpr std::uint64_t steps_at_once = 32;  // between looks at the clock and at Ctrl-C
-
 class Run {
  public:
   Run(const RunOptions& options, PreparedRun& prepared, const std::filesystem::path& folder)
@@ -74,7 +72,7 @@ class Run {
     const std::uint64_t before = report_.steps;
     while (report_.steps < target && !stopped())
       step([&] {
-        run_.simulation->advance(std::min(steps_at_once, target - report_.steps));
+        run_.simulation->advance(std::min(Simulation::most_steps_at_once, target - report_.steps));
         return run_.simulation->report();
       });
     if (report_.steps != before) record();
@@ -144,7 +142,8 @@ class Run {
     s.threads = run_.device->info().threads;
     s.integrator = run_.plan.integrator->name;
     if (const auto& adaptive = report_.adaptive)
-      s.adaptive = {*run_.plan.tolerance, report_.steps, adaptive->rejected, adaptive->smallest_step, adaptive->largest_step};
+      s.adaptive = {*run_.plan.tolerance,          report_.steps,           adaptive->rejected,
+                    adaptive->rejected_in_contact, adaptive->smallest_step, adaptive->largest_step};
     else
       s.time_step = run_.plan.time_step;
     s.steps = report_.steps;
@@ -192,8 +191,8 @@ class Run {
 
   std::string length_of_steps() const {
     if (!report_.adaptive) return fmt::format("{:.6g} s", run_.plan.time_step);
-    return fmt::format("{:.3g} to {:.3g} s ({} rejected)", report_.adaptive->smallest_step, report_.adaptive->largest_step,
-                       report_.adaptive->rejected);
+    return fmt::format("{:.3g} to {:.3g} s ({} rejected, {} of them in contact)", report_.adaptive->smallest_step,
+                       report_.adaptive->largest_step, report_.adaptive->rejected, report_.adaptive->rejected_in_contact);
   }
 
   void show_end() const {
@@ -224,11 +223,16 @@ class Run {
     return "shorten the time step, or lower stiffness, damping or velocities";
   }
 
+  std::string reason_for_breakdown(const NonFinite& where) const {
+    if (where.failed_step == 0) return "the simulation became non-finite";
+    return fmt::format("no step down to {:.3g} s meets the tolerance of {:g}", where.failed_step, *run_.plan.tolerance);
+  }
+
   // What went wrong, for people and for the summary; the step beyond its bound is among the warnings from before the run.
   std::optional<std::string> instability() const {
     if (report_.non_finite) {
       const NonFinite& where = *report_.non_finite;
-      return fmt::format("the simulation became non-finite in step {} at vertex {} of body \"{}\"; {}", where.step, where.vertex,
+      return fmt::format("{} in step {} at vertex {} of body \"{}\"; {}", reason_for_breakdown(where), where.step, where.vertex,
                          run_.start.model.bodies[where.body].name, remedy_for_breakdown());
     }
     const double growth = energy_growth();

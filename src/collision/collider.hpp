@@ -38,6 +38,7 @@ class Collider {
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const { return node_boxes_.download(); }
   /// Of every vertex, the latest step in which it touched another body; 0: none.
   [[nodiscard]] std::vector<std::uint32_t> marks() const { return marks_.download(); }
+  [[nodiscard]] BufferId mark_buffer() const { return marks_.id(); }
   void restore_marks(std::span<const std::uint32_t> marks) { marks_.upload(marks); }
 
  private:

@@ -25,12 +25,10 @@ Json device_json(const Summary& summary) { return {{"kind", summary.device.kind}
 
 Json adaptive_json(const Summary& summary) {
   if (!summary.adaptive) return nullptr;
-  const auto& [tolerance, accepted, rejected, smallest_step, largest_step] = *summary.adaptive;
-  return {{"tolerance", tolerance},
-          {"accepted", accepted},
-          {"rejected", rejected},
-          {"smallest_step", smallest_step},
-          {"largest_step", largest_step}};
+  const auto& [tolerance, accepted, rejected, rejected_in_contact, smallest_step, largest_step] = *summary.adaptive;
+  return {{"tolerance", tolerance},         {"accepted", accepted},
+          {"rejected", rejected},           {"rejected_in_contact", rejected_in_contact},
+          {"smallest_step", smallest_step}, {"largest_step", largest_step}};
 }
 
 Json energy_json(const Summary& summary) {

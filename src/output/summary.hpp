@@ -25,6 +25,7 @@ struct Summary {
   struct Adaptive {
     double tolerance = 0;
     std::uint64_t accepted = 0, rejected = 0;    // steps
+    std::uint64_t rejected_in_contact = 0;       // of those rejected
     double smallest_step = 0, largest_step = 0;  // of those accepted [s]
   };
   std::optional<Adaptive> adaptive;  // empty: steps are fixed

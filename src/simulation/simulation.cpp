@@ -12,8 +12,6 @@ namespace {
 
 using physics::Control;
 
-constexpr double most_steps_at_once = 32;
-
 void append(std::vector<Pass>& passes, std::vector<Pass> more) {
   passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -51,26 +49,44 @@ void expect_groups_met(const std::vector<physics::Frame>& frames) {
 
 }  // namespace
 
+namespace {
+
+// Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
+std::vector<Pass> search_while_following(std::vector<Pass> search, const std::vector<Pass>& following) {
+  const bool beside = search.size() > following.size();
+  for (std::size_t k = 0; k < following.size(); ++k) {
+    const auto place = search.end() - static_cast<std::ptrdiff_t>(beside ? following.size() - k : 0);
+    search.insert(place, beside ? beside_next(following[k]) : following[k]);
+  }
+  return search;
+}
+
+// Whether a step stands is known when contacts are; no frame follows one that does not.
+std::vector<Pass> search_and_judge(std::vector<Pass> search, const std::vector<Pass>& following, const Collider* collider,
+                                   const Pacer& pacer, std::uint32_t from_half) {
+  std::vector<Pass> passes{pacer.estimating_pass()};
+  if (!search.empty()) search.push_back(pacer.contact_pass(collider->mark_buffer(), from_half));
+  append(passes, std::move(search));
+  append(passes, pacer.judging_passes(from_half));
+  append(passes, following);
+  return passes;
+}
+
+}  // namespace
+
 std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
                               std::uint32_t from_half, const Pacer* pacer) {
   std::vector<Pass> passes;
   if (pacer != nullptr) passes.push_back(pacer->beginning_pass());
   append(passes, stepper.passes(from_half));
-  if (pacer != nullptr) append(passes, pacer->judging_passes(from_half));
-  std::vector<Pass> contacts;
-  if (collider != nullptr) contacts = collider->contact_passes(1 - from_half);
-  // Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
+  std::vector<Pass> search;
+  if (collider != nullptr) search = collider->contact_passes(1 - from_half);
   const std::vector<Pass> following = stepper.following_passes(from_half);
-  const bool beside = contacts.size() > following.size();
-  for (std::size_t k = 0; k < following.size(); ++k) {
-    const auto place = contacts.end() - static_cast<std::ptrdiff_t>(beside ? following.size() - k : 0);
-    contacts.insert(place, beside ? beside_next(following[k]) : following[k]);
-  }
-  append(passes, std::move(contacts));
+  append(passes, pacer == nullptr ? search_while_following(std::move(search), following)
+                                  : search_and_judge(std::move(search), following, collider, *pacer, from_half));
   if (collider != nullptr) append(passes, collider->response_passes(from_half));
-  const Pass finish = make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
-                                std::max(bodies.body_count, physics::counter_count));
-  passes.push_back(pacer != nullptr ? finish : beside_next(finish));  // begin_step asks for this step's contacts
+  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
+                                         std::max(bodies.body_count, physics::counter_count))));
   return passes;
 }
 
@@ -84,9 +100,11 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       collider_(device, bodies_, model, collision),
       fixed_step_(plan.time_step),
       responds_(collision.response == ContactResponse::reflect) {
-  if (plan.tolerance)
+  if (plan.tolerance) {
     pacer_.emplace(device, bodies_, model, stepper_, *plan.integrator, plan.damping_law,
                    PaceLimits{.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
+    known_pace_ = pacer_->pace();
+  }
   device.run(stepper_.first_passes());
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
 }
@@ -112,10 +130,9 @@ void Simulation::advance(std::uint64_t steps) {
 
 StepReport Simulation::advance_toward(double time) {
   PLIANT_EXPECT(pacer_.has_value());
-  const physics::Pace pace = pacer_->pace();
   pacer_->aim_at(time);
-  const double wanted = std::ceil((time - pace.time) / pace.allowed);
-  if (wanted > 0) queue(static_cast<std::uint64_t>(std::min(wanted, most_steps_at_once)));
+  const double wanted = std::ceil((time - known_pace_.time) / known_pace_.allowed);
+  if (wanted > 0) queue(static_cast<std::uint64_t>(std::min(wanted, static_cast<double>(most_steps_at_once))));
   return report();
 }
 
@@ -130,12 +147,12 @@ std::uint32_t Simulation::half() {
   return static_cast<std::uint32_t>((halted_at != 0 ? halted_at : queued_steps_) & 1);
 }
 
-void Simulation::add_pace(StepReport& report, const Control& control) const {
-  const physics::Pace pace = pacer_->pace();
-  report.steps = pace.accepted;
-  report.time = pace.time;
-  report.adaptive =
-      AdaptiveReport{pace.rejected, pace.smallest_taken, pace.largest_taken, physics::allowed_step(pace, control.contact_steps)};
+void Simulation::add_pace(StepReport& report) {
+  known_pace_ = pacer_->pace();
+  report.steps = known_pace_.accepted;
+  report.time = known_pace_.time;
+  report.adaptive = AdaptiveReport{known_pace_.rejected, known_pace_.rejected_in_contact, known_pace_.smallest_taken,
+                                   known_pace_.largest_taken, known_pace_.allowed};
 }
 
 StepReport Simulation::report() {
@@ -143,10 +160,11 @@ StepReport Simulation::report() {
   StepReport report;
   report.steps = control.step - 1;
   report.time = static_cast<double>(report.steps) * fixed_step_;
-  if (pacer_) add_pace(report, control);
+  if (pacer_) add_pace(report);
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
-    report.non_finite = NonFinite{report.steps, body, control.non_finite_vertex - model_.bodies[body].first_vertex};
+    report.non_finite =
+        NonFinite{report.steps, body, control.non_finite_vertex - model_.bodies[body].first_vertex, known_pace_.failed_step};
   }
   add_collision_counts(report, control);
   if (responds_ && collider_.uses_trees())

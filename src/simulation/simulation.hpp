@@ -17,19 +17,21 @@
 
 namespace pliant {
 
-/// The first vertex that went non-finite.
+/// The first vertex that went non-finite, or whose error meets the tolerance with no step.
 struct NonFinite {
   std::uint64_t step = 0;              // the step that made it, from 1
   std::uint32_t body = 0, vertex = 0;  // vertex of the body
+  double failed_step = 0;              // the shortest step tried, if its error was still too large [s]; else 0
 
   bool operator==(const NonFinite&) const = default;
 };
 
 /// Of steps that a tolerance governs.
 struct AdaptiveReport {
-  std::uint64_t rejected = 0;                  // steps that were undone, their error being too large
+  std::uint64_t rejected = 0;                  // steps that were undone: their error was too large, or they met a contact
+  std::uint64_t rejected_in_contact = 0;       // of them, those in which touching vertices moved too far against each other
   double smallest_step = 0, largest_step = 0;  // of the others [s]; 0: there are none
-  double next_step = 0;                        // allowed [s]
+  double next_step = 0;                        // allowed, before it is fitted to a target [s]
 
   bool operator==(const AdaptiveReport&) const = default;
 };
@@ -67,6 +69,8 @@ struct Intersections {
 
 class Simulation {
  public:
+  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports, so that nobody waits long
+
   /// `device` and `model` must outlive the simulation.
   Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, const CollisionDescription& collision);
   Simulation(const Simulation&) = delete;
@@ -74,8 +78,8 @@ class Simulation {
 
   /// Queues steps of a fixed length; they may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
-  /// With a tolerance instead: queues as many steps as may reach `time` [s], 32 at most, waits, and reports. The last one ends
-  /// there exactly; what is queued beyond it is empty.
+  /// With a tolerance instead: queues as many steps as may reach `time` [s], most_steps_at_once at most, waits, and reports. The
+  /// last one ends there exactly; what is queued beyond it is empty.
   StepReport advance_toward(double time);
   /// Goes on until report().time is `time` [s], or a step was non-finite.
   StepReport advance_to(double time);
@@ -99,7 +103,7 @@ class Simulation {
   [[nodiscard]] std::uint32_t half();  // the one that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
-  void add_pace(StepReport& report, const physics::Control& control) const;
+  void add_pace(StepReport& report);
 
   Device& device_;
   const Model& model_;
@@ -107,6 +111,7 @@ class Simulation {
   Stepper stepper_;
   Collider collider_;
   std::optional<Pacer> pacer_;                  // where a tolerance governs the steps
+  physics::Pace known_pace_{};                  // of the latest report
   double fixed_step_;                           // else their length [s]
   bool responds_;                               // to contacts; else none are looked for
   std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from

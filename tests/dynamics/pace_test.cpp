@@ -17,15 +17,29 @@ Pace pace_with(double tolerance) {
   pace.tolerance = tolerance;
   pace.allowed = pace.first_step = 0.01;
   pace.largest_step = 1;
+  pace.largest_motion = 0.2;
   pace.estimate_order = 8;
-  physics::start_anew(pace, 0);
+  pace.error_before = physics::aimed_error();
+  physics::forget_step(pace);
   return pace;
 }
 
-// Judges a step as if the method's estimate were this.
-void judge_with(Pace& pace, double taken, float estimate) {
-  pace.estimate[0] = std::bit_cast<std::uint32_t>(estimate);
+// Judges a step as if the largest error of a vertex were this.
+void judge_with(Pace& pace, double taken, float error) {
+  pace.error = std::bit_cast<std::uint32_t>(error);
   physics::judge(pace, taken);
+}
+
+// One more vertex touches, and has gone this way in the step.
+void touch(Pace& pace, glm::vec3 way) {
+  for (int k = 0; k < 3; ++k) {
+    pace.touching_motion[k] = std::min(pace.touching_motion[k], physics::ordered_bits(way[k]));
+    pace.touching_motion[3 + k] = std::max(pace.touching_motion[3 + k], physics::ordered_bits(way[k]));
+  }
+}
+
+float joined(float e, float f) {
+  return std::bit_cast<float>(physics::joined_error(std::bit_cast<std::uint32_t>(e), std::bit_cast<std::uint32_t>(f)));
 }
 
 }  // namespace
@@ -42,7 +56,7 @@ TEST_CASE("fitted steps end at the target exactly, never pass it and leave no sl
     CAPTURE(allowed, total);
     double shortest = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 2000 && pace.time < total; ++step) {
-      const double taken = physics::next_step(pace, 0);
+      const double taken = physics::next_step(pace);
       REQUIRE(taken > 0);
       REQUIRE(taken <= allowed);
       shortest = std::min(shortest, taken);
@@ -51,7 +65,7 @@ TEST_CASE("fitted steps end at the target exactly, never pass it and leave no sl
     }
     if (total < 2000 * allowed) CHECK(pace.time == total);
     CHECK(shortest >= std::min(total, 0.499 * allowed));
-    if (pace.time == total) CHECK(physics::next_step(pace, 0) == 0);
+    if (pace.time == total) CHECK(physics::next_step(pace) == 0);
   }
 }
 
@@ -60,7 +74,7 @@ TEST_CASE("a step that reaches the target takes the time there, whatever its sum
   pace.target = 1 + 0x1p-52;
   pace.time = 0x1p-53;  // target - time is 1, and time + 1 is 1
   pace.allowed = 10;
-  judge_with(pace, physics::next_step(pace, 0), 0);
+  judge_with(pace, physics::next_step(pace), 0);
   CHECK(pace.time == pace.target);
 }
 
@@ -75,30 +89,29 @@ TEST_CASE("a step stands if its error is within the tolerance, and else nothing 
     CHECK(pace.time == (stands ? 0.01 : 0.0));
     CHECK(pace.accepted == (stands ? 1 : 0));
     CHECK(pace.rejected == (stands ? 0 : 1));
-    CHECK((pace.estimate[0] == 0 && pace.estimate[1] == 0));
+    CHECK(pace.error == 0);
     if (!stands) CHECK((pace.allowed < 0.01 && pace.allowed >= 0.01 / 3 * (1 - 1e-12)));
   }
 }
 
-TEST_CASE("two estimates join as dop853's do, and an infinite second one rejects") {
-  Pace pace = pace_with(1e-6);
-  pace.estimate[1] = std::bit_cast<std::uint32_t>(100.0f);
-  judge_with(pace, 0.01, 1e-3f);  // 1e-6 / sqrt(1e-6 + 100) = 1e-7
-  CHECK(pace.verdict == physics::step_accepted);
-  pace = pace_with(1e-6);
-  pace.estimate[1] = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN());
-  judge_with(pace, 0.01, 1e-9f);
-  CHECK(pace.verdict == physics::step_rejected);
+TEST_CASE("two estimates join as dop853's do, and an infinite one is an infinite error") {
+  CHECK(joined(1e-3f, 100.0f) == Approx(1e-7));  // 1e-6 / sqrt(1e-6 + 100)
+  CHECK(joined(1e-3f, 0.0f) == 1e-3f);
+  CHECK(joined(0.0f, 0.0f) == 0);
+  for (const float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    CHECK(std::isinf(joined(1e-9f, broken)));
+    CHECK(std::isinf(joined(broken, 1.0f)));
+  }
 }
 
 TEST_CASE("where the error is a power of the step, steps settle where it is just within the tolerance") {
   Pace pace = pace_with(1e-6);
   const auto error_of = [](double step) { return static_cast<float>(3 * std::pow(step, 8)); };
   for (int k = 0; k < 100; ++k) {
-    const double taken = physics::next_step(pace, 0);
+    const double taken = physics::next_step(pace);
     judge_with(pace, taken, error_of(taken));
   }
-  const double settled = physics::next_step(pace, 0);
+  const double settled = physics::next_step(pace);
   CHECK(error_of(settled) < 1e-6f);
   CHECK(error_of(1.2 * settled) > 1e-6f);
   CHECK(pace.rejected <= 2);
@@ -108,18 +121,79 @@ TEST_CASE("a step cut short for a target does not shorten those after it") {
   Pace pace = pace_with(1e-6);
   pace.allowed = 0.5;
   pace.target = 0.001;
-  judge_with(pace, physics::next_step(pace, 0), 0.9e-6f);
+  judge_with(pace, physics::next_step(pace), 0.9e-6f);
   CHECK(pace.time == 0.001);
   CHECK(pace.allowed >= 0.5);
 }
 
-TEST_CASE("no step is longer than the longest one, and after a contact none is longer than the first") {
+TEST_CASE("no step is longer than the longest one") {
   Pace pace = pace_with(1e-6);
-  for (int k = 0; k < 20; ++k) judge_with(pace, physics::next_step(pace, 0), 0);
-  CHECK(physics::next_step(pace, 0) == pace.largest_step);
-  CHECK(physics::next_step(pace, 1) == pace.first_step);
-  physics::start_anew(pace, 1);
-  CHECK(physics::next_step(pace, 1) == pace.first_step);
+  for (int k = 0; k < 20; ++k) judge_with(pace, physics::next_step(pace), 0);
+  CHECK(physics::next_step(pace) == pace.largest_step);
+}
+
+TEST_CASE("the step after a contact is no longer than the first, however little the bodies moved") {
+  Pace pace = pace_with(1e-6);
+  for (int k = 0; k < 20; ++k) judge_with(pace, physics::next_step(pace), 0);
+  touch(pace, {0, 0, 0});
+  judge_with(pace, 1, 0);
+  CHECK(pace.verdict == physics::step_accepted);
+  CHECK(physics::next_step(pace) == pace.first_step);
+  judge_with(pace, pace.first_step, 0);
+  CHECK(physics::next_step(pace) > pace.first_step);
+}
+
+TEST_CASE("a step with a contact stands if no two touching vertices went too far against each other") {
+  for (const float way : {0.19f, 0.21f}) {
+    Pace pace = pace_with(1e-6);
+    const glm::vec3 common(7, -300, 20), across = way * glm::vec3(2, -1, 2) / 3.0f;
+    touch(pace, common + across);
+    touch(pace, common);
+    judge_with(pace, 0.01, 0);
+    CHECK(pace.verdict == (way < 0.2f ? physics::step_accepted : physics::step_rejected));
+    CHECK(pace.rejected_in_contact == (way < 0.2f ? 0 : 1));
+    CHECK(pace.time == (way < 0.2f ? 0.01 : 0));
+    CHECK(physics::next_step(pace) == Approx(0.8 * 0.01 * 0.2 / way).epsilon(1e-3));
+    judge_with(pace, physics::next_step(pace), 0);  // without contacts
+    CHECK(pace.verdict == physics::step_accepted);
+  }
+}
+
+TEST_CASE("where a step was undone for a contact steps stay short, and beyond it grow again") {
+  Pace pace = pace_with(1e-6);
+  pace.allowed = 1;
+  touch(pace, {0, 0, 0});
+  touch(pace, {40, 0, 0});
+  judge_with(pace, 1, 0);
+  const double step = physics::next_step(pace);
+  CHECK(step == Approx(0.8 * 0.2 / 40).epsilon(1e-3));
+  while (pace.time + step < 1) {
+    REQUIRE(physics::next_step(pace) == step);
+    judge_with(pace, step, 0);
+  }
+  judge_with(pace, physics::next_step(pace), 0);
+  judge_with(pace, physics::next_step(pace), 0);
+  CHECK(physics::next_step(pace) > 2 * step);
+}
+
+TEST_CASE("an error that is too large counts before a contact, and says nothing of it") {
+  Pace pace = pace_with(1e-6);
+  touch(pace, {0, 0, 0});
+  touch(pace, {40, 0, 0});
+  judge_with(pace, 0.01, 1);
+  CHECK((pace.rejected == 1 && pace.rejected_in_contact == 0));
+  CHECK(physics::next_step(pace) >= 0.01 / 3 * (1 - 1e-12));
+}
+
+TEST_CASE("the shortest step stands in contact, and with too large an error says so") {
+  Pace pace = pace_with(1e-6);
+  const double shortest = physics::shortest_step(pace);
+  touch(pace, {0, 0, 0});
+  touch(pace, {40, 0, 0});
+  judge_with(pace, shortest, 0);
+  CHECK((pace.accepted == 1 && pace.failed_step == 0));
+  judge_with(pace, physics::shortest_step(pace), 1);
+  CHECK((pace.accepted == 2 && pace.failed_step == physics::shortest_step(pace_with(1e-6))));
 }
 
 }  // namespace pliant

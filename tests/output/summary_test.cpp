@@ -93,13 +93,16 @@ TEST_CASE("a summary's values read back as they were") {
 
 TEST_CASE("steps that a tolerance governs have no one length, but are counted") {
   Summary summary;
-  summary.adaptive = {.tolerance = 1e-6, .accepted = 5, .rejected = 2, .smallest_step = 0.25, .largest_step = 0.5};
+  summary.adaptive = {
+      .tolerance = 1e-6, .accepted = 5, .rejected = 2, .rejected_in_contact = 1, .smallest_step = 0.25, .largest_step = 0.5};
   const Json json = written(summary);
   CHECK(json["time_step"].is_null());
-  CHECK(keys(json["adaptive"]) == std::vector<std::string>{"tolerance", "accepted", "rejected", "smallest_step", "largest_step"});
+  CHECK(keys(json["adaptive"]) ==
+        std::vector<std::string>{"tolerance", "accepted", "rejected", "rejected_in_contact", "smallest_step", "largest_step"});
   CHECK(json["adaptive"]["tolerance"] == 1e-6);
   CHECK(json["adaptive"]["accepted"] == 5);
   CHECK(json["adaptive"]["rejected"] == 2);
+  CHECK(json["adaptive"]["rejected_in_contact"] == 1);
   CHECK(json["adaptive"]["smallest_step"] == 0.25);
   CHECK(json["adaptive"]["largest_step"] == 0.5);
 }

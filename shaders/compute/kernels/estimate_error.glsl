@@ -28,9 +28,9 @@ void estimate_error(uint i) {
   double of_position = h * h * error_scale[2u * b], of_velocity = h * error_scale[2u * b + 1u];
   uint first = max(bits_of(of_position * position), bits_of(of_velocity * velocity));
   uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
-  atomicMax(pace[0].estimate[0], first);
-  atomicMax(pace[0].estimate[1], second);
+  uint error = joined_error(first, second);
+  atomicMax(pace[0].error, error);
   // The shortest step stands, but ends the run where its error is too large: by this vertex, if by none before it.
-  if (h <= shortest_step(pace[0]) && judged_error(first, second, pace[0].tolerance) > double(1))
+  if (h <= shortest_step(pace[0]) && judged_error(error, pace[0].tolerance) > double(1))
     atomicMin(frame[b].non_finite_vertex, i);
 }

@@ -2,7 +2,7 @@
 // (1991) 533-554; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4 and II.5 (dop853's estimate).
 #ifndef PACE_GLSL
 #define PACE_GLSL
-#include "language.glsl"
+#include "collision/box.glsl"
 SHARED_BEGIN
 #ifdef __cplusplus
 using std::pow, glm::clamp;
@@ -19,18 +19,24 @@ struct Pace {
   double target;          // where a step is to end exactly [s]
   double allowed;         // length of the next step, before it is fitted to the target [s]
   double tolerance;       // of a step's error
-  double first_step;      // at the start and after a contact [s]
+  double first_step;      // at the start, and the longest after a contact [s]
   double largest_step;    // [s]
   double error_before;    // of the latest step that was not cut short, in units of the tolerance
+  double largest_motion;  // of touching vertices against each other in a step [m]
+  double contact_step;    // in which they would move nearly as far, from the latest contact [s]
+  double contact_until;   // the time up to which no step is longer than that: where one that met a contact was to end [s]
+  double failed_step;     // the shortest one, whose error was too large still: with it the run ends [s]; 0: there is none
   double smallest_taken;  // of the steps that were accepted [s]
   double largest_taken;   // likewise [s]
-  uint estimate[2];       // this step's errors by the method's two estimates, the largest over all vertices; bits of floats
+  uint error;             // this step's, the largest over all vertices; bits of a float
+  uint touching_motion[6];  // box of the ways that touching vertices went in this step: lower and upper corner, as ordered bits
   uint estimate_order;    // the error grows with this power of the step
   uint verdict;           // on the latest step
   uint accepted;          // steps, so far
   uint rejected;          // likewise
-  uint retries;           // 1: the step before was rejected
-  uint contact_steps;     // as many as were known when the latest step was judged
+  uint rejected_in_contact;  // of them, not for their error but for the way that touching vertices went
+  uint retries;           // 1: the step before was rejected for its error
+  uint padding;
 };
 
 // Shorter than this no step is tried again: its end would be lost in the time's rounding, or nothing helps.
@@ -43,33 +49,44 @@ FN double fitted_step(double allowed, double left) {
   return left < double(2) * allowed ? left * double(0.5) : allowed;
 }
 
-// A contact breaks the motion off: errors from before say nothing for a longer step than the first.
-FN double allowed_step(IN(Pace) pace, uint contact_steps) {
-  return contact_steps == pace.contact_steps ? pace.allowed : min(pace.allowed, pace.first_step);
-}
-
-FN double next_step(IN(Pace) pace, uint contact_steps) {
-  return fitted_step(allowed_step(pace, contact_steps), pace.target - pace.time);
-}
+FN double next_step(IN(Pace) pace) { return fitted_step(pace.allowed, pace.target - pace.time); }
 
 // Steps are meant to have this error, in units of the tolerance: so far below it that few are rejected.
 FN double aimed_error() { return double(2) / double(5); }
 
-FN void start_anew(INOUT(Pace) pace, uint contact_steps) {
-  pace.allowed = allowed_step(pace, contact_steps);
-  pace.contact_steps = contact_steps;
-  pace.error_before = aimed_error();
-  pace.retries = 0u;
+FN void forget_step(INOUT(Pace) pace) {
+  pace.error = 0u;
+  for (uint k = 0u; k < 3u; ++k) {
+    pace.touching_motion[k] = 0xffffffffu;
+    pace.touching_motion[3u + k] = 0u;
+  }
 }
 
-// In units of the tolerance, from two estimates e and f as bits of floats: e^2 / sqrt(e^2 + f^2 / 100), as in dop853. NaN counts as
-// infinite; by bits, because shader compilers turn comparisons round as if there were no NaN.
-FN double judged_error(uint e_bits, uint f_bits, double tolerance) {
+// A vertex's error from the method's two estimates e and f, all as bits of floats: e^2 / sqrt(e^2 + f^2 / 100), as in dop853. NaN
+// counts as infinite; by bits, because shader compilers turn comparisons round as if there were no NaN.
+FN uint joined_error(uint e_bits, uint f_bits) {
   const uint infinite = 0x7f800000u;
-  if (max(e_bits, f_bits) >= infinite) return double(1e30);
+  if (max(e_bits, f_bits) >= infinite) return infinite;
   double e = double(uintBitsToFloat(e_bits)), f = double(uintBitsToFloat(f_bits));
-  if (e == double(0)) return double(0);
-  return e * e / (sqrt(e * e + f * f / double(100)) * tolerance);
+  return e_bits == 0u ? 0u : floatBitsToUint(float(e * e / sqrt(e * e + f * f / double(100))));
+}
+
+// In units of the tolerance.
+FN double judged_error(uint error_bits, double tolerance) {
+  return error_bits >= 0x7f800000u ? double(1e30) : double(uintBitsToFloat(error_bits)) / tolerance;
+}
+
+FN bool touches(IN(Pace) pace) { return pace.touching_motion[0] <= pace.touching_motion[3]; }
+
+// No two touching vertices went further against each other than this, in units of what they may. It grows with the step, and a
+// common motion adds nothing.
+FN double judged_motion(IN(Pace) pace) {
+  double squared = double(0);
+  for (uint k = 0u; k < 3u && touches(pace); ++k) {
+    double side = double(from_ordered_bits(pace.touching_motion[3u + k])) - double(from_ordered_bits(pace.touching_motion[k]));
+    squared += side * side;
+  }
+  return sqrt(squared) / pace.largest_motion;
 }
 
 // By what factor the next step may be longer than one with this error. GLSL has powers of floats alone.
@@ -111,16 +128,37 @@ FN void reject_step(INOUT(Pace) pace, double taken, double error) {
   pace.verdict = step_rejected;
 }
 
+// Bodies would go too deep into each other to part again. Where they would have met, steps stay short.
+FN void reject_contact(INOUT(Pace) pace, double taken) {
+  pace.contact_until = max(pace.contact_until, pace.time + taken);
+  pace.rejected += 1u;
+  pace.rejected_in_contact += 1u;
+  pace.verdict = step_rejected;
+}
+
+// Errors from before a contact say nothing of a motion that it has broken off.
+FN void follow_contact(INOUT(Pace) pace, double taken, double motion) {
+  const double aimed_motion = double(4) / double(5);
+  pace.contact_step = max(min(pace.first_step, taken * aimed_motion / max(motion, double(1e-6))), shortest_step(pace));
+  pace.allowed = min(pace.allowed, pace.contact_step);
+  pace.error_before = aimed_error();
+}
+
 // Decides on a step of the length `taken`, and how long the next may be. The shortest step stands whatever its error, for the run
-// ends with it.
+// ends with it, and whatever its contacts.
 FN void judge(INOUT(Pace) pace, double taken) {
-  double error = judged_error(pace.estimate[0], pace.estimate[1], pace.tolerance);
-  if (error <= double(1) || taken <= shortest_step(pace))
-    accept_step(pace, taken, error);
-  else
+  double error = judged_error(pace.error, pace.tolerance), motion = judged_motion(pace);
+  bool is_shortest = taken <= shortest_step(pace);
+  if (is_shortest && error > double(1)) pace.failed_step = taken;
+  if (error > double(1) && !is_shortest)
     reject_step(pace, taken, error);
-  pace.estimate[0] = 0u;
-  pace.estimate[1] = 0u;
+  else if (motion > double(1) && !is_shortest)
+    reject_contact(pace, taken);
+  else
+    accept_step(pace, taken, error);
+  if (touches(pace) && (pace.verdict == step_accepted || error <= double(1))) follow_contact(pace, taken, motion);
+  if (pace.time < pace.contact_until) pace.allowed = min(pace.allowed, pace.contact_step);
+  forget_step(pace);
 }
 
 SHARED_END
