@@ -25,6 +25,8 @@ Json described_integrators() {
                     {"order", integrator.order},
                     {"force_evaluations_per_step", evaluations_per_step(integrator)},
                     {"damping", allows_damping(integrator)},
+                    {"tolerance", estimates_error(integrator)},
+                    {"strained_bound", integrator.strained_bound},
                     {"description", integrator.description},
                     {"source", integrator.source}});
   return list;
@@ -47,11 +49,13 @@ Json described_devices() {
 }
 
 void print_integrators(const Json& list) {
-  fmt::print("{:<12} {:>5} {:>12}  {:<8} {}\n", "name", "order", "forces/step", "damping", "description");
+  const auto yes_or_no = [](const Json& value) { return value.get<bool>() ? "yes" : "no"; };
+  fmt::print("{:<12} {:>5} {:>12}  {:<8} {:<10} {}\n", "name", "order", "forces/step", "damping", "tolerance", "description");
   for (const Json& row : list)
-    fmt::print("{:<12} {:>5} {:>12}  {:<8} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
-               row["force_evaluations_per_step"].get<int>(), row["damping"].get<bool>() ? "yes" : "no",
+    fmt::print("{:<12} {:>5} {:>12}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
+               row["force_evaluations_per_step"].get<int>(), yes_or_no(row["damping"]), yes_or_no(row["tolerance"]),
                row["description"].get<std::string>());
+  fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }
 
 void print_devices(const Json& devices) {

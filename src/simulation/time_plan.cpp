@@ -1,4 +1,4 @@
-// The automatic step keeps a tenth away from the stability bound of the stiffest body.
+// The automatic step keeps a tenth away from what the stiffest body bears when it is squashed to a half.
 #include "simulation/time_plan.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr double first_step_fraction = 0.1;  // of the bound, where a tolerance 
 constexpr double smallest_tolerance_32 = 1e-7;
 constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
 
-double automatic_step(double bound, double frame_rate) {
+double automatic_step(double bound /* for strained bodies */, double frame_rate) {
   const double frame_time = 1 / frame_rate;
   if (!std::isfinite(bound)) return frame_time;
   return frame_time / std::max(1.0, std::ceil(frame_time / (safety * bound) - 1e-9));
@@ -43,15 +43,16 @@ const Integrator& choose_integrator(const SimulationDescription& simulation, Dam
 std::string names_with_estimate() {
   std::string names;
   for (const Integrator& integrator : integrators())
-    if (estimates_error(integrator)) names += std::string(integrator.name) + ", ";
-  return names + "auto";
+    if (estimates_error(integrator)) names += (names.empty() ? "" : ", ") + std::string(integrator.name);
+  return names;
 }
 
 void expect_method_estimates(const TimePlan& plan, const std::string& where) {
   if (!plan.tolerance || estimates_error(*plan.integrator)) return;
   throw Error(fault_of(where), where,
               fmt::format("{} does not estimate its error, which a tolerance needs", plan.integrator->name),
-              fmt::format("choose one of {}; or give a time_step instead of the tolerance", names_with_estimate()));
+              fmt::format("take \"auto\" (--integrator auto), or one of {}; or give a time_step instead of the tolerance",
+                          names_with_estimate()));
 }
 
 void expect_method_damps(const TimePlan& plan, const std::string& where) {
@@ -103,7 +104,8 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
     count_steps(scene, std::min(plan.step_bound, 1 / plan.frame_rate));
   } else {
-    plan.time_step = simulation.time_step.value_or(automatic_step(plan.step_bound, plan.frame_rate));
+    plan.time_step =
+        simulation.time_step.value_or(automatic_step(plan.integrator->strained_bound * plan.step_bound, plan.frame_rate));
     plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
   }
   return plan;

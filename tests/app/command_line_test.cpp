@@ -113,6 +113,12 @@ TEST_CASE("with a tolerance every frame is exactly at its time, and the summary 
   CHECK_THAT(result.output, Catch::Contains("rejected"));
 }
 
+TEST_CASE("a shipped scene meets a tolerance with integrator auto, and without it the error says so") {
+  const std::string run = "run " + shipped_scene("two_spheres") + " --device cpu --check --tolerance 1e-3";
+  check_fails(run, 3, {"two_spheres.toml:", "cv8 does not estimate its error", "--integrator auto"});
+  CHECK(run_program(run + " --integrator auto").exit_code == 0);
+}
+
 TEST_CASE("a check with a tolerance estimates the number of steps") {
   const ScratchFolder folder;
   const ProgramResult result =
@@ -428,9 +434,14 @@ TEST_CASE("info lists devices and integrators") {
   CHECK(devices["cpu"]["threads"] >= 1);
   CHECK(devices["gpus"].size() == gl::list_adapters().size());
   const auto integrators = nlohmann::json::parse(run_program("info --integrators --json").output);
-  std::vector<std::string> names;
-  for (const auto& row : integrators) names.push_back(row["name"]);
+  std::vector<std::string> names, meeting_tolerances;
+  for (const auto& row : integrators) {
+    names.push_back(row["name"]);
+    if (row["tolerance"]) meeting_tolerances.push_back(row["name"]);
+  }
   CHECK(names == std::vector<std::string>{"verlet", "rk4", "srkn11b", "cv8", "cv8_minus", "dop853", "verner78_8", "vern8"});
+  CHECK(meeting_tolerances == std::vector<std::string>{"dop853", "verner78_8", "vern8"});
+  CHECK_THAT(run_program("info --integrators").output, Catch::Contains("tolerance") && Catch::Contains("\"auto\""));
   CHECK(run_program("--version").exit_code == 0);
   CHECK(run_program("--help").exit_code == 0);
 }
