@@ -51,8 +51,9 @@ FN double fitted_step(double allowed, double left) {
 
 FN double next_step(IN(Pace) pace) { return fitted_step(pace.allowed, pace.target - pace.time); }
 
-// Steps are meant to have this error, in units of the tolerance: so far below it that few are rejected.
-FN double aimed_error() { return double(2) / double(5); }
+// Steps are meant to have this error, in units of the tolerance: so far below it that few are rejected. Measured at equal true error:
+// against 0.4, with exponents 0.7 and 0.4, forces are summed 10 to 16 % less often where damping is kinked and no more often elsewhere.
+FN double aimed_error() { return double(1) / double(10); }
 
 FN void forget_step(INOUT(Pace) pace) {
   pace.error = 0u;
@@ -97,7 +98,7 @@ FN double power_of_error(double error, float exponent) {
 
 FN double after_acceptance(IN(Pace) pace, double error) {
   float k = float(pace.estimate_order);
-  double factor = power_of_error(error, -0.7f / k) * power_of_error(pace.error_before, 0.4f / k);
+  double factor = power_of_error(error, -0.5f / k) * power_of_error(pace.error_before, 0.2f / k);
   return clamp(factor, double(1) / double(3), double(6));
 }
 
