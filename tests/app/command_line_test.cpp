@@ -103,7 +103,7 @@ TEST_CASE("with a tolerance every frame is exactly at its time, and the summary 
   const auto summary = summary_in(folder.path);
   CHECK(summary["simulated_seconds"] == 0.2);
   CHECK(summary["time_step"].is_null());
-  CHECK(summary["integrator"] == "dop853");
+  CHECK(summary["integrator"] == "verner78_8");
   CHECK(summary["contacts"]["steps"] > 0);
   const auto adaptive = summary["adaptive"];
   CHECK(adaptive["tolerance"] == 1e-5);

@@ -119,15 +119,16 @@ TEST_CASE("the error of a run follows the tolerance") {
 TEST_CASE("forces in fp32 take no more steps than fp64 at the tolerances that auto meets them with", "[gl]") {
   const ModelAndState start = squashed();
   const double time = 20 / stiffest_omega(start.model);
-  for (const double tolerance : {1e-4, 1e-7}) {
-    const Adaptive adaptive{automatic_integrator(tolerance, DampingLaw::none).name, tolerance};
-    const auto exact = make_cpu_device(2, 64);
-    const std::uint64_t steps = Run(*exact, start, adaptive).simulation.advance_to(time).steps;
-    for (const TestDevice& test : all_devices()) {
-      CAPTURE(test.name, tolerance, adaptive.integrator);
-      CHECK(Run(*test.device, start, adaptive).simulation.advance_to(time).steps <= steps + steps / 4);
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive})
+    for (const double tolerance : {1e-4, 1e-7}) {
+      const Adaptive adaptive{automatic_integrator(tolerance, law).name, tolerance, {}, law};
+      const auto exact = make_cpu_device(2, 64);
+      const std::uint64_t steps = Run(*exact, start, adaptive).simulation.advance_to(time).steps;
+      for (const TestDevice& test : all_devices()) {
+        CAPTURE(test.name, tolerance, adaptive.integrator);
+        CHECK(Run(*test.device, start, adaptive).simulation.advance_to(time).steps <= steps + steps / 4);
+      }
     }
-  }
 }
 
 TEST_CASE("the next step's length follows from how far the embedded methods come apart on an oscillator") {
