@@ -277,6 +277,14 @@ TEST_CASE("times that vary much are told, and steady ones are not") {
   CHECK_THAT(to_table(result), Catch::Contains("busy"));
 }
 
+TEST_CASE("a file has a line for each row") {
+  const std::string text = to_json({}, {}, made_up());
+  const auto rows = text.find("\"rows\": [\n"), end = text.find("\n  ]", rows);
+  REQUIRE(rows != std::string::npos);
+  CHECK(std::count(text.begin() + static_cast<std::ptrdiff_t>(rows), text.begin() + static_cast<std::ptrdiff_t>(end), '\n') ==
+        static_cast<std::ptrdiff_t>(made_up().rows.size()));
+}
+
 TEST_CASE("the file of the suite precision has what a plot needs") {
   PrecisionResult result = made_up();
   result.rows.push_back(row("odeint", "other", 64, 1e-5, 7e-3));
