@@ -32,10 +32,13 @@ void judge_with(Pace& pace, double taken, float error) {
 
 // One more vertex touches, and has gone this way in the step.
 void touch(Pace& pace, glm::vec3 way) {
-  for (int k = 0; k < 3; ++k) {
-    pace.touching_motion[k] = std::min(pace.touching_motion[k], physics::ordered_bits(way[k]));
-    pace.touching_motion[3 + k] = std::max(pace.touching_motion[3 + k], physics::ordered_bits(way[k]));
-  }
+  const auto extend = [](std::uint32_t& least, std::uint32_t& most, float coordinate) {
+    least = std::min(least, physics::ordered_bits(coordinate));
+    most = std::max(most, physics::ordered_bits(coordinate));
+  };
+  extend(pace.least_x, pace.most_x, way.x);
+  extend(pace.least_y, pace.most_y, way.y);
+  extend(pace.least_z, pace.most_z, way.z);
 }
 
 float joined(float e, float f) {

@@ -11,12 +11,16 @@ READ(5, Motions, double, motion)
 PARAMETER(0, uint, vertex_count)
 PARAMETER(1, uint, from_half)
 
+uint ordered(double coordinate) { return ordered_bits(float(coordinate)); }
+
 void measure_contact(uint i) {
   if (mark[i] != control[0].step) return;
   uint before = 6u * (from_half * vertex_count + i), after = 6u * ((1u - from_half) * vertex_count + i);
   dvec3 way = rotate(frame[uint(rest_position[i].w)], LOAD3(motion, after) - LOAD3(motion, before));
-  for (uint k = 0u; k < 3u; ++k) {
-    atomicMin(pace[0].touching_motion[k], ordered_bits(float(way[int(k)])));
-    atomicMax(pace[0].touching_motion[3u + k], ordered_bits(float(way[int(k)])));
-  }
+  atomicMin(pace[0].least_x, ordered(way.x));
+  atomicMin(pace[0].least_y, ordered(way.y));
+  atomicMin(pace[0].least_z, ordered(way.z));
+  atomicMax(pace[0].most_x, ordered(way.x));
+  atomicMax(pace[0].most_y, ordered(way.y));
+  atomicMax(pace[0].most_z, ordered(way.z));
 }

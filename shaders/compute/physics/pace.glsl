@@ -29,7 +29,9 @@ struct Pace {
   double smallest_taken;  // of the steps that were accepted [s]
   double largest_taken;   // likewise [s]
   uint error;             // this step's, the largest over all vertices; bits of a float
-  uint touching_motion[6];  // box of the ways that touching vertices went in this step: lower and upper corner, as ordered bits
+  // The box of the ways that touching vertices went in this step, as ordered bits. No array: NVIDIA's driver 580 keeps a struct with
+  // one in memory when functions pass it on, and its doubles as floats there.
+  uint least_x, least_y, least_z, most_x, most_y, most_z;
   uint estimate_order;    // the error grows with this power of the step
   uint verdict;           // on the latest step
   uint accepted;          // steps, so far
@@ -57,10 +59,8 @@ FN double aimed_error() { return double(1) / double(10); }
 
 FN void forget_step(INOUT(Pace) pace) {
   pace.error = 0u;
-  for (uint k = 0u; k < 3u; ++k) {
-    pace.touching_motion[k] = 0xffffffffu;
-    pace.touching_motion[3u + k] = 0u;
-  }
+  pace.least_x = pace.least_y = pace.least_z = 0xffffffffu;
+  pace.most_x = pace.most_y = pace.most_z = 0u;
 }
 
 // A vertex's error from the method's two estimates e and f, all as bits of floats: e^2 / sqrt(e^2 + f^2 / 100), as in dop853. NaN
@@ -77,17 +77,16 @@ FN double judged_error(uint error_bits, double tolerance) {
   return error_bits >= 0x7f800000u ? double(1e30) : double(uintBitsToFloat(error_bits)) / tolerance;
 }
 
-FN bool touches(IN(Pace) pace) { return pace.touching_motion[0] <= pace.touching_motion[3]; }
+FN bool touches(IN(Pace) pace) { return pace.least_x <= pace.most_x; }
+
+FN double extent(uint least, uint most) { return double(from_ordered_bits(most)) - double(from_ordered_bits(least)); }
 
 // No two touching vertices went further against each other than this, in units of what they may. It grows with the step, and a
 // common motion adds nothing.
 FN double judged_motion(IN(Pace) pace) {
-  double squared = double(0);
-  for (uint k = 0u; k < 3u && touches(pace); ++k) {
-    double side = double(from_ordered_bits(pace.touching_motion[3u + k])) - double(from_ordered_bits(pace.touching_motion[k]));
-    squared += side * side;
-  }
-  return sqrt(squared) / pace.largest_motion;
+  if (!touches(pace)) return double(0);
+  double x = extent(pace.least_x, pace.most_x), y = extent(pace.least_y, pace.most_y), z = extent(pace.least_z, pace.most_z);
+  return sqrt(x * x + y * y + z * z) / pace.largest_motion;
 }
 
 // By what factor the next step may be longer than one with this error. GLSL has powers of floats alone.
@@ -112,7 +111,7 @@ FN void accept_step(INOUT(Pace) pace, double taken, double error) {
   if (taken < pace.allowed)
     allowed = max(allowed, pace.allowed);  // it was cut short, and its small error is no reason for short steps
   else
-    pace.error_before = max(error, double(1e-4));
+    pace.error_before = max(error, double(1) / double(10000));
   pace.allowed = min(allowed, pace.largest_step);
   pace.time = taken == pace.target - pace.time ? pace.target : pace.time + taken;
   pace.smallest_taken = pace.accepted == 0u ? taken : min(pace.smallest_taken, taken);
