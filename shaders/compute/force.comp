@@ -3,9 +3,9 @@
 // Lanes' sums meet in shared memory. Beside them keepers, one a coordinate, load meanwhile what else is needed, and then finish the
 // vertices. With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
 //
-// With TILE the kernel runs all stages of a step in one dispatch: groups of a body wait for each other between two stages, which is
-// a third of what a dispatch costs. All groups must run at once for that. What others write meanwhile can't be read through caches of
-// one's own, so groups fetch a body's vertices into shared memory, TILE at a time.
+// With TILE the kernel runs all stages of a step in one dispatch. Groups of a body wait for each other between two stages, for a third
+// of what a dispatch costs; all of them must run at once. A group's own caches do not see what others write meanwhile, so that it
+// fetches the body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"
@@ -30,7 +30,10 @@ layout(local_size_x = TEAMS) in;
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
 #ifdef TILE
-shared vec4 seen[TILE];        // x, and u.x
+#if TILE % (PLAINLY * LANES) != 0
+#error TILE is a multiple of PLAINLY LANES, so that sums are the same bits as without
+#endif
+shared vec4 seen[TILE];         // x, and u.x
 shared vec2 seen_beside[TILE];  // u.y, u.z
 #endif
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // by axis, vertex and lane; later by run, and runs' rests
@@ -108,8 +111,8 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #error UNROLL is 2, 3 or 4
 #endif
 
-// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs or so plainly, those sums exactly.
-// UNROLL springs at a time, so that their loads overlap; the last ones too, if need be with some left out.
+// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs plainly, those sums exactly. UNROLL springs
+// at a time, so that their loads overlap; the last ones too, if need be with some left out.
 //
 // Two vertices get the very same bits from their spring, with opposite signs. What sums do not add up to zero over a body is thus
 // rounding of sums alone, and it is what counts: nothing holds a body back from drifting and turning, so that a trajectory's error
@@ -235,7 +238,7 @@ void serve(Share s, bool sums) {
 
 #ifdef TILE
 // Until every group of the body has come here so often. All of them run, so none waits in vain; the limit is for the case that a
-// driver breaks its word, which halts the body.
+// driver breaks its word. Then the body halts, and nobody waits any more.
 void wait_for_others(Share s, uint often) {
   const uint share_size = VERTICES * TEAMS;
   uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
@@ -244,14 +247,20 @@ void wait_for_others(Share s, uint often) {
   if (gl_LocalInvocationID.x == 0u) {
     atomicAdd(frame[s.body_index].arrivals, 1u);
     while (atomicAdd(frame[s.body_index].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
-    if (polls == most_polls) frame[s.body_index].halted = halted_waiting;
+    if (polls == most_polls) {
+      frame[s.body_index].halted = halted_waiting;
+      atomicAdd(frame[s.body_index].arrivals, 1u << 30);
+    }
     memoryBarrierBuffer();
   }
   barrier();
 }
 
+shared bool sums;  // asked for once, so that all threads of the group go the same way
+
 void serve_stages(Share s) {
-  bool sums = deformed(s);
+  if (gl_LocalInvocationID.x == 0u) sums = deformed(s);
+  barrier();
   for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
     if (sums && stage_index > 0u) wait_for_others(s, stage_index);
     barrier();  // shared memory changes from here on

@@ -79,9 +79,8 @@ class Device {
   /// Items of a force kernel that certainly run side by side, so that they may wait for each other; 0 where that is not known.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// The variant that is fastest for so many vertices in all: for single sums, or for whole steps, where all stages may run at
-  /// once.
-  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count, bool whole_steps = false) const = 0;
+  /// The variant that is fastest for so many vertices in all, with a dispatch a sum.
+  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
   /// By how much of themselves springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

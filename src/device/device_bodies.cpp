@@ -36,6 +36,21 @@ std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_si
   return shares;
 }
 
+bool runs_all_stages(const Device& device, const Model& model, std::size_t variant) {
+  const ForceVariant& lanes = device.force_variants()[variant];
+  std::size_t shares = 0;
+  for (const ModelBody& body : model.bodies) shares += (body.vertex_count + lanes.share_size - 1) / lanes.share_size;
+  return lanes.all_stages && shares <= device.shares_at_once();
+}
+
+// To run all stages at once saves more than the best lanes do.
+std::size_t best_force_variant(const Device& device, const Model& model) {
+  const std::size_t best = device.best_force_variant(model.vertex_count());
+  for (std::size_t variant = best; variant < device.force_variants().size(); ++variant)
+    if (runs_all_stages(device, model, variant)) return variant;
+  return best;
+}
+
 std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& state) {
   std::vector<glm::vec4> rounded;
   for (const glm::dvec3& position : state.world_positions(model)) rounded.emplace_back(glm::vec3(position), 1.0f);
@@ -52,7 +67,7 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, device.best_force_variant(model.vertex_count(), true)) {}
+    : DeviceBodies(device, model, state, best_force_variant(device, model)) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t variant)
     : vertex_count(model.vertex_count()),
@@ -67,7 +82,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       placements(device, std::size_t{2} * physics::slot_count * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
                  "placements"),
       control(device, std::vector{first_control()}, "control") {
-  all_stages_at_once = device.force_variants()[variant].all_stages && shares.size() <= device.shares_at_once();
+  all_stages_at_once = runs_all_stages(device, model, variant);
   motions.upload(state.motion);
   world_positions.upload(rounded_world_positions(model, state));
 }

@@ -47,10 +47,6 @@ void expect_groups_met(const std::vector<physics::Frame>& frames) {
               "close other programs that use the GPU, or use --device cpu");
 }
 
-}  // namespace
-
-namespace {
-
 // Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
 std::vector<Pass> search_while_following(std::vector<Pass> search, const std::vector<Pass>& following) {
   const bool beside = search.size() > following.size();
@@ -85,8 +81,8 @@ std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const 
   append(passes, pacer == nullptr ? search_while_following(std::move(search), following)
                                   : search_and_judge(std::move(search), following, collider, *pacer, from_half));
   if (collider != nullptr) append(passes, collider->response_passes(from_half));
-  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id(), bodies.frames.id()}, {bodies.body_count},
-                                         std::max(bodies.body_count, physics::counter_count))));
+  // The next step's first pass asks for nothing that changes.
+  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id()}, {}, physics::counter_count)));
   return passes;
 }
 
@@ -167,8 +163,9 @@ StepReport Simulation::report() {
         NonFinite{report.steps, body, control.non_finite_vertex - model_.bodies[body].first_vertex, known_pace_.failed_step};
   }
   add_collision_counts(report, control);
+  const std::uint64_t searches = report.steps + (report.adaptive ? report.adaptive->rejected : 0);
   if (responds_ && collider_.uses_trees())
-    report.refits_skipped = report.steps * model_.bodies.size() - total(control, physics::trees_refitted);
+    report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
   const std::vector<physics::Frame> frames = bodies_.frames.download();
   expect_groups_met(frames);
   add_force_counts(report, model_, frames);

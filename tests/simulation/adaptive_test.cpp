@@ -9,6 +9,7 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "support/collision_scene.hpp"
+#include "support/expect_error.hpp"
 #include "support/paths.hpp"
 
 namespace pliant {
@@ -342,6 +343,31 @@ TEST_CASE("triangles that touch are found whatever the latest step was") {
   CHECK(run.simulation.intersections().pairs == 0);
   run.simulation.advance_to(0.4);  // empty steps fill the last batch
   CHECK(run.simulation.intersections().pairs > 0);
+}
+
+TEST_CASE("every search refits or skips every tree, also of steps that are rejected") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  Run run(*device, start, {}, ContactResponse::reflect);
+  const StepReport report = run.simulation.advance_to(0.2);
+  REQUIRE(report.adaptive->rejected > 0);
+  CHECK(report.refits_skipped <= (report.steps + report.adaptive->rejected) * start.model.bodies.size());
+  CHECK(report.nodes_refitted > 0);
+}
+
+TEST_CASE("work groups that wait in vain end any run as an error of the device") {
+  ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  for (physics::Frame& frame : start.state.frames) {
+    const physics::Frame before = frame;
+    frame.halted = physics::halted_waiting;
+    Simulation fixed(*device, start.model, start.state, plan_of(Method{"rk4", 1e-3}), {});
+    fixed.advance(2);
+    CHECK(error_of([&] { return fixed.report(); }).kind() == ErrorKind::device);
+    Run adaptive(*device, start, {});
+    CHECK(error_of([&] { return adaptive.simulation.advance_to(0.1); }).kind() == ErrorKind::device);
+    frame = before;
+  }
 }
 
 TEST_CASE("CPU and GPU take adaptive runs to the same place", "[gl]") {

@@ -1,17 +1,7 @@
-// One thread a body and one a counter: empties the body's box for the next step; adds this step's count to the run's. The first one
-// moves the clock.
+// One thread a counter: adds this step's count to the run's. The first one moves the clock.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 WRITE(0, Controls, Control, control)
-WRITE(1, Frames, Frame, frame)
-PARAMETER(0, uint, body_count)
-
-void empty_box_of(uint b) {
-  for (uint k = 0u; k < 3u; ++k) {
-    frame[b].box[k] = 0xffffffffu;
-    frame[b].box[3u + k] = 0u;
-  }
-}
 
 void add_count(uint k) {
   uint count = control[0].count[k];
@@ -34,7 +24,6 @@ void move_clock() {
 }
 
 void finish_step(uint item) {
-  if (item < body_count) empty_box_of(item);
   if (item < counter_count) add_count(item);
   if (item == 0u) move_clock();
 }

@@ -121,11 +121,20 @@ void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
   change_frame_of(b, q, samples.rest_mean, samples.moved_mean + origin);
 }
 
+// The search has been through the boxes, and all groups have met.
+void prepare_next_step(uint b) {
+  for (uint k = 0u; k < 3u; ++k) {
+    frame[b].box[k] = 0xffffffffu;
+    frame[b].box[3u + k] = 0u;
+  }
+  frame[b].turned = 0u;
+  frame[b].arrivals = 0u;
+}
+
 void follow_bodies(uint b) {
   dvec3 origin = LOAD3(frame[b].reference, 0u);
   Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
-  frame[b].turned = 0u;
-  frame[b].arrivals = 0u;
+  prepare_next_step(b);
   if (frame[b].halted != not_halted) return;
   if (frame[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, frame[b].non_finite_vertex);
   for (uint other = 0u; other < body_count; ++other)

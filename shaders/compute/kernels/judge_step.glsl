@@ -9,7 +9,7 @@ READ(2, Frames, Frame, frame)
 void judge_step(uint item) {
   Pace p = pace[item];
   if (frame[0].halted != not_halted)
-    p.verdict = frame[0].halted == halted_for_good ? run_over : step_empty;
+    p.verdict = frame[0].halted == halted_for_now ? step_empty : run_over;
   else
     judge(p, frame[0].time_step);
   if (p.verdict == step_rejected) control[0].count[contact_pairs] = 0u;

@@ -33,8 +33,8 @@ struct Pending {
   double velocity_weight;  // [s]
 };
 
-// The tableau has a row for each next stage, the last for the end. The row of the stage that comes next: its c; then weights for position (h^2) and velocity (h), this stage's first, then those of
-// earlier stages in turn, with zeros up to a multiple of four.
+// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c; then weights for position (h^2) and
+// velocity (h), this stage's first, then those of earlier stages in turn, with zeros up to a multiple of four.
 uint next_row() { return stage_index * (2u + ((stage_count + 3u) & ~3u)); }
 uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
 

@@ -16,7 +16,7 @@ PARAMETER(1, uint, from_half)
 void rest_body(uint b) {
   for (uint k = 0u; k < 3u; ++k) frame[b].reference[k] = frame[b].start_reference[k];
   frame[b].non_finite_vertex = no_vertex;
-  frame[b].halted = halted_for_now;
+  if (frame[b].halted == not_halted) frame[b].halted = halted_for_now;
 }
 
 void undo_step(uint i) {

@@ -7,7 +7,7 @@ SHARED_BEGIN
 
 struct Body {
   double inverse_unit;  // [1/m]; forces are summed with lengths in a unit of the body's own, a power of two near its radius
-  double unit_force;    // of a spring that is one unit too long: k times the unit, less what strains come out too large (Device::strain_bias) [N]
+  double unit_force;    // of a spring that is one unit too long: k times the unit, less Device::strain_bias [N]
   double inverse_mass;  // of a vertex [1/kg]
   double damping;       // c [kg/s]
   uint first_vertex;

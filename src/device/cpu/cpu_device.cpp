@@ -85,7 +85,7 @@ class CpuDevice final : public Device {
   }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::uint32_t shares_at_once() const override { return 0; }
-  std::size_t best_force_variant(std::uint32_t, bool) const override { return variants_.size() - 1; }
+  std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
 
   double strain_bias() override { return 0; }
 

@@ -93,13 +93,10 @@ class GpuDevice final : public Device {
   // A group for each multiprocessor: that many run at once, however many registers and how much shared memory a group takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t vertex_count, bool whole_steps) const override {
+  std::size_t best_force_variant(std::uint32_t vertex_count) const override {
     if (context_.adapter().is_software) return 0;
     std::size_t best = 1;
     while (vertex_count > lane_choices[best].most_vertices) ++best;
-    for (std::size_t v = best; whole_steps && v < variants_.size(); ++v)
-      if (variants_[v].all_stages && vertex_count <= shares_at_once() * variants_[v].share_size)
-        return v;  // saves more than the best lanes do
     return best;
   }
 

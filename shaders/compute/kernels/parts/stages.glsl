@@ -1,5 +1,5 @@
-// What force kernels with several stages a step declare alike. A dispatch is one stage; with TILE all of them, which the frame around
-// then counts, and what one group places the others read past their caches.
+// What force kernels with several stages a step declare alike. A dispatch runs the stage that the parameter names. With TILE it runs
+// all of them: the frame around counts, and placements are read past caches, because other groups write them meanwhile.
 #ifdef TILE
 uint stage_index;
 SHARED_WRITE(3, PlacementsBefore, real4, placed)
