@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/expect.hpp"
+
 namespace pliant {
 namespace {
 
@@ -29,7 +31,9 @@ constexpr Choice choices[] = {
 
 const Integrator& automatic_integrator(double tolerance, DampingLaw law) {
   const auto fits = [&](const Choice& choice) { return choice.law == law && tolerance >= choice.least_tolerance; };
-  return find_integrator(std::ranges::find_if(choices, fits)->integrator);
+  const auto* choice = std::ranges::find_if(choices, fits);
+  PLIANT_EXPECT(choice != std::end(choices));
+  return find_integrator(choice->integrator);
 }
 
 }  // namespace pliant

@@ -103,7 +103,7 @@ std::vector<double> numbers_of(const physics::Pace& pace) {
   for (const std::uint32_t side : {pace.least_x, pace.least_y, pace.least_z, pace.most_x, pace.most_y, pace.most_z})
     numbers.push_back(side);
   for (const std::uint32_t count :
-       {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.rejected_in_contact, pace.retries})
+       {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.rejected_in_contact, pace.rejected_before})
     numbers.push_back(count);
   return numbers;
 }

@@ -10,7 +10,7 @@ using std::pow, glm::clamp;
 
 // What became of a step.
 const uint step_accepted = 0u;
-const uint step_rejected = 1u;  // its error was too large: it is undone
+const uint step_rejected = 1u;  // its error was too large, or its contacts too deep: it is undone
 const uint step_empty = 2u;     // none was made, the target being reached
 const uint run_over = 3u;       // none will be made any more
 
@@ -37,7 +37,7 @@ struct Pace {
   uint accepted;          // steps, so far
   uint rejected;          // likewise
   uint rejected_in_contact;  // of them, not for their error but for the way that touching vertices went
-  uint retries;           // 1: the step before was rejected for its error
+  uint rejected_before;   // 1: the step before was, for its error
   uint padding;
 };
 
@@ -107,7 +107,7 @@ FN double after_rejection(IN(Pace) pace, double error) {
 
 FN void accept_step(INOUT(Pace) pace, double taken, double error) {
   double allowed = taken * after_acceptance(pace, error);
-  if (pace.retries != 0u) allowed = min(allowed, taken);
+  if (pace.rejected_before != 0u) allowed = min(allowed, taken);
   if (taken < pace.allowed)
     allowed = max(allowed, pace.allowed);  // it was cut short, and its small error is no reason for short steps
   else
@@ -117,14 +117,14 @@ FN void accept_step(INOUT(Pace) pace, double taken, double error) {
   pace.smallest_taken = pace.accepted == 0u ? taken : min(pace.smallest_taken, taken);
   pace.largest_taken = max(pace.largest_taken, taken);
   pace.accepted += 1u;
-  pace.retries = 0u;
+  pace.rejected_before = 0u;
   pace.verdict = step_accepted;
 }
 
 FN void reject_step(INOUT(Pace) pace, double taken, double error) {
   pace.allowed = max(taken * after_rejection(pace, error), shortest_step(pace));
   pace.rejected += 1u;
-  pace.retries = 1u;
+  pace.rejected_before = 1u;
   pace.verdict = step_rejected;
 }
 
