@@ -120,13 +120,51 @@ TEST_CASE("where the error is a power of the step, steps settle where it is just
   CHECK(pace.rejected <= 2);
 }
 
-TEST_CASE("a step cut short for a target does not shorten those after it") {
-  Pace pace = pace_with(1e-6);
-  pace.allowed = 0.5;
-  pace.target = 0.001;
-  judge_with(pace, physics::next_step(pace), 0.9e-6f);
-  CHECK(pace.time == 0.001);
-  CHECK(pace.allowed >= 0.5);
+TEST_CASE("a step cut short for a target shortens those after it only if its error is nearly too large") {
+  for (const float estimate : {0.0f, 0.09e-6f, 0.4e-6f, 0.9e-6f}) {
+    CAPTURE(estimate);
+    Pace pace = pace_with(1e-6);
+    pace.allowed = 0.5;
+    pace.target = 0.001;
+    judge_with(pace, physics::next_step(pace), estimate);
+    CHECK(pace.time == 0.001);
+    if (estimate < 0.5e-6f)
+      CHECK(pace.allowed >= 0.5);
+    else
+      CHECK(pace.allowed < 0.001);
+  }
+}
+
+TEST_CASE("a step cut short for a target lets those after it grow, but for one right after a rejection") {
+  for (const bool rejected_before : {false, true}) {
+    Pace pace = pace_with(1e-6);
+    pace.allowed = 0.5;
+    pace.target = 0.4;
+    pace.rejected_before = rejected_before ? 1 : 0;
+    judge_with(pace, physics::next_step(pace), 1e-7f / 256);  // of a free one twice as long: as aimed
+    CHECK(pace.allowed == Approx(rejected_before ? 0.5 : 0.8).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("targets up to a free step apart cost a step each and no rejection, however long steps were before") {
+  for (const double first : {0.001, 0.02, 1.0})
+    for (const double apart : {0.1, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99}) {
+      CAPTURE(first, apart);
+      Pace pace = pace_with(1e-6);
+      pace.allowed = pace.first_step = first;
+      pace.largest_step = 100;
+      pace.target = 0;
+      for (int frame = 1; frame <= 100; ++frame) {
+        pace.target += apart;
+        while (pace.time < pace.target) {
+          const double taken = physics::next_step(pace);
+          judge_with(pace, taken, static_cast<float>(1e-7 * std::pow(taken, 8)));  // a free step is 1 s long
+        }
+        if (frame == 20) pace.accepted = 0;
+      }
+      CHECK(pace.accepted == 80);
+      CHECK(pace.rejected == 0);
+    }
 }
 
 TEST_CASE("no step is longer than the longest one") {

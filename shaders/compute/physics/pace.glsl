@@ -105,11 +105,18 @@ FN double after_rejection(IN(Pace) pace, double error) {
   return max(power_of_error(error, -1.0f / float(pace.estimate_order)), double(1) / double(3));
 }
 
+// After a step that was cut short for the target. Its small error is no reason for short steps, and says how long a free one may be;
+// right after a rejection that is not tried.
+FN double after_cut(IN(Pace) pace, double taken, double error) {
+  double free_step = taken * min(power_of_error(error, -1.0f / float(pace.estimate_order)), double(6));
+  return pace.rejected_before != 0u ? pace.allowed : max(free_step, pace.allowed);
+}
+
 FN void accept_step(INOUT(Pace) pace, double taken, double error) {
   double allowed = taken * after_acceptance(pace, error);
   if (pace.rejected_before != 0u) allowed = min(allowed, taken);
-  if (taken < pace.allowed)
-    allowed = max(allowed, pace.allowed);  // it was cut short, and its small error is no reason for short steps
+  if (taken < pace.allowed && error <= double(1) / double(2))  // with more the next one as long might be rejected
+    allowed = after_cut(pace, taken, error);
   else
     pace.error_before = max(error, double(1) / double(10000));
   pace.allowed = min(allowed, pace.largest_step);
