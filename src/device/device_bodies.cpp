@@ -57,6 +57,13 @@ std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& 
   return rounded;
 }
 
+// As they are between steps: what halted a body for one step says nothing of the next.
+std::vector<physics::Frame> moving_on(std::vector<physics::Frame> frames) {
+  for (physics::Frame& frame : frames)
+    if (frame.halted == physics::halted_for_now) frame.halted = physics::not_halted;
+  return frames;
+}
+
 physics::Control first_control() {
   physics::Control control{};
   control.step = 1;
@@ -88,11 +95,10 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 }
 
 void DeviceBodies::prepare_search() {
-  std::vector<physics::Frame> cleared = frames.download();
+  std::vector<physics::Frame> cleared = moving_on(frames.download());
   for (physics::Frame& frame : cleared) {
     std::fill_n(frame.box, 3, ~0u);
     std::fill_n(frame.box + 3, 3, 0u);
-    if (frame.halted == physics::halted_for_now) frame.halted = physics::not_halted;
   }
   frames.upload(cleared);
 }
@@ -104,7 +110,7 @@ void DeviceBodies::set_time_step(double time_step) {
 }
 
 State DeviceBodies::download(std::uint32_t half) const {
-  return {.frames = frames.download(),
+  return {.frames = moving_on(frames.download()),
           .motion = motions.download(std::size_t{6} * half * vertex_count, std::size_t{6} * vertex_count)};
 }
 

@@ -27,6 +27,7 @@ struct DeviceBodies {
   DeviceArray<std::uint32_t> placements;   // real4 [slot][2][vertex]: position, displacement in units of the body's length
   DeviceArray<physics::Control> control;   // one
 
+  /// The state in a half, from which another run may start: no body is halted for now.
   [[nodiscard]] State download(std::uint32_t half) const;
   /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as the last pass of a step leaves them,
   /// and none halted for now.

@@ -230,6 +230,26 @@ TEST_CASE("steps end at every time asked for, bit for bit, and empty ones sum no
   }
 }
 
+TEST_CASE("a state from adaptive steps starts another run, by fixed steps or adaptive ones") {
+  const ModelAndState start = squashed();
+  constexpr std::uint64_t steps = 40;
+  constexpr double middle = 0.3, end = 0.7;
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    // Steps grow, so that a batch is longer than the way: its last ones are empty.
+    Run run(*test.device, start, {.first_step = 1e-4});
+    static_cast<void>(run.simulation.advance_to(middle));
+    const ModelAndState between{start.model, run.simulation.state()};
+    static_cast<void>(run.simulation.advance_to(end));
+    const auto expected = run.simulation.state().world_positions(start.model);
+    const State fixed = evolve(*test.device, between, {"dop853", (end - middle) / steps}, steps);
+    CHECK(largest_distance(fixed.world_positions(start.model), expected) < 1e-4);
+    Run again(*test.device, between, {});
+    static_cast<void>(again.simulation.advance_to(end - middle));
+    CHECK(largest_distance(again.simulation.state().world_positions(start.model), expected) < 1e-4);
+  }
+}
+
 TEST_CASE("a body that falls freely costs one step a target, on a parabola") {
   BodySetup setup = sphere(1);
   setup.description.stiffness = 0;
