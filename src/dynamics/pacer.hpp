@@ -11,8 +11,9 @@ namespace pliant {
 /// The error of a step is the largest over all vertices of |dx| / r and |dv| / (r omega): dx and dv are the distances to the
 /// embedded method's result, r the body's radius, omega its stiffest frequency or, if that is higher, its largest damping rate.
 ///
-/// A step that ends with bodies touching stands if no two touching vertices have moved further against each other than a quarter
-/// of an edge: the mean edge of the body whose mean edges are shortest.
+/// A step that ends with bodies touching stands if the ways of all touching vertices, of whatever bodies, fit in a box whose
+/// diagonal is a quarter of an edge: the shortest mean edge of any body. So none has come deeper into another body; but
+/// motion along the surfaces and pairs elsewhere widen the box, too.
 struct PaceLimits {
   double tolerance = 0;     // of the error; above 0
   double first_step = 0;    // at the start, and the longest after a contact [s]
@@ -37,7 +38,7 @@ class Pacer {
   [[nodiscard]] Pass beginning_pass() const;
   /// After them: estimates the error.
   [[nodiscard]] Pass estimating_pass() const;
-  /// After a search for contacts: measures how far vertices with this step's mark moved against each other.
+  /// After a search for contacts: extends the box of the ways of vertices with this step's mark.
   [[nodiscard]] Pass contact_pass(BufferId marks, std::uint32_t from_half) const;
   /// At last: judges, and undoes a step that does not stand.
   [[nodiscard]] std::vector<Pass> judging_passes(std::uint32_t from_half) const;

@@ -22,8 +22,8 @@ struct Pace {
   double first_step;      // at the start, and the longest after a contact [s]
   double largest_step;    // [s]
   double error_before;    // of the latest step that was not cut short, in units of the tolerance
-  double largest_motion;  // of touching vertices against each other in a step [m]
-  double contact_step;    // in which they would move nearly as far, from the latest contact [s]
+  double largest_motion;  // how long the diagonal of the box of touching vertices' ways in a step may be [m]
+  double contact_step;    // in which it would be nearly as long, from the latest contact [s]
   double contact_until;   // the time up to which no step is longer than that: where one that met a contact was to end [s]
   double failed_step;     // the shortest one, whose error was too large still: with it the run ends [s]; 0: there is none
   double smallest_taken;  // of the steps that were accepted [s]
@@ -81,8 +81,8 @@ FN bool touches(IN(Pace) pace) { return pace.least_x <= pace.most_x; }
 
 FN double extent(uint least, uint most) { return double(from_ordered_bits(most)) - double(from_ordered_bits(least)); }
 
-// No two touching vertices went further against each other than this, in units of what they may. It grows with the step, and a
-// common motion adds nothing.
+// The diagonal of the box of the ways that touching vertices went, in units of what it may be: no two of them went further against
+// each other. It grows with the step, and a common motion adds nothing; motion along surfaces and pairs far apart do.
 FN double judged_motion(IN(Pace) pace) {
   if (!touches(pace)) return double(0);
   double x = extent(pace.least_x, pace.most_x), y = extent(pace.least_y, pace.most_y), z = extent(pace.least_z, pace.most_z);
