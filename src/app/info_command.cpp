@@ -50,11 +50,13 @@ Json described_devices() {
 
 void print_integrators(const Json& list) {
   const auto yes_or_no = [](const Json& value) { return value.get<bool>() ? "yes" : "no"; };
-  fmt::print("{:<12} {:>5} {:>12}  {:<8} {:<10} {}\n", "name", "order", "forces/step", "damping", "tolerance", "description");
+  fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", "name", "order", "forces/step", "squashed", "damping", "tolerance",
+             "description");
   for (const Json& row : list)
-    fmt::print("{:<12} {:>5} {:>12}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
-               row["force_evaluations_per_step"].get<int>(), yes_or_no(row["damping"]), yes_or_no(row["tolerance"]),
-               row["description"].get<std::string>());
+    fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
+               row["force_evaluations_per_step"].get<int>(), row["strained_bound"].get<double>(), yes_or_no(row["damping"]),
+               yes_or_no(row["tolerance"]), row["description"].get<std::string>());
+  fmt::print("squashed: the part of the step bound that a body squashed to a half bears.\n");
   fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }
 
