@@ -36,18 +36,6 @@ TEST_CASE("the automatic step is at most nine tenths of the bound and divides a 
   }
 }
 
-TEST_CASE("the automatic step of a method that bears strained bodies worse is shorter") {
-  const Model model = built(sphere(1)).model;
-  for (const Integrator& integrator : integrators()) {
-    CAPTURE(integrator.name);
-    SceneDescription scene = scene_with(std::string(integrator.name), DampingLaw::none);
-    scene.output.frame_rate = 1e-3;  // so that steps are hardly shortened to fit
-    const TimePlan plan = plan_time(scene, model);
-    CHECK(plan.time_step / plan.step_bound == Approx(0.9 * integrator.strained_bound).epsilon(1e-2));
-    CHECK((integrator.strained_bound > 0.3 && integrator.strained_bound <= 1));
-  }
-}
-
 TEST_CASE("the stiffest body sets the bound") {
   BodySetup soft = sphere(0), hard = sphere(0);
   hard.description.stiffness = 9;
