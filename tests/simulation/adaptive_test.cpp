@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "dynamics/automatic_integrator.hpp"
-#include "dynamics/stability.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "support/collision_scene.hpp"
@@ -14,29 +13,6 @@
 
 namespace pliant {
 namespace {
-
-struct Adaptive {
-  std::string_view integrator = "dop853";
-  double tolerance = 1e-6;
-  std::optional<double> first_step = {};  // [s]; a tenth of the bound unless given
-  DampingLaw law = DampingLaw::none;
-};
-
-TimePlan plan_of(const Adaptive& adaptive, const Model& model) {
-  TimePlan plan;
-  plan.integrator = &find_integrator(adaptive.integrator);
-  plan.damping_law = adaptive.law;
-  plan.tolerance = adaptive.tolerance;
-  plan.step_bound = std::numeric_limits<double>::infinity();
-  for (const ModelBody& body : model.bodies) {
-    const double omega = stiffest_frequency(body);
-    plan.step_bound =
-        std::min(plan.step_bound, step_bound(*plan.integrator, omega * omega, largest_damping_rate(body, adaptive.law)));
-  }
-  plan.time_step = adaptive.first_step.value_or(0.1 * plan.step_bound);
-  if (adaptive.first_step) plan.step_bound = std::max(plan.step_bound, *adaptive.first_step);
-  return plan;
-}
 
 CollisionDescription with_response(ContactResponse response) {
   CollisionDescription collision;
@@ -169,8 +145,7 @@ TEST_CASE("the next step's length follows from how far the embedded methods come
 TEST_CASE("stages that only estimates use are taken with a tolerance alone") {
   const ModelAndState start = squashed();
   const auto device = make_cpu_device(1, 64);
-  Simulation fixed(*device, start.model, start.state, pliant::plan_of(Method{"vern8", 0.01}),
-                   with_response(ContactResponse::none));
+  Simulation fixed(*device, start.model, start.state, plan_of({"vern8", 0.01}), with_response(ContactResponse::none));
   fixed.advance(3);
   CHECK(fixed.report().force_evaluations == 3 * 12);
   Run run(*device, start, {"vern8"});

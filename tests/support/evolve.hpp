@@ -5,11 +5,13 @@
 #include <concepts>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "device/device.hpp"
+#include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
 #include "model/model.hpp"
 #include "simulation/simulation.hpp"
@@ -43,10 +45,25 @@ struct Method {
 };
 
 inline TimePlan plan_of(const Method& method) {
-  TimePlan plan;
-  plan.integrator = &find_integrator(method.integrator);
-  plan.time_step = method.time_step;
-  plan.damping_law = method.law;
+  return {.integrator = &find_integrator(method.integrator), .time_step = method.time_step, .damping_law = method.law};
+}
+
+/// Steps that a tolerance governs.
+struct Adaptive {
+  std::string_view integrator = "dop853";
+  double tolerance = 1e-6;
+  std::optional<double> first_step = {};  // [s]; a tenth of the bound unless given
+  DampingLaw law = DampingLaw::none;
+};
+
+inline TimePlan plan_of(const Adaptive& adaptive, const Model& model) {
+  TimePlan plan = plan_of(Method{adaptive.integrator, 0, adaptive.law});
+  plan.tolerance = adaptive.tolerance;
+  plan.step_bound = std::numeric_limits<double>::infinity();
+  for (const ModelBody& body : model.bodies)
+    plan.step_bound = std::min(plan.step_bound, step_bound(*plan.integrator, body, adaptive.law));
+  plan.time_step = adaptive.first_step.value_or(0.1 * plan.step_bound);
+  if (adaptive.first_step) plan.step_bound = std::max(plan.step_bound, *adaptive.first_step);
   return plan;
 }
 
