@@ -42,6 +42,44 @@ Outcome after_five_steps(Device& device, const ModelAndState& start, const Metho
   return {state.motion, frame.force_evaluations, frame.forces_skipped, frame.arrivals};
 }
 
+struct AdaptiveOutcome {
+  Outcome outcome;
+  std::uint32_t accepted, rejected, verdict;
+  double time, allowed;
+  bool operator==(const AdaptiveOutcome&) const = default;
+};
+
+// By vern8, whose estimates take one stage more. The first step is so long that it is rejected, the last one is empty.
+AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start, std::size_t variant, bool all_stages) {
+  const double omega = stiffest_omega(start.model);
+  const TimePlan plan = plan_of(Adaptive{"vern8", 1e-5, 4 / omega, DampingLaw::constant}, start.model);
+  DeviceBodies bodies(device, start.model, start.state, variant);
+  bodies.all_stages_at_once = all_stages;
+  const Stepper stepper(device, bodies, *plan.integrator, plan.damping_law, plan.time_step, Stages::of_estimates);
+  Pacer pacer(device, bodies, start.model, stepper, *plan.integrator, plan.damping_law,
+              {.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
+  device.run(stepper.first_passes());
+  pacer.aim_at(6 / omega);
+  for (std::uint32_t step = 0; step < 24; ++step) device.run(step_passes(device, bodies, stepper, nullptr, step % 2, &pacer));
+  const State state = bodies.download(0);
+  const physics::Frame& frame = state.frames.front();
+  const physics::Pace pace = pacer.pace();
+  return {{state.motion, frame.force_evaluations, frame.forces_skipped, frame.arrivals},
+          pace.accepted,
+          pace.rejected,
+          pace.verdict,
+          pace.time,
+          pace.allowed};
+}
+
+void check_adaptive(Device& device, const ModelAndState& start, std::size_t variant) {
+  CAPTURE(device.force_variants()[variant].name, start.model.vertex_count());
+  const AdaptiveOutcome one_by_one = after_adaptive_steps(device, start, variant, false);
+  CAPTURE(one_by_one.accepted, one_by_one.rejected);
+  REQUIRE((one_by_one.rejected > 0 && one_by_one.verdict == physics::step_empty));
+  CHECK(after_adaptive_steps(device, start, variant, true) == one_by_one);
+}
+
 void check_all_stages(Device& device, const ModelAndState& start, std::size_t variant) {
   CAPTURE(device.force_variants()[variant].name, start.model.vertex_count());
   for (const Method& method :
@@ -53,17 +91,22 @@ void check_all_stages(Device& device, const ModelAndState& start, std::size_t va
   }
 }
 
-TEST_CASE("all stages in one dispatch give the very bits of a dispatch a stage", "[gl]") {
+// Calls check(device, start, variant) for every force variant that can, with a work group a body and, where they fit, with many.
+template <class Check>
+void for_each_variant(Check check) {
   for (const TestDevice& test : all_devices())
     for (std::size_t variant = 0; variant < test.device->force_variants().size(); ++variant) {
       const ForceVariant& lanes = test.device->force_variants()[variant];
       if (!lanes.all_stages) continue;
-      check_all_stages(*test.device, bodies_of(1, lanes.share_size), variant);
+      check(*test.device, bodies_of(1, lanes.share_size), variant);
       const ModelAndState large = bodies_of(3, ~0u);
-      if (large.model.vertex_count() <= test.device->shares_at_once() * lanes.share_size)
-        check_all_stages(*test.device, large, variant);
+      if (large.model.vertex_count() <= test.device->shares_at_once() * lanes.share_size) check(*test.device, large, variant);
     }
 }
+
+TEST_CASE("all stages in one dispatch give the very bits of a dispatch a stage", "[gl]") { for_each_variant(check_all_stages); }
+
+TEST_CASE("so do adaptive steps, rejected and empty ones among them", "[gl]") { for_each_variant(check_adaptive); }
 
 TEST_CASE("a device that does not say how many work groups run at once is never made to wait", "[gl]") {
   const ModelAndState start = bodies_of(1, 8);
