@@ -88,7 +88,7 @@ TEST_CASE("other libraries' fixed steps have their methods' order") {
   const Ending truth = truth_of(what);
   for (const PeerMethod& method : peer_methods(false)) {
     if (method.adaptive) continue;
-    const double steps = method.name.starts_with("adams") ? 60 : 10;
+    const double steps = method.name.starts_with("adams") ? 60 : 8;
     const double coarse = error_of(method, steps, what, truth), fine = error_of(method, 2 * steps, what, truth);
     CAPTURE(method.library, method.name, coarse, fine);
     CHECK(std::log2(coarse / fine) > orders.at(method.name) - 0.5);

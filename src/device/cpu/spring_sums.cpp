@@ -15,7 +15,6 @@ constexpr std::uint32_t most_blocks = 32;
 constexpr std::uint32_t chunk_length = 256;
 
 constexpr std::uint32_t ratio_up(std::uint32_t count, std::uint32_t length) { return (count + length - 1) / length; }
-constexpr std::uint32_t round_up(std::uint32_t count) { return ratio_up(count, group_length) * group_length; }
 
 std::vector<Isa> find_isas() {
   std::vector<Isa> isas{Isa::portable};
@@ -82,10 +81,10 @@ void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
   chunks_.clear();
   std::size_t place_count = 0, sum_count = 0;
   for (const SpringBody<Real>& body : bodies) {
-    const std::uint32_t count = body.vertex_count;
-    const std::uint32_t length = shortest_block * std::max(ratio_up(count, shortest_block * most_blocks), 1u);
+    const std::uint32_t count = body.vertex_count, stride = ratio_up(count, widest_vector<Real>) * widest_vector<Real>;
+    const std::uint32_t length = shortest_block * std::max(ratio_up(stride, shortest_block * most_blocks), 1u);
     const auto b = static_cast<std::uint32_t>(layouts_.size());
-    layouts_.push_back({count, round_up(count), length, ratio_up(count, length), place_count, sum_count});
+    layouts_.push_back({count, stride, stride - count, length, ratio_up(stride, length), place_count, sum_count});
     place_count += std::size_t{6} * layouts_.back().stride;
     sum_count += std::size_t{3} * layouts_.back().block_count * layouts_.back().stride;
     add_tasks(b);
@@ -100,26 +99,22 @@ void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
 template <class Real>
 void SpringSums<Real>::add_tasks(std::uint32_t body) {
   const Layout& layout = layouts_[body];
-  const auto length_of = [&](std::uint32_t block) {
-    return std::uint64_t{std::min(layout.block_length, layout.vertex_count - block * layout.block_length)};
-  };
-  for (std::uint32_t row = 0; row < layout.block_count; ++row)  // the last block, which can be short, has the rows
-    for (std::uint32_t column = 0; column <= row; ++column)
-      tasks_.push_back({body, row, column, length_of(row) * length_of(column) / (row == column ? 2 : 1)});
+  for (std::uint32_t row = 0; row < layout.block_count; ++row)
+    for (std::uint32_t column = row; column < layout.block_count; ++column)
+      tasks_.push_back({body, row, column, layout.length_of(row) * layout.length_of(column) / (row == column ? 2 : 1)});
 }
 
 template <class Real>
 void SpringSums<Real>::pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
-  Real* const position = places(layout);
+  Real* const position = places(layout) + layout.padding;
   Real* const half_displacement = position + 3 * std::size_t{layout.stride};
   for (std::uint32_t i = chunk.first; i < chunk.end; ++i)
     for (std::uint32_t k = 0; k < 3; ++k) {
       position[k * std::size_t{layout.stride} + i] = body.positions[i][static_cast<int>(k)];
       half_displacement[k * std::size_t{layout.stride} + i] = Real(0.5) * body.displacements[i][static_cast<int>(k)];
     }
-  if (chunk.end < layout.vertex_count) return;
-  for (std::uint32_t k = 0; k < 6; ++k)  // vectors reach beyond the last vertex: what they find there must be finite
-    std::fill(position + k * std::size_t{layout.stride} + chunk.end, position + (k + 1) * std::size_t{layout.stride}, Real(0));
+  if (chunk.first > 0) return;
+  for (std::uint32_t k = 0; k < 6; ++k) std::fill_n(places(layout) + k * std::size_t{layout.stride}, layout.padding, Real(0));
 }
 
 template <class Real>
@@ -129,7 +124,7 @@ void SpringSums<Real>::run(const Task& task) {
   Real* const position = places(layout);
   Real* const half_displacement = position + vector;
   double* const sums = sums_.data() + layout.first_sum;
-  const std::uint32_t row = task.row_block * layout.block_length, column = task.column_block * layout.block_length;
+  const std::uint32_t row = layout.begin_of(task.row_block), column = layout.begin_of(task.column_block);
   sum_tile_({.row_position = position + row,
              .row_half_displacement = half_displacement + row,
              .column_position = position + column,
@@ -137,20 +132,20 @@ void SpringSums<Real>::run(const Task& task) {
              .row_sum = sums + task.column_block * vector + row,
              .column_sum = sums + task.row_block * vector + column,
              .stride = layout.stride,
-             .row_count = std::min(layout.block_length, layout.vertex_count - row),
-             .column_count = std::min(layout.block_length, layout.vertex_count - column)});
+             .row_count = layout.begin_of(task.row_block + 1) - row,
+             .column_count = layout.begin_of(task.column_block + 1) - column,
+             .padding = row == 0 ? layout.padding : 0});
 }
 
 template <class Real>
 void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
-  const std::uint32_t count = chunk.end - chunk.first;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    std::array<double, chunk_length> total{};
-    for (std::uint32_t block = 0; block < layout.block_count; ++block) {
-      const double* const sum = sums_.data() + layout.first_sum + (3 * std::size_t{block} + k) * layout.stride + chunk.first;
-      for (std::uint32_t i = 0; i < count; ++i) total[i] += sum[i];
-    }
-    for (std::uint32_t i = 0; i < count; ++i) body.sums[chunk.first + i][static_cast<int>(k)] = 4 * total[i];  // of quarters
+  const std::size_t vector = 3 * std::size_t{layout.stride};
+  for (std::uint32_t i = chunk.first; i < chunk.end; ++i) {
+    const double* sum = sums_.data() + layout.first_sum + layout.padding + i;
+    glm::dvec3 total(0.0);
+    for (std::uint32_t block = 0; block < layout.block_count; ++block, sum += vector)
+      total += glm::dvec3(sum[0], sum[layout.stride], sum[2 * std::size_t{layout.stride}]);
+    body.sums[i] = 4.0 * total;  // of quarters
   }
 }
 

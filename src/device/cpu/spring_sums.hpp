@@ -43,9 +43,15 @@ class SpringSums {
  private:
   // A body in scratch. Arrays have `stride` numbers; vectors are three of them.
   struct Layout {
-    std::uint32_t vertex_count, stride, block_length, block_count;
-    std::size_t first_place;  // of positions, then half displacements
-    std::size_t first_sum;    // of block_count vectors: the sums from the vertices of each block
+    std::uint32_t vertex_count, stride, padding, block_length, block_count;  // padding comes first
+    std::size_t first_place;                                                 // of positions, then half displacements
+    std::size_t first_sum;  // of block_count vectors: the sums from the vertices of each block
+
+    // The first block can be short.
+    [[nodiscard]] std::uint32_t begin_of(std::uint32_t block) const {
+      return block == 0 ? 0 : stride - (block_count - block) * block_length;
+    }
+    [[nodiscard]] std::uint64_t length_of(std::uint32_t block) const { return begin_of(block + 1) - begin_of(block); }
   };
   struct Task {
     std::uint32_t body, row_block, column_block;

@@ -4,11 +4,13 @@
 
 namespace pliant::cpu {
 
-/// Lengths of blocks are multiples of this, except for a body's last, and arrays have room for a whole number of groups.
-inline constexpr unsigned group_length = 16;
+/// Lengths of blocks are multiples of this.
+template <class Real>
+inline constexpr unsigned widest_vector = 64 / sizeof(Real);
 
 /// Rows against columns: two blocks of one body, or one block against itself. Every pointer is to an x component; y and z stand
-/// `stride` and 2 `stride` numbers behind it. Starts of rows and columns are aligned to 64 bytes.
+/// `stride` and 2 `stride` numbers behind it. Starts of rows and columns are aligned to 64 bytes. A body begins with less than a
+/// vector of padding, which is zero, so that the rest are whole vectors; its first block has no columns but against itself.
 template <class Real>
 struct SpringTile {
   const Real* row_position;
@@ -20,6 +22,7 @@ struct SpringTile {
   unsigned stride;
   unsigned row_count;
   unsigned column_count;
+  unsigned padding;  // of the rows, the first
 };
 
 template <class Real>
