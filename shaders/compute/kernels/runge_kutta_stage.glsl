@@ -21,16 +21,23 @@ PARAMETER(2, uint, damping_law)
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return stage_index == 0u ? start_slot : stage_index & 1u; }
 
+// What a body's vertices have in common on one axis.
+struct Course {
+  double gravity;
+  double reference;        // that the next placement is relative to
+  double time_step;        // [s]
+  double elapsed;          // from the step's start to the next stage [s]
+  double position_weight;  // of this stage's acceleration [s^2]
+  double velocity_weight;  // [s]
+};
+
 // All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
 struct Pending {
+  Course course;
   double rest;
-  double gravity;
-  double stage_velocity;   // at this stage
-  double displacement;     // for the next stage, or at the end; position_weight a is missing
-  double velocity;         // likewise
-  double reference;        // that the next placement is relative to
-  double position_weight;  // [s^2]
-  double velocity_weight;  // [s]
+  double stage_velocity;  // at this stage
+  double displacement;    // for the next stage, or at the end; position_weight a is missing
+  double velocity;        // likewise
 };
 
 // Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c; then weights for position (h^2) and
@@ -51,35 +58,45 @@ dvec2 sum_earlier(uint i, uint k) {  // for position and velocity
   return sums;
 }
 
-Pending before_force_with(uint i, uint k, IN(Share) s, dvec2 sums) {
-  uint before = 6u * (from_half * vertex_count + i) + k, first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
-  double time_step = frame[s.body_index].time_step;
-  double elapsed = tableau[next_row()].x * time_step;
+// Whether the velocity for the next stage, or at the end, is used at all.
+bool wants_velocity() { return is_last() || damping_law != damping_none; }
+
+Course course_on_axis(uint k, IN(Share) s) {
+  uint first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
+  Course c;
+  c.gravity = frame[s.body_index].gravity[k];
+  c.time_step = frame[s.body_index].time_step;
+  c.elapsed = tableau[next_row()].x * c.time_step;
+  c.reference = motion[first] + c.elapsed * motion[first + 3u];
+  c.position_weight = c.time_step * c.time_step * tableau[next_row() + 1u].x;
+  c.velocity_weight = c.time_step * tableau[next_row() + 1u].y;
+  return c;
+}
+
+Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
+  uint before = 6u * (from_half * vertex_count + i) + k;
   Pending p;
+  p.course = c;
   p.rest = double(rest_position[i][int(k)]);
-  p.gravity = frame[s.body_index].gravity[k];
   p.stage_velocity = motion[before + 3u];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
-  p.displacement = motion[before] + elapsed * motion[before + 3u] + (time_step * time_step) * sums.x;
-  p.velocity = motion[before + 3u] + time_step * sums.y;
-  p.reference = motion[first] + elapsed * motion[first + 3u];
-  p.position_weight = time_step * time_step * tableau[next_row() + 1u].x;
-  p.velocity_weight = time_step * tableau[next_row() + 1u].y;
+  p.displacement = motion[before] + c.elapsed * motion[before + 3u] + (c.time_step * c.time_step) * sums.x;
+  p.velocity = motion[before + 3u] + c.time_step * sums.y;
   return p;
 }
 
-Pending before_force(uint i, uint k, IN(Share) s) { return before_force_with(i, k, s, sum_earlier(i, k)); }
+Pending before_force(uint i, uint k, IN(Share) s) { return before_force_with(i, k, course_on_axis(k, s), sum_earlier(i, k)); }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double a = spring_force * s.body.inverse_mass + p.gravity;
+  double a = spring_force * s.body.inverse_mass + p.course.gravity;
   if (damping_law != damping_none)
     a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;
   acceleration[accelerations_of(stage_index, i) + k] = a;
-  double displacement = p.displacement + p.position_weight * a;
-  double velocity = p.velocity + p.velocity_weight * a;
-  place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
+  double displacement = p.displacement + p.course.position_weight * a;
+  double velocity = p.velocity + p.course.velocity_weight * a;
+  place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.course.reference);
   if (is_last())
-    end_step(i, k, s, displacement, velocity, p.reference);
+    end_step(i, k, s, displacement, velocity, p.course.reference);
   else if (damping_law != damping_none)
     acceleration[accelerations_of(stage_index + 1u, i) + k] = velocity;
   return p.rest + displacement;
