@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -195,14 +194,8 @@ double energy_drift(Device& device, const ModelAndState& start, const TimePlan& 
 }
 
 double predicted_drift(const Integrator& integrator, double omega_step, std::uint64_t steps) {
-  const auto* method = std::get_if<RungeKutta>(&integrator.method);
-  if (method == nullptr) return 0;
-  std::complex<double> growth = 0, power = 1;
-  for (const double coefficient : stability_polynomial(*method)) {
-    growth += coefficient * power;
-    power *= std::complex<double>(0, omega_step);
-  }
-  return std::expm1(static_cast<double>(steps - window) * std::log(std::norm(growth)));
+  if (staged_method(integrator) == nullptr) return 0;
+  return std::expm1(2.0 * static_cast<double>(steps - window) * std::log(undamped_amplification(integrator, omega_step)));
 }
 
 LongRun run_long(Device& device, const ModelAndState& start, const TimePlan& plan, std::uint64_t steps) {

@@ -42,7 +42,7 @@ double largest_contact_motion(const Model& model) {
   return contact_motion_per_edge * edge;
 }
 
-physics::Pace first_pace(const Model& model, const RungeKutta& method, const PaceLimits& limits) {
+physics::Pace first_pace(const Model& model, const StagedMethod& method, const PaceLimits& limits) {
   PLIANT_EXPECT(limits.tolerance > 0 && limits.first_step > 0 && limits.largest_step > 0);
   physics::Pace pace{};
   pace.tolerance = limits.tolerance;
@@ -62,10 +62,9 @@ Pacer::Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Ste
              DampingLaw law, const PaceLimits& limits)
     : device_(device), bodies_(bodies), stepper_(stepper) {
   PLIANT_EXPECT(estimates_error(integrator));
-  const auto& method = std::get<RungeKutta>(integrator.method);
-  const std::vector<double> weights = error_weights(method);
+  const std::vector<double> weights = error_weights(integrator);
   PLIANT_EXPECT(weights.size() == std::size_t{4} * stepper.stage_count());
-  pace_ = DeviceArray<physics::Pace>(device, std::vector{first_pace(model, method, limits)}, "pace");
+  pace_ = DeviceArray<physics::Pace>(device, std::vector{first_pace(model, *staged_method(integrator), limits)}, "pace");
   error_weights_ = DeviceArray<double>(device, weights, "error weights");
   error_scales_ = DeviceArray<double>(device, error_scales(model, law), "error scales");
 }

@@ -36,8 +36,9 @@ double amplification(const std::vector<double>& polynomial, std::complex<double>
   return std::abs(sum);
 }
 
-// Largest magnitude of the eigenvalues of a real 2 x 2 matrix.
-double spectral_radius(double trace, double determinant) {
+// Largest magnitude of the eigenvalues of the map that takes (x, v) = (1, 0) and (0, 1) there.
+double spectral_radius(const double (&from_x)[2], const double (&from_v)[2]) {
+  const double trace = from_x[0] + from_v[1], determinant = from_x[0] * from_v[1] - from_x[1] * from_v[0];
   const double discriminant = trace * trace / 4 - determinant;
   if (discriminant < 0) return std::sqrt(determinant);
   return std::abs(trace) / 2 + std::sqrt(discriminant);
@@ -45,7 +46,7 @@ double spectral_radius(double trace, double determinant) {
 
 // One step of length h = y on x'' = -x - g v; a kick damps exactly: v <- exp(-g t) v + (1 - exp(-g t))/g a.
 double amplification(const Splitting& method, double y, double g) {
-  double from_x[2] = {1, 0}, from_v[2] = {0, 1};  // where (x, v) = (1, 0) and (0, 1) go
+  double from_x[2] = {1, 0}, from_v[2] = {0, 1};
   for (std::size_t i = 0; i < method.kick.size(); ++i) {
     const double t = static_cast<double>(method.kick[i]) * y;
     const double decay = std::exp(-g * t), push = g > 0 ? -std::expm1(-g * t) / g : t;
@@ -55,7 +56,28 @@ double amplification(const Splitting& method, double y, double g) {
       state[0] += drift * state[1];
     }
   }
-  return spectral_radius(from_x[0] + from_v[1], from_x[0] * from_v[1] - from_x[1] * from_v[0]);
+  return spectral_radius(from_x, from_v);
+}
+
+// One step of length h = y on x'' = -x, from state = {x, v}.
+void oscillate(const NystromTableau& method, double y, double* state) {
+  const double x = state[0], v = state[1];
+  std::vector<double> accelerations;
+  for (int row = 0; row <= method.stages; ++row) {
+    state[0] = x + method.c[row] * y * v;
+    state[1] = v;
+    for (int j = 0; j < row; ++j) {
+      state[0] += y * y * method.position[row * method.stages + j] * accelerations[j];
+      state[1] += y * method.velocity[row * method.stages + j] * accelerations[j];
+    }
+    accelerations.push_back(-state[0]);
+  }
+}
+
+double amplification(const NystromTableau& method, double y) {
+  double from_x[2] = {1, 0}, from_v[2] = {0, 1};
+  for (double* state : {from_x, from_v}) oscillate(method, y, state);
+  return spectral_radius(from_x, from_v);
 }
 
 // Below g = 2 omega lambda runs along the circle |lambda| = omega, above it along the real axis. On a ray the distance
@@ -77,6 +99,13 @@ double runge_kutta_bound(const RungeKutta& method, double omega, double damping_
     bound = std::min(bound, exit_along(std::numbers::pi) / fastest);
   }
   return bound;
+}
+
+// Undamped.
+double nystrom_bound(const Integrator& integrator, double omega) {
+  if (omega == 0) return infinity;
+  const NystromTableau tableau = nystrom_tableau(integrator);
+  return first_exit(1.0 / 4096, [&](double y) { return amplification(tableau, y); }) / omega;  // dprkn8's: 3.1403 to 3.1416
 }
 
 double splitting_bound(const Splitting& method, double omega, double damping_rate_max) {
@@ -109,6 +138,10 @@ std::vector<double> stability_polynomial(const RungeKutta& method) {
   return polynomial;
 }
 
+double undamped_amplification(const Integrator& integrator, double omega_step) {
+  return amplification(nystrom_tableau(integrator), omega_step);
+}
+
 double stiffest_frequency(const ModelBody& body) { return std::sqrt(body.vertex_count * body.stiffness / body.vertex_mass); }
 
 double largest_damping_rate(const ModelBody& body, DampingLaw law) {
@@ -123,6 +156,7 @@ double step_bound(const Integrator& integrator, double omega_squared, double dam
   const double omega = std::sqrt(omega_squared);
   if (const auto* method = std::get_if<RungeKutta>(&integrator.method))
     return runge_kutta_bound(*method, omega, damping_rate_max);
+  if (std::holds_alternative<Nystrom>(integrator.method)) return nystrom_bound(integrator, omega);
   return splitting_bound(std::get<Splitting>(integrator.method), omega, damping_rate_max);
 }
 

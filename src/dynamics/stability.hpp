@@ -11,6 +11,9 @@ namespace pliant {
 /// R's coefficients, constant term first: one step on y' = lambda y multiplies y by R(h lambda).
 [[nodiscard]] std::vector<double> stability_polynomial(const RungeKutta& method);
 
+/// By what factor a step of omega_step / omega multiplies the amplitude of x'' = -omega^2 x. Expects no splitting.
+[[nodiscard]] double undamped_amplification(const Integrator& integrator, double omega_step);
+
 /// The step h [s] up to which one step amplifies no more than 1 + 1e-4, for every damping rate g from 0 to
 /// damping_rate_max and both solutions lambda of lambda^2 + g lambda + omega_squared = 0. Infinite where nothing bounds it.
 /// A slower mode can bear less where g is near omega or above; that of omega_squared = 0, a body drifting through a

@@ -1,4 +1,4 @@
-// A step of a Runge-Kutta method is a dispatch a stage, of a splitting a dispatch a force; or one for all of these.
+// A step of a method with stages is a dispatch a stage, of a splitting a dispatch a force; or one for all of these.
 #include "dynamics/stepper.hpp"
 
 #include <cstddef>
@@ -58,8 +58,8 @@ Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integra
   const std::size_t count = bodies.vertex_count;
   bodies.set_time_step(time_step);
   forces_ = DeviceArray<double>(device, 3 * count, "spring forces");
-  if (const auto* method = std::get_if<RungeKutta>(&integrator.method)) {
-    const NystromTableau tableau = nystrom_tableau(*method, stages);
+  if (staged_method(integrator) != nullptr) {
+    const NystromTableau tableau = nystrom_tableau(integrator, stages);
     PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
     tableau_ = tableau_of(device, stage_rows(tableau));

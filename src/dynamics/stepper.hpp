@@ -12,8 +12,8 @@ namespace pliant {
 
 class Stepper {
  public:
-  /// Expects allows_damping(integrator) unless the law is none. `device` and `bodies` must outlive the stepper. A Runge-Kutta
-  /// method takes each step's length from the bodies' frames, where `time_step` stands to begin with.
+  /// Expects allows_damping(integrator) unless the law is none. `device` and `bodies` must outlive the stepper. A method
+  /// with stages takes each step's length from the bodies' frames, where `time_step` stands to begin with.
   Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
           Stages stages = Stages::of_result);
   Stepper(const Stepper&) = delete;
@@ -28,7 +28,7 @@ class Stepper {
   /// Sums the spring forces at the step's start, of bodies whose kept ones are stale. Part of a splitting's step.
   [[nodiscard]] Pass refresh_pass() const;
 
-  /// Of a Runge-Kutta method, at the latest step's stages: [stage][vertex][3] [m/s^2].
+  /// Of a method with stages, at the latest step's stages: [stage][vertex][3] [m/s^2].
   [[nodiscard]] BufferId accelerations() const { return accelerations_.id(); }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 

@@ -58,7 +58,9 @@ void expect_method_estimates(const TimePlan& plan, const std::string& where) {
 void expect_method_damps(const TimePlan& plan, const std::string& where) {
   if (plan.damping_law == DampingLaw::none || allows_damping(*plan.integrator)) return;
   throw Error(fault_of(where), where,
-              std::string(plan.integrator->name) + " has kicks back in time, which damping makes unstable",
+              fmt::format("{} is for bodies without damping: {}", plan.integrator->name,
+                          staged_method(*plan.integrator) ? "its stages have no velocities that it could act on"
+                                                          : "it makes kicks back in time unstable"),
               "set simulation.damping_law = \"none\" or choose another integrator, such as verlet");
 }
 

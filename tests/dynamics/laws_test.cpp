@@ -61,8 +61,9 @@ TEST_CASE("halving the step shrinks the error as the method's order says") {
     for (const Integrator& integrator : integrators()) {
       if (law != DampingLaw::none && !allows_damping(integrator)) continue;
       CAPTURE(integrator.name, static_cast<int>(law));
-      // An order-8 error sinks into rounding before its slope has settled: 7.61 to 8.41 are measured. The others: within 0.03.
-      const double z = integrator.order >= 8 ? 0.8 : integrator.order >= 6 ? 0.6 : 0.1;
+      // An order-8 error sinks into rounding before its slope has settled: 7.61 to 8.41 are measured, and
+      // 11.7 for order 12 at steps near the longest. The others: within 0.03.
+      const double z = integrator.order > 8 ? 2.8 : integrator.order == 8 ? 0.8 : integrator.order >= 6 ? 0.6 : 0.1;
       const double step = z / stiffest_omega(start.model), end_time = 16 * step;
       const auto exact = reference(start, law, step / 64, 16 * 64);
       CHECK(measured_order(start, {integrator.name, step, law}, end_time, 1, exact) ==

@@ -50,10 +50,11 @@ double verlet_growth(double h, double g) {
 
 TEST_CASE("undamped step bounds are the published limits of the imaginary axis") {
   // rk4 to vern8: the largest y with |R(iy)| <= 1 + 1e-4, found on a grid of 6e-5 in exact coefficients. verlet: closed
-  // form. srkn11b: Blanes and Moan (2002).
-  const std::pair<const char*, double> limits[] = {{"verlet", 2.0},         {"srkn11b", 3.1414},    {"rk4", 2.82852},
-                                                   {"cv8", 3.00186},        {"cv8_minus", 3.39666}, {"dop853", 5.96046},
-                                                   {"verner78_8", 4.77546}, {"vern8", 2.85066}};
+  // form. srkn11b: Blanes and Moan (2002). dprkn8, dprkn12: the first y at which a step's map, in exact coefficients, has an
+  // eigenvalue above 1 + 1e-4.
+  const std::pair<const char*, double> limits[] = {
+      {"verlet", 2.0},     {"srkn11b", 3.1414},     {"rk4", 2.82852},   {"cv8", 3.00186},    {"cv8_minus", 3.39666},
+      {"dop853", 5.96046}, {"verner78_8", 4.77546}, {"vern8", 2.85066}, {"dprkn8", 3.14028}, {"dprkn12", 8.32736}};
   REQUIRE(std::size(limits) == integrators().size());
   for (const auto& [name, limit] : limits) {
     CAPTURE(name);
@@ -104,6 +105,18 @@ TEST_CASE("a Runge-Kutta step within the bound does not amplify, and just beyond
       CHECK(inside <= 1 + 1e-4);
       CHECK(outside > 1 + 1e-4);
     }
+  }
+}
+
+TEST_CASE("the amplification of an undamped oscillator is that of the stability polynomial, and settles the bound") {
+  for (const Integrator& integrator : integrators()) {
+    if (staged_method(integrator) == nullptr) continue;
+    CAPTURE(integrator.name);
+    const double bound = step_bound(integrator, 1.0, 0.0);
+    for (const double part : {0.05, 0.3, 0.6, 0.9, 0.99}) CHECK(undamped_amplification(integrator, part * bound) <= 1 + 1e-4);
+    CHECK(undamped_amplification(integrator, 1.0002 * bound) > 1 + 1e-4);
+    if (const auto* method = std::get_if<RungeKutta>(&integrator.method))
+      CHECK(undamped_amplification(integrator, 0.7) == Approx(oscillator_amplification(*method, 0.7, 1.0, 0.0)).epsilon(1e-12));
   }
 }
 
@@ -165,7 +178,7 @@ TEST_CASE("without springs only damping bounds the step") {
     CAPTURE(integrator.name);
     CHECK(std::isinf(step_bound(integrator, 0.0, 0.0)));
     if (!allows_damping(integrator)) continue;
-    CHECK(std::isinf(step_bound(integrator, 0.0, 5.0)) == std::holds_alternative<Splitting>(integrator.method));
+    CHECK(std::isinf(step_bound(integrator, 0.0, 5.0)) == (staged_method(integrator) == nullptr));
   }
 }
 

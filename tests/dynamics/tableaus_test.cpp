@@ -1,5 +1,5 @@
 // Order conditions over every integrator. Runge-Kutta: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
-// II.2; splittings as Nystrom methods: the same book, II.14, with trees for x'' = f(x).
+// II.2; Nystrom methods, and splittings as such: the same book, II.14, with trees for x'' = f(x).
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -168,6 +168,16 @@ NystromMethod as_nystrom(const Splitting& splitting) {
   return method;
 }
 
+NystromMethod as_nystrom(const Nystrom& method, const Vector& b) {
+  Vector b_position = b;
+  for (std::size_t i = 0; i < b.size(); ++i) b_position[i] *= 1 - method.c[i];
+  return {method.a, b, b_position, method.c};
+}
+
+NystromMethod magnitudes(const NystromMethod& method) {
+  return {magnitudes(method.a), magnitudes(method.b), magnitudes(method.b_position), method.c};
+}
+
 Vector stage_weights(const NystromTree& tree, const NystromMethod& method) {
   Vector weights(method.c.size(), 1);
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(method.c[i], tree.drift_count);
@@ -178,13 +188,30 @@ Vector stage_weights(const NystromTree& tree, const NystromMethod& method) {
   return weights;
 }
 
-long double velocity_residual(const NystromTree& tree, const NystromMethod& method) {
-  return dot(method.b, stage_weights(tree, method)) - tree.coefficient / static_cast<long double>(tree.order);
+Residual velocity_residual(const NystromTree& tree, const NystromMethod& method) {
+  const NystromMethod sizes = magnitudes(method);
+  return {dot(method.b, stage_weights(tree, method)) - tree.coefficient / static_cast<long double>(tree.order),
+          dot(sizes.b, stage_weights(tree, sizes))};
 }
 
-long double position_residual(const NystromTree& tree, const NystromMethod& method) {
-  return dot(method.b_position, stage_weights(tree, method)) -
-         tree.coefficient / static_cast<long double>(tree.order * (tree.order + 1));
+Residual position_residual(const NystromTree& tree, const NystromMethod& method) {
+  const NystromMethod sizes = magnitudes(method);
+  return {dot(method.b_position, stage_weights(tree, method)) -
+              tree.coefficient / static_cast<long double>(tree.order * (tree.order + 1)),
+          dot(sizes.b_position, stage_weights(tree, sizes))};
+}
+
+void check_order(const NystromTrees& trees, const NystromMethod& method, int order, long double rounding) {
+  REQUIRE(method.b.size() == method.c.size());
+  long double next = 0;
+  for (const auto& tree : trees.all()) {
+    CAPTURE(tree->order);
+    const Residual velocity = velocity_residual(*tree, method), position = position_residual(*tree, method);
+    if (tree->order <= order) CHECK(std::abs(velocity.value) < rounding * std::max(1.0L, velocity.scale));
+    if (tree->order + 1 <= order) CHECK(std::abs(position.value) < rounding * std::max(1.0L, position.scale));
+    if (tree->order == order + 1) next = std::max(next, std::abs(velocity.value));
+  }
+  CHECK(next > 1e-10L);
 }
 
 // ---- a plain Runge-Kutta step of x' = v, v' = acceleration(x, v), as an oracle ----
@@ -193,9 +220,12 @@ struct Point {
   long double x, v;
 };
 
-long double acceleration(Point p) { return -std::sin(p.x) - 0.3L * p.v * std::abs(p.v); }
+using Acceleration = long double (*)(Point);
+long double damped(Point p) { return -std::sin(p.x) - 0.3L * p.v * std::abs(p.v); }
+long double undamped(Point p) { return -std::sin(p.x); }
+Acceleration acceleration_for(const Integrator& integrator) { return allows_damping(integrator) ? damped : undamped; }
 
-Point plain_step(const RungeKutta& method, Point start, long double h) {
+Point plain_step(const RungeKutta& method, Point start, long double h, Acceleration acceleration) {
   std::vector<Point> slopes;
   Point end = start;
   for (int i = 0; i < method.stages; ++i) {
@@ -211,8 +241,32 @@ Point plain_step(const RungeKutta& method, Point start, long double h) {
   return end;
 }
 
+Point plain_step(const Nystrom& method, Point start, long double h, Acceleration acceleration) {
+  Vector accelerations;
+  Point end{start.x + h * start.v, start.v};
+  for (int i = 0; i < method.stages; ++i) {
+    long double x = start.x + method.c[i] * h * start.v;
+    for (int j = 0; j < i; ++j) x += h * h * method.a[i * method.stages + j] * accelerations[j];
+    accelerations.push_back(acceleration({x, 0}));
+    end.x += h * h * method.b[i] * (1 - method.c[i]) * accelerations[i];
+    end.v += h * method.b[i] * accelerations[i];
+  }
+  return end;
+}
+
+// By the method's weights, or by others.
+Point plain_step(const Integrator& integrator, Point start, long double h, const Vector* weights = nullptr) {
+  const auto step = [&](auto method) {
+    if (weights != nullptr) method.b = *weights;
+    return plain_step(method, start, h, acceleration_for(integrator));
+  };
+  if (const auto* method = std::get_if<Nystrom>(&integrator.method)) return step(*method);
+  return step(std::get<RungeKutta>(integrator.method));
+}
+
 // The accelerations at the stages; `end`, if any, becomes the step's end.
-Vector stage_accelerations(const NystromTableau& tableau, Point start, long double h, Point* end = nullptr) {
+Vector stage_accelerations(const NystromTableau& tableau, Point start, long double h, Acceleration acceleration,
+                           Point* end = nullptr) {
   Vector accelerations;
   for (int row = 0;; ++row) {
     Point p{start.x + tableau.c[row] * h * start.v, start.v};
@@ -228,9 +282,9 @@ Vector stage_accelerations(const NystromTableau& tableau, Point start, long doub
   }
 }
 
-Point nystrom_step(const NystromTableau& tableau, Point start, long double h) {
+Point tableau_step(const Integrator& integrator, Point start, long double h) {
   Point end{};
-  (void)stage_accelerations(tableau, start, h, &end);
+  (void)stage_accelerations(nystrom_tableau(integrator), start, h, acceleration_for(integrator), &end);
   return end;
 }
 
@@ -270,21 +324,38 @@ TEST_CASE("every Runge-Kutta method is explicit, and its nodes are the sums of i
   }
 }
 
+TEST_CASE("every Nystrom method satisfies all conditions of its order and not all of the next") {
+  const NystromTrees trees(13);
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<Nystrom>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    check_order(trees, as_nystrom(*method, method->b), integrator.order, 1e-17L);
+    check_order(trees, as_nystrom(*method, method->b_hat), method->order_hat, 1e-17L);
+  }
+}
+
+TEST_CASE("every Nystrom method is explicit, and the sums of its rows are half its nodes' squares") {
+  for (const Integrator& integrator : integrators()) {
+    const auto* method = std::get_if<Nystrom>(&integrator.method);
+    if (method == nullptr) continue;
+    CAPTURE(integrator.name);
+    REQUIRE(static_cast<int>(method->a.size()) == method->stages * method->stages);
+    const Vector row_sums = product(method->a, Vector(method->stages, 1));
+    for (int i = 0; i < method->stages; ++i) {
+      CHECK(std::abs(row_sums[i] - method->c[i] * method->c[i] / 2) < 1e-17L);
+      for (int j = i; j < method->stages; ++j) CHECK(method->a[i * method->stages + j] == 0);
+    }
+  }
+}
+
 TEST_CASE("every splitting satisfies all Nystrom conditions of its order and not all of the next") {
   const NystromTrees trees(7);
   for (const Integrator& integrator : integrators()) {
     const auto* splitting = std::get_if<Splitting>(&integrator.method);
     if (splitting == nullptr) continue;
     CAPTURE(integrator.name);
-    const NystromMethod method = as_nystrom(*splitting);
-    long double next = 0;
-    for (const auto& tree : trees.all()) {
-      CAPTURE(tree->order);
-      if (tree->order <= integrator.order) CHECK(std::abs(velocity_residual(*tree, method)) < 1e-13L);
-      if (tree->order + 1 <= integrator.order) CHECK(std::abs(position_residual(*tree, method)) < 1e-13L);
-      if (tree->order == integrator.order + 1) next = std::max(next, std::abs(velocity_residual(*tree, method)));
-    }
-    CHECK(next > 1e-9L);
+    check_order(trees, as_nystrom(*splitting), integrator.order, 1e-13L);
   }
 }
 
@@ -301,14 +372,13 @@ TEST_CASE("a splitting's coefficients read the same backwards and cover the step
   }
 }
 
-TEST_CASE("a Nystrom tableau takes the step of the Runge-Kutta method it came from") {
+TEST_CASE("a Nystrom tableau takes the step of the method it came from") {
   for (const Integrator& integrator : integrators()) {
-    const auto* method = std::get_if<RungeKutta>(&integrator.method);
-    if (method == nullptr) continue;
+    if (staged_method(integrator) == nullptr) continue;
     CAPTURE(integrator.name);
-    const NystromTableau tableau = nystrom_tableau(*method);
-    CHECK(tableau.stages == evaluations_per_step(integrator));
-    const Point start{0.7L, -1.1L}, expected = plain_step(*method, start, 0.4L), actual = nystrom_step(tableau, start, 0.4L);
+    CHECK(nystrom_tableau(integrator).stages == evaluations_per_step(integrator));
+    const Point start{0.7L, -1.1L}, expected = plain_step(integrator, start, 0.4L),
+                                    actual = tableau_step(integrator, start, 0.4L);
     CHECK(std::abs(actual.x - expected.x) < 1e-14L);  // the tableau is rounded to double
     CHECK(std::abs(actual.v - expected.v) < 1e-14L);
   }
@@ -320,26 +390,26 @@ TEST_CASE("stages that only an error estimate uses cost no force evaluation") {
   CHECK(evaluations_per_step(find_integrator("dop853")) == 12);
   CHECK(evaluations_per_step(find_integrator("verner78_8")) == 12);
   CHECK(evaluations_per_step(find_integrator("vern8")) == 12);
+  CHECK(evaluations_per_step(find_integrator("dprkn8")) == 8);
+  CHECK(evaluations_per_step(find_integrator("dprkn12")) == 17);
 }
 
 TEST_CASE("error weights are how much farther a step goes than the embedded one would") {
   for (const Integrator& integrator : integrators()) {
     if (!estimates_error(integrator)) continue;
     CAPTURE(integrator.name);
-    const auto& method = std::get<RungeKutta>(integrator.method);
-    CHECK(estimate_order(method) == 8);
+    const StagedMethod& method = *staged_method(integrator);
+    CHECK(estimate_order(method) == (integrator.name == "dprkn8" ? 7 : integrator.name == "dprkn12" ? 11 : 8));
     const Vector* embedded[] = {&method.b_hat, &method.b_hat2};
-    const NystromTableau tableau = nystrom_tableau(method, Stages::of_estimates);
-    CHECK(tableau.stages >= nystrom_tableau(method).stages);
-    const std::vector<double> weights = error_weights(method);
+    const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_estimates);
+    CHECK(tableau.stages >= nystrom_tableau(integrator).stages);
+    const std::vector<double> weights = error_weights(integrator);
     REQUIRE(weights.size() == std::size_t{4} * tableau.stages);
-    const Point start{0.7L, -1.1L}, end = plain_step(method, start, 0.4L);
-    const Vector accelerations = stage_accelerations(tableau, start, 0.4L);
+    const Point start{0.7L, -1.1L}, end = plain_step(integrator, start, 0.4L);
+    const Vector accelerations = stage_accelerations(tableau, start, 0.4L, acceleration_for(integrator));
     for (std::size_t estimate = 0; estimate < 2; ++estimate) {
       if (embedded[estimate]->empty()) continue;
-      RungeKutta other = method;
-      other.b = *embedded[estimate];
-      const Point other_end = plain_step(other, start, 0.4L);
+      const Point other_end = plain_step(integrator, start, 0.4L, embedded[estimate]);
       Point difference{0, 0};
       for (std::size_t j = 0; j < accelerations.size(); ++j) {
         difference.x += 0.4L * 0.4L * weights[4 * j + 2 * estimate] * accelerations[j];
@@ -365,8 +435,10 @@ TEST_CASE("an unknown integrator is an input error that lists the known ones") {
   }
 }
 
-TEST_CASE("damping is for every method but splittings with negative kicks") {
-  for (const Integrator& integrator : integrators()) CHECK(allows_damping(integrator) == (integrator.name != "srkn11b"));
+TEST_CASE("damping is for every method but splittings with negative kicks and Nystrom methods") {
+  for (const Integrator& integrator : integrators())
+    CHECK(allows_damping(integrator) ==
+          (integrator.name != "srkn11b" && integrator.name != "dprkn8" && integrator.name != "dprkn12"));
 }
 
 }  // namespace pliant

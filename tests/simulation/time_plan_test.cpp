@@ -104,7 +104,10 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
   const auto unstable = error_of([&] { return plan_time(scene_with("srkn11b", DampingLaw::adaptive), model); });
   CHECK(unstable.kind() == ErrorKind::input);
   check_says(unstable, {"scene.toml:3", "srkn11b", "damping"});
-  CHECK_NOTHROW(plan_time(scene_with("srkn11b", DampingLaw::none), model));
+  const auto without_velocities = error_of([&] { return plan_time(scene_with("dprkn12", DampingLaw::constant), model); });
+  CHECK(without_velocities.kind() == ErrorKind::input);
+  check_says(without_velocities, {"scene.toml:3", "dprkn12", "velocities", "damping_law", "verlet"});
+  for (const char* name : {"srkn11b", "dprkn12"}) CHECK_NOTHROW(plan_time(scene_with(name, DampingLaw::none), model));
 }
 
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {
@@ -132,7 +135,7 @@ TEST_CASE("a tolerance needs a method that estimates its error, and the remedy l
     }
     const Error error = error_of([&] { return plan_time(scene, model); });
     CHECK(error.kind() == ErrorKind::input);
-    check_says(error, {"scene.toml:3", "--integrator auto", "dop853, verner78_8, vern8", "time_step"});
+    check_says(error, {"scene.toml:3", "--integrator auto", "dop853, verner78_8, vern8, dprkn8, dprkn12", "time_step"});
   }
 }
 
