@@ -1,5 +1,6 @@
 // Energy and momentum of a state, in fp64 on the host: for reports, not for stepping.
 #pragma once
+#include <functional>
 #include <glm/vec3.hpp>
 
 #include "core/thread_pool.hpp"
@@ -17,7 +18,9 @@ struct Measurement {
   [[nodiscard]] double energy() const { return kinetic + elastic + gravitational; }
 };
 
-/// Visits every spring: N^2 / 2 of a body of N vertices. The same bits on any number of threads.
-[[nodiscard]] Measurement measure(const Model& model, const State& state, const glm::dvec3& gravity, ThreadPool& pool);
+/// Visits every spring: N^2 / 2 of a body of N vertices. The same bits on any number of threads. Once `stopped` answers true
+/// (several threads ask at once), springs are left out and the elastic energy is NaN; null: nobody stops it.
+[[nodiscard]] Measurement measure(const Model& model, const State& state, const glm::dvec3& gravity, ThreadPool& pool,
+                                  const std::function<bool()>& stopped = nullptr);
 
 }  // namespace pliant
