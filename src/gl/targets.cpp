@@ -1,12 +1,36 @@
 // Textures, framebuffers and vertex arrays.
 #include "gl/targets.hpp"
 
+#include <fmt/format.h>
 #include <glad/gl.h>
+
+#include <algorithm>
+#include <string>
 
 #include "core/error.hpp"
 
 namespace pliant::gl {
 namespace {
+
+[[noreturn]] void refuse(const glm::uvec2& size, std::string_view label, const std::string& why) {
+  throw Error(ErrorKind::device, "GPU memory",
+              fmt::format("the texture \"{}\" has {} x {} pixels: {}", label, size.x, size.y, why), "lower output.size");
+}
+
+void expect_within_limit(const glm::uvec2& size, std::string_view label) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (std::max(size.x, size.y) > static_cast<GLuint>(limit))
+    refuse(size, label, fmt::format("the driver allows {} a side", limit));
+}
+
+void allocate(GLuint texture, const TextureOptions& options) {
+  const auto width = static_cast<GLsizei>(options.size.x), height = static_cast<GLsizei>(options.size.y);
+  if (options.samples > 1)
+    glTextureStorage2DMultisample(texture, options.samples, options.format, width, height, GL_TRUE);
+  else
+    glTextureStorage2D(texture, options.levels, options.format, width, height);
+}
 
 void set_sampling(GLuint texture, const TextureOptions& options) {
   glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, options.levels > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
@@ -23,15 +47,16 @@ void set_sampling(GLuint texture, const TextureOptions& options) {
 }  // namespace
 
 Texture::Texture(const TextureOptions& options, std::string_view label) : size_(options.size) {
-  const auto width = static_cast<GLsizei>(size_.x), height = static_cast<GLsizei>(size_.y);
-  if (options.samples > 1) {
-    glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &id_);
-    glTextureStorage2DMultisample(id_, options.samples, options.format, width, height, GL_TRUE);
-  } else {
-    glCreateTextures(GL_TEXTURE_2D, 1, &id_);
-    glTextureStorage2D(id_, options.levels, options.format, width, height);
-    set_sampling(id_, options);
+  expect_within_limit(size_, label);
+  glCreateTextures(options.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id_);
+  glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
+  allocate(id_, options);
+  glEnable(GL_DEBUG_OUTPUT);
+  if (glGetError() == GL_OUT_OF_MEMORY) {
+    glDeleteTextures(1, &id_);
+    refuse(size_, label, "there is no room for it");
   }
+  if (options.samples == 1) set_sampling(id_, options);
   glObjectLabel(GL_TEXTURE, id_, static_cast<GLsizei>(label.size()), label.data());
 }
 

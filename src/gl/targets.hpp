@@ -16,7 +16,8 @@ struct TextureOptions {
   bool compares_depth = false;  // sampled as a shadow map
 };
 
-/// A 2D texture: linear filtering, zero (or the far depth) outside.
+/// A 2D texture: linear filtering, zero (or the far depth) outside. Throws Error (device) beyond the driver's largest size, and
+/// when the GPU has no room for it.
 class Texture {
  public:
   Texture(const TextureOptions& options, std::string_view label);
