@@ -51,9 +51,10 @@ class Run {
   bool stopped() const { return interrupted != 0 || report_.non_finite; }
 
   void run_fixed() {
-    for (std::uint64_t frame = 1; !stopped() && run_.plan.step_of_frame(frame) <= run_.plan.steps; ++frame) {
-      advance_to(run_.plan.step_of_frame(frame));
-      if (report_.steps == run_.plan.step_of_frame(frame)) write_frame();
+    std::uint64_t step = 0;
+    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= run_.plan.steps) {
+      advance_to(step);
+      if (report_.steps == step) write_frame();
     }
     advance_to(run_.plan.steps);
   }
@@ -67,7 +68,6 @@ class Run {
     advance_to_time(run_.plan.duration);
   }
 
-  // A step longer than a frame serves several frames, with one row of history.
   void advance_to(std::uint64_t target) {
     const std::uint64_t before = report_.steps;
     while (report_.steps < target && !stopped())

@@ -81,6 +81,14 @@ std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
   return static_cast<std::uint64_t>(std::min(std::ceil(step * (1 - rounding)), 1e18));
 }
 
+std::uint64_t TimePlan::next_frame_step(std::uint64_t step) const {
+  const double frames_per_step = frame_rate * time_step;
+  if (frames_per_step >= 1) return step + 1;
+  auto frame = static_cast<std::uint64_t>(static_cast<double>(step) * frames_per_step);  // one or two before the frame sought
+  while (step_of_frame(frame) <= step) ++frame;
+  return step_of_frame(frame);
+}
+
 std::optional<double> TimePlan::time_of_frame(std::uint64_t frame) const {
   constexpr double rounding = 1e-12;  // relative, as above
   const double time = static_cast<double>(frame) / frame_rate;

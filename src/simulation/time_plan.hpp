@@ -21,6 +21,8 @@ struct TimePlan {
 
   /// Frame n is the first state at or after n / frame_rate. Steps beyond 1e18 count as 1e18.
   [[nodiscard]] std::uint64_t step_of_frame(std::uint64_t frame) const;
+  /// The first step after `step` whose state is a frame: the next one where a step is longer than a frame.
+  [[nodiscard]] std::uint64_t next_frame_step(std::uint64_t step) const;
   /// n / frame_rate [s], where a step ends exactly if there is a tolerance. Nothing after the duration.
   [[nodiscard]] std::optional<double> time_of_frame(std::uint64_t frame) const;
 };

@@ -87,6 +87,22 @@ TEST_CASE("frames advance at every frame rate that a scene may have") {
   }
 }
 
+TEST_CASE("the next step with a frame is the first after a step, or the next one where steps are longer than frames") {
+  for (const double time_step : {1e-30, 1e-4, 0.007, 1.0 / 60, 0.3, 1e30}) {
+    const TimePlan plan{.time_step = time_step};
+    CAPTURE(time_step);
+    std::uint64_t step = 0, frame = 0;
+    for (int k = 0; k < 100 && step < 300'000'000; ++k) {
+      const std::uint64_t next = plan.next_frame_step(step);
+      if (60 * time_step >= 1)
+        CHECK(next == step + 1);
+      else
+        CHECK(next == plan.step_of_frame(++frame));
+      step = next;
+    }
+  }
+}
+
 TEST_CASE("bodies without damping are undamped under every law") {
   BodySetup setup = sphere(0);
   setup.description.damping = 0;
