@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <string>
 
 #include "app/choose_device.hpp"
-#include "app/run_command.hpp"
+#include "app/interrupts.hpp"
 #include "bench/precision_report.hpp"
 #include "bench/report.hpp"
 #include "bench/stability_report.hpp"
@@ -20,20 +16,6 @@
 
 namespace pliant::app {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-// A measurement in hand is finished first. Another Ctrl-C does not wait for it, unless it comes with the first: `timeout` sends
-// two.
-void note_interrupt(int) {
-  static std::atomic<std::time_t> first;
-  const std::time_t now = std::time(nullptr);
-  if (interrupted == 0)
-    first = now;
-  else if (now > first + 1)
-    std::_Exit(exit_interrupted);
-  interrupted = 1;
-}
 
 bench::Selection selection_of(const BenchOptions& options) {
   if (options.gpu_index && options.devices == BenchDevices::cpu)
@@ -47,10 +29,10 @@ bench::Selection selection_of(const BenchOptions& options) {
 
 // Answers whether to go on.
 bool show_progress(double done, std::string_view next) {
-  if (isatty(fileno(stderr)) == 0) return interrupted == 0;
+  if (isatty(fileno(stderr)) == 0) return !is_interrupted();
   fmt::print(stderr, "\r[{:<30}] {:3.0f} %  {:<50}", std::string(static_cast<std::size_t>(30 * done), '#'), 100 * done, next);
-  if (done == 1 || interrupted != 0) fmt::print(stderr, "\r{:90}\r", "");
-  return interrupted == 0;
+  if (done == 1 || is_interrupted()) fmt::print(stderr, "\r{:90}\r", "");
+  return !is_interrupted();
 }
 
 // The table comes before any error of writing the file. Without a row an earlier file stays.
@@ -66,7 +48,7 @@ void write_results(const bench::Machine& machine, const Options& asked, const Re
 // The file's place is checked first: minutes of measuring should not end with a folder that can't be written.
 template <class Options, class Measure>
 int measure_and_write(const BenchOptions& options, const Options& asked, const Measure& measure) {
-  std::signal(SIGINT, note_interrupt);
+  watch_for_interrupts();
   std::optional<WholeFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const bench::Machine machine = bench::describe_machine(options.gpu_index.value_or(0));

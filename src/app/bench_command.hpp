@@ -19,7 +19,7 @@ struct BenchOptions {
 };
 
 /// Prints the machine and a table, and writes the file; an earlier one stays until then. After Ctrl-C with the rows that are
-/// finished. Return the exit code, 0 or exit_interrupted. Throw Error.
+/// finished (interrupts.hpp). Return the exit code, 0 or exit_interrupted. Throw Error.
 int bench_forces(const BenchOptions& options);
 int bench_steps(const BenchOptions& options);
 int bench_precision(const BenchOptions& options);

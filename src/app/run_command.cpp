@@ -5,12 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <optional>
 
 #include "app/frame_sink.hpp"
+#include "app/interrupts.hpp"
 #include "app/prepared_run.hpp"
 #include "core/thread_pool.hpp"
 #include "output/csv.hpp"
@@ -20,7 +21,8 @@
 namespace pliant::app {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+constexpr double patience = 1;           // that Ctrl-C has with measuring [s]
+constexpr double time_of_a_batch = 0.1;  // of steps, after which Ctrl-C is heard and progress shown [s]
 
 class Run {
  public:
@@ -44,11 +46,11 @@ class Run {
     history_.close();
     write_end();
     if (report_.non_finite) return exit_non_finite;
-    return interrupted != 0 ? exit_interrupted : 0;
+    return is_interrupted() ? exit_interrupted : 0;
   }
 
  private:
-  bool stopped() const { return interrupted != 0 || report_.non_finite; }
+  bool stopped() const { return is_interrupted() || report_.non_finite; }
 
   void run_fixed() {
     std::uint64_t step = 0;
@@ -70,12 +72,19 @@ class Run {
 
   void advance_to(std::uint64_t target) {
     const std::uint64_t before = report_.steps;
-    while (report_.steps < target && !stopped())
-      step([&] {
-        run_.simulation->advance(std::min(Simulation::most_steps_at_once, target - report_.steps));
-        return run_.simulation->report();
-      });
+    while (report_.steps < target && !stopped()) advance_by(std::min(batch_, target - report_.steps));
     if (report_.steps != before) record();
+  }
+
+  // Batches grow while they are short: a report a step would cost more than small steps do.
+  void advance_by(std::uint64_t steps) {
+    const double before = stepping_.seconds();
+    step([&] {
+      run_.simulation->advance(steps);
+      return run_.simulation->report();
+    });
+    const bool is_short = stepping_.seconds() - before < time_of_a_batch;
+    batch_ = is_short ? std::min(2 * batch_, Simulation::most_steps_at_once) : std::max<std::uint64_t>(batch_ / 2, 1);
   }
 
   void advance_to_time(double target) {
@@ -92,7 +101,7 @@ class Run {
 
   void record() {
     state_ = run_.simulation->state();
-    now_ = measuring_.time([&] { return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_); });
+    now_ = measuring_.time([&] { return measured(); });
     if (report_.steps == 0) first_ = now_;
     most_in_motion_ = std::max(most_in_motion_, now_.kinetic + now_.elastic);
     const double drift = std::abs(now_.energy() - first_.energy());
@@ -106,6 +115,14 @@ class Run {
                      .angular_momentum = now_.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices});
+  }
+
+  // After Ctrl-C for a moment only; without the elastic energy where that is not enough.
+  Measurement measured() {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(patience);
+    return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_,
+                   [end] { return is_interrupted() && Clock::now() > end; });
   }
 
   void write_frame() {
@@ -159,7 +176,7 @@ class Run {
     else
       s.final_intersecting_pairs = run_.simulation->intersections().pairs;
     s.non_finite = report_.non_finite.has_value();
-    s.interrupted = interrupted != 0;
+    s.interrupted = is_interrupted();
     s.work = {report_.force_evaluations, report_.pair_interactions, report_.nodes_refitted, report_.node_tests,
               report_.triangle_tests};
     s.skipped = {{"force_evaluations", report_.forces_skipped},
@@ -196,10 +213,14 @@ class Run {
   }
 
   void show_end() const {
-    fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", interrupted != 0 ? "interrupted after " : "",
+    fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", is_interrupted() ? "interrupted after " : "",
                report_.steps, length_of_steps(), run_.plan.integrator->name, stepping_.seconds(),
                report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(), run_.device->info().kind,
                run_.device->info().name);
+    const double beside = measuring_.seconds() + writing_.seconds();
+    if (beside > 0.1 && 9 * beside > stepping_.seconds())  // over a tenth of the whole
+      fmt::print("beside these, {:.2f} s of measuring the state and {:.2f} s of frames\n", measuring_.seconds(),
+                 writing_.seconds());
     fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
     show_timings();
     fmt::print("summary: {}\n", (folder_ / "summary.json").string());
@@ -250,6 +271,7 @@ class Run {
   FrameSink frames_;  // before any file is touched: there may be nothing to draw with
   HistoryFile history_;
   StepReport report_;
+  std::uint64_t batch_ = 1;  // steps between reports
   State state_;
   Measurement first_, now_;
   double largest_drift_ = 0;   // of the energy [J]
@@ -331,6 +353,10 @@ void show_check(PreparedRun& run) {
              std::isnan(estimate.seconds) ? "unknown" : fmt::format("about {:.3g} s", estimate.seconds));
 }
 
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -341,9 +367,8 @@ int run(const RunOptions& options) {
     show_check(prepared);
     return 0;
   }
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  const std::filesystem::path folder = options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
-  return Run(options, prepared, folder).execute();
+  watch_for_interrupts();
+  return Run(options, prepared, folder_of(options)).execute();
 }
 
 }  // namespace pliant::app

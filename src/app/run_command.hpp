@@ -12,7 +12,6 @@
 namespace pliant::app {
 
 inline constexpr int exit_non_finite = 5;
-inline constexpr int exit_interrupted = 130;  // as shells have it after Ctrl-C
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -30,7 +29,8 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// Returns the exit code: 0, exit_non_finite or exit_interrupted; what there is was written in each case. Throws Error.
+/// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp); what there is was written in each case. Throws
+/// Error.
 [[nodiscard]] int run(const RunOptions& options);
 
 }  // namespace pliant::app

@@ -51,20 +51,24 @@ void OutputFile::require(bool good, const char* problem) const {
   if (!good) throw unwritable(path_, problem);
 }
 
-WholeFile::WholeFile(const std::filesystem::path& path)
-    : place_(checked_place(path)), written_(beside(place_)), file_(written_) {}
-
-WholeFile::~WholeFile() {
-  std::error_code failure;
-  if (!moved_ && written_ != place_) std::filesystem::remove(written_, failure);
+WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), written_(beside(place_)) {
+  if (written_ == place_ && !std::filesystem::is_directory(place_)) return;
+  { const OutputFile trial(written_); }
+  std::filesystem::remove(written_);
 }
 
 void WholeFile::close() {
-  file_.close();
   std::error_code failure;
+  try {
+    OutputFile file(written_);
+    file.write(bytes_);
+    file.close();
+  } catch (const Error&) {
+    if (written_ != place_) std::filesystem::remove(written_, failure);
+    throw;
+  }
   if (written_ != place_) std::filesystem::rename(written_, place_, failure);
   if (failure) throw unwritable(place_, "can't be replaced");
-  moved_ = true;
 }
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 namespace pliant {
@@ -23,26 +24,22 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-/// A file that appears as a whole or not at all: it is written beside its place, as PATH.tmp, and close() moves it there. What is
-/// no plain file, such as /dev/stdout, is written to directly.
+/// A file that appears as a whole or not at all: close() writes it beside its place, as PATH.tmp, and moves it there. Until then
+/// there is nothing that a program which is killed would leave behind. What is no plain file, such as /dev/stdout, is written to
+/// directly.
 class WholeFile {
  public:
-  /// Creates the folders that are missing, and PATH.tmp; leaves alone what stands at `path`. Throws Error (command_line) where
-  /// one may not write.
+  /// Creates the folders that are missing, and tries PATH.tmp; leaves alone what stands at `path`. Throws Error (command_line)
+  /// where one may not write.
   explicit WholeFile(const std::filesystem::path& path);
-  /// Removes PATH.tmp, unless close() has moved it.
-  ~WholeFile();
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
 
-  void write(std::string_view bytes) { file_.write(bytes); }
+  void write(std::string_view bytes) { bytes_ += bytes; }
   /// Replaces what stood there. Throws Error (command_line).
   void close();
 
  private:
   std::filesystem::path place_, written_;  // the same where it is written directly
-  OutputFile file_;
-  bool moved_ = false;
+  std::string bytes_;
 };
 
 }  // namespace pliant

@@ -106,26 +106,31 @@ TEST_CASE("a full disk is told after the table") {
   CHECK(result.output.find("/dev/full") != std::string::npos);
 }
 
-TEST_CASE("Ctrl-C ends bench early, and an earlier result gives way to finished rows alone") {
-  const ScratchFolder folder;
-  const auto file = folder.path / "forces.json";
-  std::ofstream(file) << "earlier";
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(program_path().c_str(), "pliant", "bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.c_str(),
-          nullptr);
-    _exit(127);
+TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way to finished rows alone") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const ScratchFolder folder;
+    const auto file = folder.path / "forces.json", table = folder.path / "table.txt";
+    std::ofstream(file) << "earlier";
+    std::ofstream(table).close();
+    const pid_t child = fork();
+    if (child == 0) {
+      if (std::freopen(table.c_str(), "w", stdout) == nullptr) _exit(126);
+      execl(program_path().c_str(), "pliant", "bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.c_str(),
+            nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    while (std::filesystem::file_size(table) == 0) REQUIRE(waitpid(child, &status, WNOHANG) == 0);
+    CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));  // which a program that is killed would leave
+    kill(child, signal);
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
+    if (const std::string text = read_text(file); text != "earlier") {
+      CHECK(nlohmann::json::parse(text)["interrupted"] == true);
+      CHECK_FALSE(nlohmann::json::parse(text)["rows"].empty());
+    }
+    CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
   }
-  int status = 0;
-  while (!std::filesystem::exists(file.string() + ".tmp")) REQUIRE(waitpid(child, &status, WNOHANG) == 0);
-  kill(child, SIGINT);
-  REQUIRE(waitpid(child, &status, 0) == child);
-  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
-  if (const std::string text = read_text(file); text != "earlier") {
-    CHECK(nlohmann::json::parse(text)["interrupted"] == true);
-    CHECK_FALSE(nlohmann::json::parse(text)["rows"].empty());
-  }
-  CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
 }
 
 TEST_CASE("a GPU that is not there exits with 4") { check_fails("forces --quick --device gpu --gpu 99", 4, "GPU"); }

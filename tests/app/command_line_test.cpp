@@ -231,26 +231,29 @@ TEST_CASE("frames of the demo's scene show both bodies, and move, on either devi
   CHECK(pixels_of(folder.path / "cpu/frames/frame_0000.png") == pixels_of(folder.path / "gpu/frames/frame_0000.png"));
 }
 
-TEST_CASE("Ctrl-C ends a run early and writes what there is") {
-  const ScratchFolder folder;
-  const std::string out = folder.path.string(), scene = small_scene(folder).string();
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(program_path().c_str(), "pliant", "run", scene.c_str(), "--device", "cpu", "--steps", "100000000", "--quiet", "--out",
-          out.c_str(), nullptr);
-    _exit(127);
+TEST_CASE("Ctrl-C and SIGTERM end a run early and write what there is") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const ScratchFolder folder;
+    const std::string out = folder.path.string(), scene = small_scene(folder).string();
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(program_path().c_str(), "pliant", "run", scene.c_str(), "--device", "cpu", "--steps", "100000000", "--quiet", "--out",
+            out.c_str(), nullptr);
+      _exit(127);
+    }
+    int status = 0;
+    while (!std::filesystem::exists(folder.path / "history.csv") || line_count(read_text(folder.path / "history.csv")) < 3)
+      REQUIRE(waitpid(child, &status, WNOHANG) == 0);
+    kill(child, signal);
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
+    const auto summary = summary_in(folder.path);
+    CHECK(summary["steps"] > 0);
+    CHECK(summary["steps"] < 100000000);
+    CHECK(summary["interrupted"] == true);
+    CHECK(summary["energy"]["final"].is_number());
+    CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
   }
-  int status = 0;
-  while (!std::filesystem::exists(folder.path / "history.csv") || line_count(read_text(folder.path / "history.csv")) < 3)
-    REQUIRE(waitpid(child, &status, WNOHANG) == 0);
-  kill(child, SIGINT);
-  REQUIRE(waitpid(child, &status, 0) == child);
-  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
-  const auto summary = summary_in(folder.path);
-  CHECK(summary["steps"] > 0);
-  CHECK(summary["steps"] < 100000000);
-  CHECK(summary["interrupted"] == true);
-  CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
 }
 
 TEST_CASE("each format of frames has a file a frame") {

@@ -1,0 +1,15 @@
+// What Ctrl-C and SIGTERM do, in every command that takes long.
+#pragma once
+
+namespace pliant::app {
+
+inline constexpr int exit_interrupted = 130;  // as shells have it after Ctrl-C
+
+/// From here on the first Ctrl-C or SIGTERM asks for an early end, after what is in hand; another one, a second or more later,
+/// ends the program at once. Until it is called, the first one ends it.
+void watch_for_interrupts();
+
+/// Whether to come to an end. Any thread may ask.
+[[nodiscard]] bool is_interrupted();
+
+}  // namespace pliant::app
