@@ -1,10 +1,12 @@
 // The command line: options in, exit code out.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <limits>
 #include <new>
 
 #include "app/bench_command.hpp"
@@ -18,13 +20,37 @@ namespace {
 
 using namespace pliant;
 
-// CLI11's own number checks let nan and inf pass.
-CLI::Validator finite(double lowest, const char* range, double highest = std::numeric_limits<double>::max()) {
-  const auto complaint = [lowest, highest, range](const std::string& text) {
-    const double value = std::strtod(text.c_str(), nullptr);
-    return value >= lowest && value <= highest ? std::string() : text + " is not " + range;
+template <class T>
+std::string complaint_of_range(const std::string& text, T value, T lowest, T highest) {
+  if (value < lowest) return fmt::format("{} is below {}", text, lowest);
+  return value > highest ? fmt::format("{} is above {}", text, highest) : "";
+}
+
+// CLI11's own checks let nan and inf pass, and take what is no number for one out of range.
+CLI::Validator number(double lowest, double highest) {
+  const auto complaint = [lowest, highest](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool is_number = !text.empty() && *end == '\0' && !std::isnan(value);
+    return is_number ? complaint_of_range(text, value, lowest, highest) : fmt::format("\"{}\" is no number", text);
   };
-  return {complaint, range};
+  return {complaint, fmt::format("{} to {}", lowest, highest)};
+}
+
+CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
+  const auto complaint = [lowest, highest](const std::string& text) {
+    std::int64_t value = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size() || status == std::errc::invalid_argument)
+      return fmt::format("\"{}\" is no whole number", text);
+    if (status == std::errc()) return complaint_of_range(text, value, lowest, highest);
+    return text + " is out of range";
+  };
+  return {complaint, fmt::format("{} to {}", lowest, highest)};
+}
+
+CLI::Validator not_empty() {
+  return {[](const std::string& text) { return text.empty() ? std::string("is empty; name a place") : std::string(); }, ""};
 }
 
 // An option that takes one of a few words.
@@ -47,25 +73,25 @@ void add_run(CLI::App& program, app::RunOptions& options) {
       *run, "--device", options.device.kind,
       {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
       "Where to simulate (default auto: a hardware GPU, else the CPU)");
-  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")->check(CLI::NonNegativeNumber);
+  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")->check(whole_number(0, 1000000));
   run->add_option("--precision", options.device.precision, "Bits of the forces; 64 on the CPU alone")
       ->check(CLI::IsMember({32, 64}));
   run->add_option("--threads", options.device.threads, "Threads of the CPU (default: one a processor)")
-      ->check(CLI::Range(1, 4096));
+      ->check(whole_number(1, 4096));
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
-                           ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{300'000'000}));
-  run->add_option("--duration", options.duration, "Simulated time [s]")->check(finite(0, "a number >= 0"))->excludes(steps);
+                           ->check(whole_number(0, 300'000'000));
+  run->add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
   CLI::Option* time_step = run->add_option("--time-step", options.time_step, "Length of a step [s]");
-  time_step->check(finite(1e-30, "a number, 1e-30 or more"));
+  time_step->check(number(1e-30, 1e30));
   run->add_option("--tolerance", options.tolerance, "Largest error of a step, by which steps then find their length")
-      ->check(finite(1e-14, "a number from 1e-14 to 0.1", 0.1))
+      ->check(number(1e-14, 0.1))
       ->excludes(time_step)
       ->excludes(steps);
   run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
   run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
       ->allow_extra_args(false)
       ->take_all();
-  run->add_option("--out", options.out, "Folder to write (default out/SCENE)");
+  run->add_option("--out", options.out, "Folder to write (default out/SCENE)")->check(not_empty());
   add_choice<FrameFormat>(*run, "--frames", options.frames,
                           {{"none", FrameFormat::none},
                            {"png", FrameFormat::png},
@@ -92,10 +118,10 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
                                  {"gpu", app::BenchDevices::gpu},
                                  {"all", app::BenchDevices::all}},
                                 "What to measure on (default auto: the CPU, and a hardware GPU if there is one)");
-  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->check(CLI::NonNegativeNumber);
+  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->check(whole_number(0, 1000000));
   suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
-      ->check(CLI::Range(1, 4096));
-  suite->add_option("--json", options.json, "File to write the results to");
+      ->check(whole_number(1, 4096));
+  suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
                   "A rough measurement: seconds for forces and steps, about a minute for precision and stability");
   return suite;
@@ -132,10 +158,34 @@ void show_mesh(const MeshOptions& options) {
   std::cout << (options.json ? to_json(report) : to_text(report));
 }
 
+// The command that was being read, and what it is called.
+std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
+  std::string name = "pliant";
+  while (!program->get_subcommands().empty()) {
+    program = program->get_subcommands().front();
+    name += " " + program->get_name();
+  }
+  return {program, name};
+}
+
+// CLI11 asks for a subcommand without naming the word that is none.
+std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
+  const auto [command, name] = command_in(program);
+  std::string choices;
+  for (const CLI::App* choice : command->get_subcommands({})) choices += (choices.empty() ? "" : ", ") + choice->get_name();
+  const std::vector<std::string> unknown = command->remaining();
+  const std::string what = choices.empty() ? error.what()
+                           : unknown.empty()
+                               ? fmt::format("{} needs a subcommand: {}", name, choices)
+                               : fmt::format("there is no \"{} {}\"; what exists: {}", name, unknown.front(), choices);
+  return fmt::format("pliant: {}; `{} --help` says more\n", what, name);
+}
+
 int execute(int count, char** arguments) {
   CLI::App program{"pliant: soft bodies of all-pairs springs, on GPU and CPU"};
   program.set_version_flag("--version", PLIANT_VERSION);
   program.require_subcommand(1);
+  program.failure_message(complaint_of);
   app::RunOptions run;
   app::InfoOptions info;
   app::BenchOptions bench;

@@ -8,6 +8,13 @@
 namespace pliant::app {
 namespace {
 
+// The scene's method gives way where it can't meet the tolerance of an option; one that an option names as well does not.
+void take_automatic_integrator(SimulationDescription& simulation) {
+  const auto& [name, where] = simulation.integrator;
+  if (where.starts_with("--") || name == "auto" || estimates_error(find_integrator(name, where))) return;
+  simulation.integrator = {"auto", "--tolerance"};
+}
+
 SceneDescription load_described_scene(const RunOptions& options) {
   SceneDescription scene = load_scene(options.scene, options.overrides);
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
@@ -20,6 +27,7 @@ SceneDescription load_described_scene(const RunOptions& options) {
     scene.simulation.tolerance = options.tolerance;
     scene.simulation.tolerance_where = "--tolerance";
     scene.simulation.time_step.reset();
+    take_automatic_integrator(scene.simulation);
   }
   if (options.duration) {
     scene.simulation.duration = *options.duration;
@@ -28,8 +36,14 @@ SceneDescription load_described_scene(const RunOptions& options) {
   return scene;
 }
 
+void warn_of_integrator(PreparedRun& run) {
+  if (run.scene.simulation.integrator.where == "--tolerance")
+    run.warnings.push_back(fmt::format("the scene's integrator can't meet a tolerance: {} is taken, as by --integrator auto",
+                                       run.plan.integrator->name));
+}
+
 void warn_of_step(PreparedRun& run) {
-  if (run.plan.time_step <= run.plan.step_bound) return;
+  if (run.plan.steps == 0 || run.plan.time_step <= run.plan.step_bound) return;
   run.warnings.push_back(
       fmt::format("the time step {:.6g} s is {:.3g} times the stability bound of {} here, {:.6g} s: expect growing motion",
                   run.plan.time_step, run.plan.time_step / run.plan.step_bound, run.plan.integrator->name, run.plan.step_bound));
@@ -37,7 +51,8 @@ void warn_of_step(PreparedRun& run) {
 
 void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
   if (!run.plan.tolerance && run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
-    run.warnings.push_back("the duration is shorter than half a step, so no step is made");
+    run.warnings.push_back(fmt::format("no step is made: one of {:.6g} s is longer than twice the duration, {:.6g} s; shorten it",
+                                       run.plan.time_step, run.scene.simulation.duration));
 }
 
 void warn_of_overlap(PreparedRun& run) {
@@ -62,6 +77,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.device = choose_device(options.device);
   expect_carried(run.scene, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
+  warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);
   warn_of_overlap(run);

@@ -13,6 +13,7 @@
 #include "app/frame_sink.hpp"
 #include "app/interrupts.hpp"
 #include "app/prepared_run.hpp"
+#include "core/error.hpp"
 #include "core/thread_pool.hpp"
 #include "output/csv.hpp"
 #include "output/summary.hpp"
@@ -357,9 +358,18 @@ std::filesystem::path folder_of(const RunOptions& options) {
   return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
 }
 
+void expect_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::path existing = std::filesystem::absolute(folder, ignored);
+  while (!std::filesystem::exists(existing, ignored) && existing.has_relative_path()) existing = existing.parent_path();
+  if (!std::filesystem::is_directory(existing, ignored))
+    throw Error(ErrorKind::command_line, existing.string(), "is no folder", "name another place by --out");
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
+  if (!options.check) expect_folder(folder_of(options));
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);

@@ -56,18 +56,19 @@ TriangleMesh subdivide(const TriangleMesh& coarse) {
   return fine;
 }
 
-constexpr int max_subdivisions = 7;
+constexpr unsigned max_subdivisions = 7;
 
 TriangleMesh icosphere(std::string_view description, std::string_view argument) {
-  int subdivisions = -1;
+  unsigned subdivisions = 0;
   const auto [end, status] = std::from_chars(argument.data(), argument.data() + argument.size(), subdivisions);
-  const bool whole = status == std::errc() && end == argument.data() + argument.size();
-  if (!whole || subdivisions < 0 || subdivisions > max_subdivisions)
+  const bool whole = status != std::errc::invalid_argument && end == argument.data() + argument.size();
+  if (!whole || status != std::errc() || subdivisions > max_subdivisions)
     throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description),
-                fmt::format("\"{}\" is no number of subdivisions", argument),
+                whole ? fmt::format("{} subdivisions are beyond {}", argument, max_subdivisions)
+                      : fmt::format("\"{}\" is no number of subdivisions", argument),
                 fmt::format("write icosphere:n with a whole number n from 0 to {}", max_subdivisions));
   TriangleMesh mesh = icosahedron();
-  for (int i = 0; i < subdivisions; ++i) mesh = subdivide(mesh);
+  for (unsigned i = 0; i < subdivisions; ++i) mesh = subdivide(mesh);
   return mesh;
 }
 
@@ -78,13 +79,13 @@ struct Generator {
 
 constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere}};
 
-std::string list_forms() {
+}  // namespace
+
+std::string generator_forms() {
   std::string forms;
   for (const Generator& generator : generators) forms += fmt::format("{}{}", forms.empty() ? "" : ", ", generator.form);
   return forms;
 }
-
-}  // namespace
 
 bool is_generator(std::string_view description) {
   const std::size_t colon = description.find(':');
@@ -98,7 +99,7 @@ TriangleMesh generate_mesh(std::string_view description) {
   const auto found = std::ranges::find(generators, name, &Generator::name);
   if (found == std::end(generators))
     throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description), fmt::format("there is no generator \"{}\"", name),
-                fmt::format("what exists: {}", list_forms()));
+                fmt::format("what exists: {}", generator_forms()));
   const bool has_argument = name.size() < description.size();
   return found->generate(description, has_argument ? description.substr(name.size() + 1) : std::string_view());
 }

@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// One setup a body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings, each beginning
-/// with its body's name, unless `warnings` is null. Throws Error (input) naming the body's place in the scene file.
+/// with its body's name, unless `warnings` is null. Throws Error (fault_of the mesh's place, which it names).
 [[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace pliant

@@ -74,8 +74,13 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The nearest name, unless nothing is near; then all of them.
+/// The names that contain the word, such as vertex_mass for mass; else the nearest, unless nothing is near; then all of them.
 std::string suggest(std::string_view word, const std::vector<std::string>& names) {
+  std::string containing;
+  for (const std::string& name : names)
+    if (word.size() > 2 && name.find(word) != std::string::npos)
+      containing += fmt::format("{}\"{}\"", containing.empty() ? "" : " or ", name);
+  if (!containing.empty()) return fmt::format("did you mean {}?", containing);
   const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(word, name); });
   if (nearest != names.end() && edit_distance(word, *nearest) <= std::max<std::size_t>(2, word.size() / 3))
     return fmt::format("did you mean \"{}\"?", *nearest);
@@ -235,10 +240,9 @@ class TableReader {
 
 // ---- The scene's keys ----
 
-const std::vector<Choice<DampingLaw>> damping_laws = {
-    {name_of(DampingLaw::none), DampingLaw::none},
-    {name_of(DampingLaw::constant), DampingLaw::constant},
-    {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
+const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none), DampingLaw::none},
+                                                      {name_of(DampingLaw::constant), DampingLaw::constant},
+                                                      {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
 const std::vector<Choice<ContactResponse>> responses = {{"none", ContactResponse::none}, {"reflect", ContactResponse::reflect}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
@@ -297,6 +301,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.require("mesh");
   table.read("name", body.name);
   table.read("mesh", body.mesh);
+  body.mesh_where = table.where("mesh");
   table.read("weld", body.weld, not_negative);
   table.read("scale", body.scale, positive);
   table.read("position", body.position, coordinate);

@@ -69,6 +69,7 @@ struct BodyDescription {
   std::string name;
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
+  std::string mesh_where;                 // of the key: an option, or "file:line: field"
   std::optional<double> weld;             // [m]; empty: off
   double scale = 1.0;                     // [m per mesh unit]
   glm::dvec3 position{0.0};               // [m]

@@ -145,12 +145,13 @@ TEST_CASE("a tolerance replaces the step, and knows where it stands") {
   CHECK_FALSE(scene.simulation.time_step);
 }
 
-TEST_CASE("an unknown key is an error that suggests the nearest known one") {
+TEST_CASE("an unknown key is an error that suggests the known ones that contain it, or the nearest") {
   check_input_error("[simulation]\ntime_stp = 0.1\n" + smallest, 2,
                     {"simulation.time_stp", "unknown key", "did you mean \"time_step\"?"});
   check_input_error("[[body]]\nmesh = \"icosphere:1\"\nstifness = 4\n", 3,
                     {"body.body0.stifness", "did you mean \"stiffness\"?"});
   check_input_error("[[body]]\nmesh = \"icosphere:1\"\ncolour = [1, 1, 1]\n", 3, {"did you mean \"color\"?"});
+  check_input_error("[[body]]\nmesh = \"icosphere:1\"\nmass = 4\n", 3, {"did you mean \"vertex_mass\" or \"total_mass\"?"});
   check_input_error("titel = \"x\"\n" + smallest, 1, {"titel", "did you mean \"title\"?"});
   check_input_error("[colision]\n" + smallest, 1, {"colision", "did you mean \"collision\"?"});
   check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2, {"collision.tree.whatever", "split, max_depth, leaf_size"});
@@ -274,6 +275,7 @@ TEST_CASE("overrides replace, add and reach into sections that the file lacks") 
   CHECK(scene.title == "with spaces");
   CHECK((scene.bodies[0].name == "port" && scene.bodies[0].stiffness == 80 && scene.bodies[0].damping == 7));
   CHECK(scene.bodies[1].mesh == "../meshes/bunny.obj");
+  CHECK(scene.bodies[1].mesh_where == "--set body.body1.mesh=../meshes/bunny.obj: body.body1.mesh");
 }
 
 TEST_CASE("a later override wins, and auto replaces a step") {
