@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/expect.hpp"
 
 namespace pliant::gl {
 namespace {
@@ -52,7 +53,9 @@ Texture::Texture(const TextureOptions& options, std::string_view label) : size_(
   glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
   allocate(id_, options);
   glEnable(GL_DEBUG_OUTPUT);
-  if (glGetError() == GL_OUT_OF_MEMORY) {
+  const GLenum error = glGetError();
+  PLIANT_EXPECT(error == GL_NO_ERROR || error == GL_OUT_OF_MEMORY);
+  if (error == GL_OUT_OF_MEMORY) {
     glDeleteTextures(1, &id_);
     refuse(size_, label, "there is no room for it");
   }
