@@ -111,8 +111,8 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #error UNROLL is 2, 3 or 4
 #endif
 
-// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs plainly, those sums exactly. UNROLL springs
-// at a time, so that their loads overlap; the last ones too, if need be with some left out.
+// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs plainly, those sums exactly.
+// UNROLL springs at a time, so that their loads overlap; the last ones too, if need be with some left out.
 //
 // Two vertices get the very same bits from their spring, with opposite signs. What sums do not add up to zero over a body is thus
 // rounding of sums alone, and it is what counts: nothing holds a body back from drifting and turning, so that a trajectory's error
