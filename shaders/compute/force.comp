@@ -249,7 +249,7 @@ void wait_for_others(Share s, uint often) {
     while (atomicAdd(frame[s.body_index].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
     if (polls == most_polls) {
       frame[s.body_index].halted = halted_waiting;
-      atomicAdd(frame[s.body_index].arrivals, 1u << 30);
+      atomicOr(frame[s.body_index].arrivals, 1u << 31);
     }
     memoryBarrierBuffer();
   }

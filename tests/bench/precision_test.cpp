@@ -116,14 +116,18 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
   REQUIRE(result.cases.size() == 1);
   CHECK(result.cases.front().reference_error < 1e-12);
   for (const Integrator& integrator : integrators()) {
+    // Order 12 falls in waves down to rounding: its slope is taken over all of them, from longer steps on.
+    const bool in_waves = integrator.order > 8;
+    const double longest = in_waves ? 3.4 : 1.5, least = in_waves ? 1e-13 : 1e-11;
     std::vector<std::pair<double, double>> points;  // step, error
     for (const PrecisionRow& row : result.rows)
-      if (row.library == "pliant" && row.method == integrator.name && row.precision == 64 && row.step < 1.5 && row.error > 1e-11)
+      if (row.library == "pliant" && row.method == integrator.name && row.precision == 64 && row.step < longest &&
+          row.error > least)
         points.emplace_back(row.step, row.error);
     CAPTURE(integrator.name);
     REQUIRE(points.size() >= 2);
     const auto [step, error] = points.back();
-    const auto [step_before, error_before] = points[points.size() - 2];
+    const auto [step_before, error_before] = in_waves ? points.front() : points[points.size() - 2];
     CHECK(std::log(error_before / error) / std::log(step_before / step) == Approx(integrator.order).margin(0.4));
   }
   double least_single = 1;
