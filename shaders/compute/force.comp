@@ -238,7 +238,7 @@ void serve(Share s, bool sums) {
 
 #ifdef TILE
 // Until every group of the body has come here so often. All of them run, so none waits in vain; the limit is for the case that a
-// driver breaks its word. Then the body halts, and nobody waits any more.
+// driver holds some of them back. Then the body halts, and nobody waits any more.
 void wait_for_others(Share s, uint often) {
   const uint share_size = VERTICES * TEAMS;
   uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;

@@ -117,7 +117,8 @@ TEST_CASE("the error of a run follows the tolerance") {
   }
 }
 
-TEST_CASE("forces in fp32 take hardly more steps than fp64 at the tolerances that auto meets them with", "[gl]") {
+TEST_CASE("where auto meets a tolerance, fp32 forces take at most a quarter more steps than fp64, with two known exceptions",
+          "[gl]") {
   const ModelAndState start = squashed();
   const double time = 20 / stiffest_omega(start.model);
   for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive})
@@ -127,9 +128,10 @@ TEST_CASE("forces in fp32 take hardly more steps than fp64 at the tolerances tha
       const std::uint64_t steps = Run(*exact, start, adaptive).simulation.advance_to(time).steps;
       for (const TestDevice& test : all_devices()) {
         CAPTURE(test.name, tolerance, adaptive.integrator);
-        // dprkn12 at 1e-7: its steps are so long that its estimate sees what forces round; it needs the fewest forces all the
-        // same.
-        const std::uint64_t more = adaptive.integrator == "dprkn12" ? 3 * steps / 4 : steps / 3;
+        // dprkn12's steps are so long that its estimate sees what forces round; it needs the fewest forces all the same. At the
+        // adaptive law's kink it is chance which steps are rejected: 53 for 42 was met.
+        const std::uint64_t more =
+            adaptive.integrator == "dprkn12" ? 3 * steps / 4 : steps / (law == DampingLaw::adaptive ? 3 : 4);
         CHECK(Run(*test.device, start, adaptive).simulation.advance_to(time).steps <= steps + more);
       }
     }
