@@ -43,7 +43,8 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
 
 void expect_groups_met(const std::vector<physics::Frame>& frames) {
   if (std::ranges::none_of(frames, [](const physics::Frame& frame) { return frame.halted == physics::halted_waiting; })) return;
-  throw Error(ErrorKind::device, "", "the GPU did not run all work groups of a body at once, though it has a multiprocessor for each",
+  throw Error(ErrorKind::device, "",
+              "the GPU did not run all work groups of a body at once, though it has a multiprocessor for each",
               "close other programs that use the GPU, or use --device cpu");
 }
 
