@@ -18,13 +18,18 @@ constexpr const char* remedy =
     "GPU runs and PNG frames need an OpenGL 4.5 driver with EGL (Debian: libegl1 and libgl1-mesa-dri, or NVIDIA's driver); "
     "--device cpu runs without";
 
+std::string_view damping_of(const Integrator& integrator) {
+  if (allows_damping(integrator, DampingLaw::adaptive)) return "any";
+  return allows_damping(integrator, DampingLaw::constant) ? "constant" : "none";
+}
+
 Json described_integrators() {
   Json list = Json::array();
   for (const Integrator& integrator : integrators())
     list.push_back({{"name", integrator.name},
                     {"order", integrator.order},
                     {"force_evaluations_per_step", evaluations_per_step(integrator)},
-                    {"damping", allows_damping(integrator)},
+                    {"damping", damping_of(integrator)},
                     {"tolerance", estimates_error(integrator)},
                     {"strained_bound", integrator.strained_bound},
                     {"description", integrator.description},
@@ -54,8 +59,8 @@ void print_integrators(const Json& list) {
              "description");
   for (const Json& row : list)
     fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
-               row["force_evaluations_per_step"].get<int>(), row["strained_bound"].get<double>(), yes_or_no(row["damping"]),
-               yes_or_no(row["tolerance"]), row["description"].get<std::string>());
+               row["force_evaluations_per_step"].get<int>(), row["strained_bound"].get<double>(),
+               row["damping"].get<std::string>(), yes_or_no(row["tolerance"]), row["description"].get<std::string>());
   fmt::print("squashed: the part of the step bound that a body squashed to a half bears.\n");
   fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }

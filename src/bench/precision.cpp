@@ -97,7 +97,7 @@ class Sweeps {
   /// False where the suite ends.
   bool pliant(Device& device, const Place& place) {
     for (const Integrator& integrator : integrators()) {
-      if (what_.damping_law != DampingLaw::none && !allows_damping(integrator)) continue;
+      if (!allows_damping(integrator, what_.damping_law)) continue;
       const PrecisionRow like{.case_name = what_.name,
                               .library = "pliant",
                               .method = std::string(integrator.name),

@@ -47,9 +47,10 @@ void add_dampings(StabilityTasks& tasks) {
   std::vector<double> dampings{0};
   for (int i = quick ? 0 : -2; i <= (quick ? 6 : 12); ++i) dampings.push_back(std::pow(10.0, quick ? i : i / 2.0));
   for (const Integrator& integrator : integrators()) {
-    if (!allows_damping(integrator) || (quick && integrator.name != "verlet" && integrator.name != "cv8")) continue;
+    if (!allows_damping(integrator, DampingLaw::constant) || (quick && integrator.name != "verlet" && integrator.name != "cv8"))
+      continue;
     for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive})
-      for (const double damping : dampings)
+      for (const double damping : allows_damping(integrator, law) ? dampings : std::vector<double>{})
         for (const double part : parts_of_bound) add_cell(tasks, integrator, {1, 40}, law, damping, part);
   }
 }

@@ -31,7 +31,7 @@ std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_si
                         .body_index = b,
                         .first_vertex = body.first_vertex + first,
                         .vertex_count = std::min(share_size, body.vertex_count - first),
-                        .padding = 0});
+                        .tableau_row = 0});
   }
   return shares;
 }
@@ -107,6 +107,12 @@ void DeviceBodies::set_time_step(double time_step) {
   std::vector<physics::Frame> changed = frames.download();
   for (physics::Frame& frame : changed) frame.time_step = time_step;
   frames.upload(changed);
+}
+
+void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
+  std::vector<physics::Share> changed = shares.download();
+  for (physics::Share& share : changed) share.tableau_row = rows[share.body_index];
+  shares.upload(changed);
 }
 
 State DeviceBodies::download(std::uint32_t half) const {

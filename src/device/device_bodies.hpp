@@ -1,6 +1,7 @@
 // The simulated bodies on a device: what dynamics and collision both work on.
 #pragma once
 #include <glm/vec4.hpp>
+#include <span>
 
 #include "device/device.hpp"
 #include "model/model.hpp"
@@ -34,6 +35,8 @@ struct DeviceBodies {
   void prepare_search();
   /// Of all bodies' steps from here on [s].
   void set_time_step(double time_step);
+  /// Where each body's own tableau begins.
+  void set_tableau_rows(std::span<const std::uint32_t> rows);
 };
 
 }  // namespace pliant

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
@@ -27,59 +28,95 @@ std::vector<int> used_stages(const StagedMethod& method, Stages wanted) {
   return stages;
 }
 
-void append(NystromTableau& tableau, long double position, long double velocity) {
-  tableau.position.push_back(static_cast<double>(position));
-  tableau.velocity.push_back(static_cast<double>(velocity));
+// What the velocity at the step's start, over h, and the used stages' accelerations, over h^2, add to a displacement.
+struct Sum {
+  long double of_start = 0;
+  std::vector<long double> of_stages = {};
+};
+
+// ... and, over 1 and h, to a velocity.
+struct Row {
+  Sum position, velocity;
+};
+
+void append(NystromTableau& tableau, const Row& row) {
+  tableau.c.push_back(static_cast<double>(row.position.of_start));
+  tableau.keep.push_back(static_cast<double>(row.velocity.of_start));
+  for (const long double weight : row.position.of_stages) tableau.position.push_back(static_cast<double>(weight));
+  for (const long double weight : row.velocity.of_stages) tableau.velocity.push_back(static_cast<double>(weight));
 }
 
-// Appends the row of the used stages, for weights of the step's end: (weights A)_k and weights_k, ...
-void append_end(NystromTableau& tableau, const RungeKutta& method, const long double* weights, std::span<const int> used) {
-  for (const int k : used) {
-    long double sum = 0;
-    for (const int j : used) sum += weights[j] * method.a[j * method.stages + k];
-    append(tableau, sum, weights[k]);
+// Slopes of positions are velocities at the stages, so their weights are weights A.
+class RungeKuttaRows {
+ public:
+  RungeKuttaRows(const RungeKutta& method, std::span<const int> used) : method_(method), used_(used) {}
+
+  [[nodiscard]] Row stage(int i) const { return row(&method_.a[i * method_.stages], method_.c[i]); }
+  [[nodiscard]] Row end(const std::vector<long double>& weights) const { return row(weights.data(), 1); }
+
+ private:
+  [[nodiscard]] Row row(const long double* weights, long double c) const {
+    Row row{{c}, {1}};
+    for (const int k : used_) {
+      long double sum = 0;
+      for (const int j : used_) sum += weights[j] * method_.a[j * method_.stages + k];
+      row.position.of_stages.push_back(sum);
+      row.velocity.of_stages.push_back(weights[k]);
+    }
+    return row;
   }
-}
 
-// ... or weights_k (1 - c_k) and weights_k.
-void append_end(NystromTableau& tableau, const Nystrom& method, const long double* weights, std::span<const int> used) {
-  for (const int k : used) append(tableau, weights[k] * (1 - method.c[k]), weights[k]);
-}
+  const RungeKutta& method_;
+  std::span<const int> used_;
+};
 
-void append_stage(NystromTableau& tableau, const RungeKutta& method, int stage, std::span<const int> used) {
-  append_end(tableau, method, &method.a[stage * method.stages], used);
-}
-
-void append_stage(NystromTableau& tableau, const Nystrom& method, int stage, std::span<const int> used) {
-  for (const int k : used) append(tableau, method.a[stage * method.stages + k], 0);
-}
-
-template <class Method>
-NystromTableau tableau_of(const Method& method, std::span<const int> used) {
-  NystromTableau tableau{static_cast<int>(used.size()), {}, {}, {}};
-  for (const int i : used) {
-    append_stage(tableau, method, i, used);
-    tableau.c.push_back(static_cast<double>(method.c[i]));
+// With drag, x'' = a(x) - g v, the method steps on y = e^(g t / 2) (x - x(0)), whose equation knows no velocity:
+//   y'' = e^(g t / 2) a(x) + (g / 2)^2 y, with y(0) = 0, y'(0) = v(0), and v = e^(-g t / 2) y' - (g / 2) (x - x(0)).
+// Its stages are linear in v(0) and the a(x), which makes them rows once more. Taken back to x, a weight decays by e^(-g t / 2)
+// over the time from its stage to the row's.
+class NystromRows {
+ public:
+  NystromRows(const Nystrom& method, std::span<const int> used, double drag) : method_(method), used_(used), half_(drag / 2) {
+    for (const int i : used) stages_.push_back(sum(method.c[i], &method.a[i * method.stages], method.c[i]));
   }
-  append_end(tableau, method, method.b.data(), used);
-  tableau.c.push_back(1.0);
-  return tableau;
-}
 
-// How much farther than by the embedded weights a step goes, as a row.
-template <class Method>
-NystromTableau difference_to(const std::vector<long double>& embedded, const Method& method, std::span<const int> used) {
-  std::vector<long double> difference = method.b;
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= embedded[i];
-  NystromTableau row;
-  append_end(row, method, difference.data(), used);
-  return row;
-}
+  [[nodiscard]] Row stage(int i) const {
+    const auto index = std::ranges::find(used_, i) - used_.begin();
+    return {stages_[index], {1, std::vector<long double>(used_.size())}};
+  }
+  [[nodiscard]] Row end(const std::vector<long double>& weights) const {
+    std::vector<long double> of_position = weights;
+    for (int i = 0; i < method_.stages; ++i) of_position[i] *= 1 - method_.c[i];
+    Row row{sum(1, of_position.data(), 1), sum(1, weights.data(), 1)};
+    row.velocity.of_start -= half_ * row.position.of_start;
+    for (std::size_t k = 0; k < used_.size(); ++k) row.velocity.of_stages[k] -= half_ * row.position.of_stages[k];
+    return row;
+  }
+
+ private:
+  // of_start v(0) and the y'' of the stages before, at the time c.
+  [[nodiscard]] Sum sum(long double of_start, const long double* weights, long double c) const {
+    Sum result{of_start * std::exp(-half_ * c), std::vector<long double>(used_.size())};
+    for (std::size_t j = 0; j < stages_.size(); ++j) {
+      const long double weight = weights[used_[j]] * std::exp(-half_ * (c - method_.c[used_[j]]));
+      result.of_stages[j] += weight;
+      result.of_start += half_ * half_ * weight * stages_[j].of_start;
+      for (std::size_t k = 0; k < j; ++k) result.of_stages[k] += half_ * half_ * weight * stages_[j].of_stages[k];
+    }
+    return result;
+  }
+
+  const Nystrom& method_;
+  std::span<const int> used_;
+  long double half_;  // g h / 2
+  std::vector<Sum> stages_;
+};
 
 template <class Function>
-auto visit_staged(const Integrator& integrator, const Function& function) {
-  if (const auto* method = std::get_if<Nystrom>(&integrator.method)) return function(*method);
-  return function(std::get<RungeKutta>(integrator.method));
+auto visit_rows(const Integrator& integrator, std::span<const int> used, double drag, const Function& function) {
+  if (const auto* method = std::get_if<Nystrom>(&integrator.method)) return function(NystromRows(*method, used, drag));
+  PLIANT_EXPECT(drag == 0);
+  return function(RungeKuttaRows(std::get<RungeKutta>(integrator.method), used));
 }
 
 }  // namespace
@@ -105,14 +142,21 @@ int evaluations_per_step(const Integrator& integrator) {
   return static_cast<int>(std::get<Splitting>(integrator.method).drift.size());
 }
 
-bool allows_damping(const Integrator& integrator) {
-  if (std::holds_alternative<Nystrom>(integrator.method)) return false;
-  const auto* splitting = std::get_if<Splitting>(&integrator.method);
-  return splitting == nullptr || std::ranges::all_of(splitting->kick, [](long double kick) { return kick >= 0; });
+bool allows_damping(const Integrator& integrator, DampingLaw law) {
+  if (law == DampingLaw::none || std::holds_alternative<RungeKutta>(integrator.method)) return true;
+  if (std::holds_alternative<Nystrom>(integrator.method)) return law == DampingLaw::constant;
+  return std::ranges::all_of(std::get<Splitting>(integrator.method).kick, [](long double kick) { return kick >= 0; });
 }
 
-NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages) {
-  return visit_staged(integrator, [&](const auto& method) { return tableau_of(method, used_stages(method, stages)); });
+NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages, double drag) {
+  const StagedMethod& method = *staged_method(integrator);
+  const std::vector<int> used = used_stages(method, stages);
+  NystromTableau tableau{.stages = static_cast<int>(used.size())};
+  visit_rows(integrator, used, drag, [&](const auto& rows) {
+    for (const int i : used) append(tableau, rows.stage(i));
+    append(tableau, rows.end(method.b));
+  });
+  return tableau;
 }
 
 bool estimates_error(const Integrator& integrator) {
@@ -132,10 +176,12 @@ std::vector<double> error_weights(const Integrator& integrator) {
   std::vector<double> weights(4 * used.size());
   for (const auto& [embedded, column] : {std::pair{&method.b_hat, 0u}, {&method.b_hat2, 2u}}) {
     if (embedded->empty()) continue;
-    const NystromTableau row = visit_staged(integrator, [&](const auto& m) { return difference_to(*embedded, m, used); });
+    std::vector<long double> difference = method.b;
+    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= (*embedded)[i];
+    const Row row = visit_rows(integrator, used, 0, [&](const auto& rows) { return rows.end(difference); });
     for (std::size_t j = 0; j < used.size(); ++j) {
-      weights[4 * j + column] = row.position[j];
-      weights[4 * j + column + 1] = row.velocity[j];
+      weights[4 * j + column] = static_cast<double>(row.position.of_stages[j]);
+      weights[4 * j + column + 1] = static_cast<double>(row.velocity.of_stages[j]);
     }
   }
   return weights;

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "scene/scene_description.hpp"
+
 namespace pliant {
 
 /// What explicit methods with stages consist of. Embedded weights estimate the error; their order is 0 where there are none.
@@ -20,7 +22,7 @@ struct StagedMethod {
 /// A Runge-Kutta method, on x' = v, v' = a(x, v).
 struct RungeKutta : StagedMethod {};
 
-/// A Runge-Kutta-Nystrom method, on x'' = a(x): stages have no velocities, so that it meets no damping.
+/// A Runge-Kutta-Nystrom method, on x'' = a(x): stages have no velocities. Of dampings it meets the constant one alone.
 ///   x_i = x + c_i h v + h^2 sum_j a_ij a(x_j), and at the end
 ///   x + h v + h^2 sum_j b_j (1 - c_j) a(x_j), v + h sum_j b_j a(x_j), or with b_hat for b.
 struct Nystrom : StagedMethod {};
@@ -52,9 +54,9 @@ struct Integrator {
 /// Force evaluations of one step: stages that reach the result, or a splitting's drifts (its last acceleration is kept).
 [[nodiscard]] int evaluations_per_step(const Integrator& integrator);
 
-/// Whether the method may meet damping. A splitting damps with every kick, so a negative kick would feed energy in. A Nystrom
-/// method's stages have no velocities to damp.
-[[nodiscard]] bool allows_damping(const Integrator& integrator);
+/// Whether the method may meet the law. A splitting damps with every kick, so a negative kick would feed energy in. A Nystrom
+/// method's stages have no velocities to damp; a constant rate of damping can be taken into its weights.
+[[nodiscard]] bool allows_damping(const Integrator& integrator, DampingLaw law);
 
 /// Whether the method has embedded weights, so that a tolerance can govern its steps.
 [[nodiscard]] bool estimates_error(const Integrator& integrator);
@@ -67,17 +69,19 @@ enum class Stages { of_result, of_estimates };
 
 /// A method with stages on x'' = a(x, v), for which accelerations alone have to be stored. With row = stage, or row = stages for
 /// the end of the step:
-///   x_row = x + c[row] h v + h^2 sum_j position[row * stages + j] a_j
-///   v_row = v +              h   sum_j velocity[row * stages + j] a_j
+///   x_row = x + c[row] h v    + h^2 sum_j position[row * stages + j] a_j
+///   v_row =     keep[row] v   + h   sum_j velocity[row * stages + j] a_j
 struct NystromTableau {
   int stages = 0;
-  std::vector<double> c;         // stages + 1, the last is 1
-  std::vector<double> position;  // (stages + 1) x stages: A A, then b A; of a Nystrom method A, then b (1 - c)
-  std::vector<double> velocity;  // (stages + 1) x stages: A, or zero, then b
+  std::vector<double> c = {};         // stages + 1; without drag the stages' times, and 1
+  std::vector<double> keep = {};      // stages + 1; without drag 1
+  std::vector<double> position = {};  // (stages + 1) x stages: A A, then b A; of a Nystrom method A, then b (1 - c)
+  std::vector<double> velocity = {};  // (stages + 1) x stages: A, or zero, then b
 };
 
-/// Computed in long double and rounded once. Expects no splitting.
-[[nodiscard]] NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages = Stages::of_result);
+/// Computed in long double and rounded once. A Nystrom method's can be made for x'' = a(x) - g v: `drag` is g h, and the a_j are
+/// a(x_j) alone. Expects no splitting.
+[[nodiscard]] NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages = Stages::of_result, double drag = 0);
 
 /// (stages of nystrom_tableau(integrator, Stages::of_estimates)) x 4. The step's end is farther than the embedded method's by
 ///   h^2 sum_j weights[4 j] a_j in position, h sum_j weights[4 j + 1] a_j in velocity;

@@ -17,7 +17,8 @@ namespace pliant {
 /// The step h [s] up to which one step amplifies no more than 1 + 1e-4, for every damping rate g from 0 to
 /// damping_rate_max and both solutions lambda of lambda^2 + g lambda + omega_squared = 0. Infinite where nothing bounds it.
 /// A slower mode can bear less where g is near omega or above; that of omega_squared = 0, a body drifting through a
-/// damping medium, needs a call of its own. Damping expects allows_damping(integrator).
+/// damping medium, needs a call of its own. A Nystrom method bears any rate; its step ends where one step of drift through a
+/// damping medium is wrong by 1e-4 of v / g. Damping expects allows_damping(integrator, DampingLaw::constant).
 [[nodiscard]] double step_bound(const Integrator& integrator, double omega_squared /* N k/m [1/s^2] */,
                                 double damping_rate_max /* [1/s] */);
 

@@ -1,7 +1,9 @@
 // A step of a method with stages is a dispatch a stage, of a splitting a dispatch a force; or one for all of these.
 #include "dynamics/stepper.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <map>
 
 #include "core/expect.hpp"
 #include "physics/damping.glsl"
@@ -21,7 +23,7 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau) {
     const auto weights = [&](std::size_t j) {
       return glm::dvec2(tableau.position[next * stages + j], tableau.velocity[next * stages + j]);
     };
-    rows.emplace_back(tableau.c[next], 0);
+    rows.emplace_back(tableau.c[next], tableau.keep[next]);
     rows.push_back(weights(next - 1));
     for (std::size_t j = 0; j + 1 < next; ++j) rows.push_back(weights(j));
     rows.resize(next * (2 + (stages + 3) / 4 * 4));
@@ -51,24 +53,45 @@ DeviceArray<glm::dvec2> tableau_of(Device& device, std::vector<glm::dvec2> rows)
 
 }  // namespace
 
+std::size_t Stepper::most_drags(const Integrator& integrator) {
+  return physics::tableau_size / stage_rows(nystrom_tableau(integrator)).size();
+}
+
 Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step,
                  Stages stages)
     : device_(device), bodies_(bodies), integrator_(integrator), law_(static_cast<std::uint32_t>(law)), time_step_(time_step) {
-  PLIANT_EXPECT(law == DampingLaw::none || allows_damping(integrator));
+  PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t count = bodies.vertex_count;
   bodies.set_time_step(time_step);
   forces_ = DeviceArray<double>(device, 3 * count, "spring forces");
   if (staged_method(integrator) != nullptr) {
-    const NystromTableau tableau = nystrom_tableau(integrator, stages);
-    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
-    stage_count_ = static_cast<std::uint32_t>(tableau.stages);
-    tableau_ = tableau_of(device, stage_rows(tableau));
+    use_tableaus(stages);
     accelerations_ = DeviceArray<double>(device, 3 * count * stage_count_, "accelerations");
   } else {
     const auto& splitting = std::get<Splitting>(integrator.method);
     stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
     tableau_ = tableau_of(device, splitting_rows(splitting, time_step));
   }
+}
+
+void Stepper::use_tableaus(Stages stages) {
+  const bool holds_drag = std::holds_alternative<Nystrom>(integrator_.method) && law_ == physics::damping_constant;
+  if (holds_drag) law_ = physics::damping_none;
+  std::map<double, std::uint32_t> row_of_drag;
+  std::vector<glm::dvec2> rows;
+  std::vector<std::uint32_t> row_of_body;
+  for (const physics::Body& body : bodies_.bodies.download()) {
+    const double drag = holds_drag ? body.damping * body.inverse_mass * time_step_ : 0;
+    const auto [place, is_new] = row_of_drag.try_emplace(drag, static_cast<std::uint32_t>(rows.size()));
+    row_of_body.push_back(place->second);
+    if (!is_new) continue;
+    const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
+    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
+    stage_count_ = static_cast<std::uint32_t>(tableau.stages);
+    std::ranges::copy(stage_rows(tableau), std::back_inserter(rows));
+  }
+  tableau_ = tableau_of(device_, std::move(rows));
+  bodies_.set_tableau_rows(row_of_body);
 }
 
 std::vector<Pass> Stepper::first_passes() const {

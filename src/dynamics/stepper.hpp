@@ -12,8 +12,12 @@ namespace pliant {
 
 class Stepper {
  public:
-  /// Expects allows_damping(integrator) unless the law is none. `device` and `bodies` must outlive the stepper. A method
-  /// with stages takes each step's length from the bodies' frames, where `time_step` stands to begin with.
+  /// How many different drags, that is damping rates times steps, the bodies may have where tableaus have to hold them.
+  [[nodiscard]] static std::size_t most_drags(const Integrator& integrator);
+
+  /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `device` and `bodies` must
+  /// outlive the stepper. A method with stages takes each step's length from the bodies' frames, where `time_step` stands to
+  /// begin with.
   Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
           Stages stages = Stages::of_result);
   Stepper(const Stepper&) = delete;
@@ -33,6 +37,8 @@ class Stepper {
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 
  private:
+  /// A method's tableau, or one for each rate of damping among the bodies.
+  void use_tableaus(Stages stages);
   /// All stages: a pass each, or one where the bodies are small enough.
   [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, BufferId results, std::uint32_t from_half) const;
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;

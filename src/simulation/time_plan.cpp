@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/error.hpp"
 #include "dynamics/automatic_integrator.hpp"
 #include "dynamics/stability.hpp"
+#include "dynamics/stepper.hpp"
 
 namespace pliant {
 namespace {
@@ -40,28 +42,51 @@ const Integrator& choose_integrator(const SimulationDescription& simulation, Dam
               "give a tolerance, as in tolerance = 1e-6, or name an integrator");
 }
 
-std::string names_with_estimate() {
+// A tableau that holds the damping is made for one length of steps.
+bool bears_tolerance(const Integrator& integrator, DampingLaw law) {
+  return estimates_error(integrator) && (law == DampingLaw::none || !std::holds_alternative<Nystrom>(integrator.method));
+}
+
+std::string names_that_bear_tolerance(DampingLaw law) {
   std::string names;
   for (const Integrator& integrator : integrators())
-    if (estimates_error(integrator)) names += (names.empty() ? "" : ", ") + std::string(integrator.name);
+    if (bears_tolerance(integrator, law)) names += (names.empty() ? "" : ", ") + std::string(integrator.name);
   return names;
 }
 
 void expect_method_estimates(const TimePlan& plan, const std::string& where) {
-  if (!plan.tolerance || estimates_error(*plan.integrator)) return;
-  throw Error(fault_of(where), where,
-              fmt::format("{} does not estimate its error, which a tolerance needs", plan.integrator->name),
+  if (!plan.tolerance || bears_tolerance(*plan.integrator, plan.damping_law)) return;
+  const char* why = estimates_error(*plan.integrator) ? "meets damping at steps of one length alone, and a tolerance varies them"
+                                                      : "does not estimate its error, which a tolerance needs";
+  throw Error(fault_of(where), where, fmt::format("{} {}", plan.integrator->name, why),
               fmt::format("take \"auto\" (--integrator auto), or one of {}; or give a time_step instead of the tolerance",
-                          names_with_estimate()));
+                          names_that_bear_tolerance(plan.damping_law)));
 }
 
 void expect_method_damps(const TimePlan& plan, const std::string& where) {
-  if (plan.damping_law == DampingLaw::none || allows_damping(*plan.integrator)) return;
-  throw Error(fault_of(where), where,
-              fmt::format("{} is for bodies without damping: {}", plan.integrator->name,
-                          staged_method(*plan.integrator) ? "its stages have no velocities that it could act on"
-                                                          : "it makes kicks back in time unstable"),
-              "set simulation.damping_law = \"none\" or choose another integrator, such as verlet");
+  if (allows_damping(*plan.integrator, plan.damping_law)) return;
+  const bool is_nystrom = staged_method(*plan.integrator) != nullptr;
+  throw Error(
+      fault_of(where), where,
+      is_nystrom
+          ? fmt::format("{} bears no adaptive damping: its stages have no velocities that it could act on", plan.integrator->name)
+          : fmt::format("{} is for bodies without damping: it makes kicks back in time unstable", plan.integrator->name),
+      fmt::format("set simulation.damping_law = \"{}\" or choose another integrator, such as verlet",
+                  is_nystrom ? "constant" : "none"));
+}
+
+void expect_tableaus_fit(const TimePlan& plan, const Model& model, const std::string& where) {
+  if (plan.damping_law == DampingLaw::none || !std::holds_alternative<Nystrom>(plan.integrator->method)) return;
+  std::set<double> rates;
+  for (const ModelBody& body : model.bodies) rates.insert(body.damping * (1 / body.vertex_mass));
+  const std::size_t most = Stepper::most_drags(*plan.integrator);
+  if (rates.size() <= most) return;
+  throw Error(
+      fault_of(where), where,
+      fmt::format("{} keeps the damping in its weights and has room for {} rates (damping over a vertex's mass); the bodies "
+                  "have {}",
+                  plan.integrator->name, most, rates.size()),
+      "choose another integrator, such as dop853, or give bodies the same damping");
 }
 
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
@@ -108,6 +133,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   plan.integrator = &choose_integrator(simulation, plan.damping_law);
   expect_method_damps(plan, simulation.integrator.where);
   expect_method_estimates(plan, simulation.integrator.where);
+  expect_tableaus_fit(plan, model, simulation.integrator.where);
   for (const ModelBody& body : model.bodies)
     plan.step_bound = std::min(plan.step_bound, step_bound(*plan.integrator, body, plan.damping_law));
   if (plan.tolerance) {

@@ -59,15 +59,19 @@ TEST_CASE("halving the step shrinks the error as the method's order says") {
   const ModelAndState start = built(tumbling());
   for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant})
     for (const Integrator& integrator : integrators()) {
-      if (law != DampingLaw::none && !allows_damping(integrator)) continue;
+      if (!allows_damping(integrator, law)) continue;
       CAPTURE(integrator.name, static_cast<int>(law));
-      // An order-8 error sinks into rounding before its slope has settled: 7.61 to 8.41 are measured, and
-      // 11.7 for order 12 at steps near the longest. The others: within 0.03.
-      const double z = integrator.order > 8 ? 2.8 : integrator.order == 8 ? 0.8 : integrator.order >= 6 ? 0.6 : 0.1;
+      // An order-8 error sinks into rounding before its slope has settled: 7.61 to 8.43 are measured, 11.7 for order 12 at
+      // steps near the longest, and 13.0 to 13.3 with damping, where the next term still counts. The others: within 0.03.
+      const bool is_damped = law != DampingLaw::none;
+      const double z = integrator.order > 8    ? is_damped ? 3.2 : 2.8
+                       : integrator.order == 8 ? 0.8
+                       : integrator.order >= 6 ? 0.6
+                                               : 0.1;
       const double step = z / stiffest_omega(start.model), end_time = 16 * step;
       const auto exact = reference(start, law, step / 64, 16 * 64);
-      CHECK(measured_order(start, {integrator.name, step, law}, end_time, 1, exact) ==
-            Approx(integrator.order).margin(integrator.order >= 8 ? 0.45 : 0.1));
+      const double margin = integrator.order > 8 && is_damped ? 1.4 : integrator.order >= 8 ? 0.45 : 0.1;
+      CHECK(measured_order(start, {integrator.name, step, law}, end_time, 1, exact) == Approx(integrator.order).margin(margin));
     }
 }
 
@@ -79,12 +83,32 @@ TEST_CASE("the kinks of the adaptive law leave any method order two", "[long]") 
   const double step = 0.4 / stiffest_omega(start.model), end_time = 40 * step;
   const auto exact = reference(start, DampingLaw::adaptive, step / 512, 40 * 512);
   for (const Integrator& integrator : integrators()) {
-    if (!allows_damping(integrator)) continue;
+    if (!allows_damping(integrator, DampingLaw::adaptive)) continue;
     CAPTURE(integrator.name);
     // Where in a step a vertex meets the kink differs from step to step, so errors scatter about their slope; 2.01 to 2.10 are
     // measured.
     CHECK(measured_order(start, {integrator.name, step, DampingLaw::adaptive}, end_time, 5, exact) == Approx(2).margin(0.3));
   }
+}
+
+TEST_CASE("bodies of different damping each move as they would alone", "[gl]") {
+  BodySetup still = sphere(0), thick = sphere(1);
+  still.description.damping = 0;
+  still.description.stretch = thick.description.stretch = {1.2, 0.9, 1};
+  thick.description.damping = 4;
+  thick.description.velocity = {0.5, 0, 0};
+  const BodySetup both[] = {still, thick};
+  const ModelAndState together = build_model(both, glm::dvec3(0.0)), alone[] = {built(still), built(thick)};
+  for (const TestDevice& test : all_devices())
+    for (const char* name : {"dprkn8", "dprkn12", "cv8"}) {
+      CAPTURE(test.name, name);
+      const Method method{name, 0.1, DampingLaw::constant};
+      const State pair = evolve(*test.device, together, method, 20);
+      std::vector<double> joined;
+      for (const ModelAndState& start : alone)
+        std::ranges::copy(evolve(*test.device, start, method, 20).motion, std::back_inserter(joined));
+      CHECK(pair.motion == joined);
+    }
 }
 
 TEST_CASE("momentum and angular momentum are conserved without damping", "[gl]") {

@@ -145,7 +145,7 @@ TEST_CASE("a body drifting through a strongly damping medium bears less than its
 TEST_CASE("step bounds scale with the period") {
   for (const Integrator& integrator : integrators()) {
     CAPTURE(integrator.name);
-    const double rate = allows_damping(integrator) ? 3.0 : 0.0;
+    const double rate = allows_damping(integrator, DampingLaw::constant) ? 3.0 : 0.0;
     CHECK(step_bound(integrator, 4e4, 2 * rate) == Approx(step_bound(integrator, 1e4, rate) / 2).epsilon(1e-9));
   }
 }
@@ -173,11 +173,57 @@ TEST_CASE("verlet bears any damping within its undamped bound") {
   CHECK(verlet_growth(2.02, 0.0) > 1.05);
 }
 
+// The larger eigenvalue of a step of omega_step / omega on x'' = -omega^2 x - g v, with drag = g h.
+double damped_amplification(const Integrator& integrator, double omega_step, double drag) {
+  const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_result, drag);
+  std::complex<double> map[2][2];  // [to][from] of x and h v
+  for (int from = 0; from < 2; ++from) {
+    const double x = from == 0, v = from == 1;
+    std::vector<double> accelerations;
+    double end_x = 0, end_v = 0;
+    for (int row = 0; row <= tableau.stages; ++row) {
+      end_x = x + tableau.c[row] * v;
+      end_v = tableau.keep[row] * v;
+      for (std::size_t j = 0; j < accelerations.size(); ++j) {
+        end_x += tableau.position[row * tableau.stages + j] * accelerations[j];
+        end_v += tableau.velocity[row * tableau.stages + j] * accelerations[j];
+      }
+      accelerations.push_back(-omega_step * omega_step * end_x);
+    }
+    map[0][from] = end_x;
+    map[1][from] = end_v;
+  }
+  const auto half_trace = (map[0][0] + map[1][1]) / 2.0;
+  const auto root = std::sqrt(half_trace * half_trace - (map[0][0] * map[1][1] - map[0][1] * map[1][0]));
+  return larger(std::abs(half_trace + root), std::abs(half_trace - root));
+}
+
+TEST_CASE(
+    "Nystrom methods bear any rate of damping within their undamped bound, and steps that resolve it drift as drag lets them") {
+  for (const Integrator& integrator : integrators()) {
+    if (!std::holds_alternative<Nystrom>(integrator.method)) continue;
+    const double bound = step_bound(integrator, 1.0, 0.0);
+    for (const double drag : {1e-3, 0.1, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 30.0, 100.0, 1e4})
+      for (int i = 0; i <= 100; ++i) {
+        CAPTURE(integrator.name, drag, i);
+        CHECK(damped_amplification(integrator, bound * i / 100, drag) <= 1 + 1e-4);
+      }
+    const double longest = step_bound(integrator, 0.0, 1.0);
+    CHECK(longest > 3);
+    for (const double part : {0.01, 0.5, 0.99, 1.05}) {
+      CAPTURE(integrator.name, part);
+      const double drag = part * longest;
+      const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_result, drag);
+      CHECK((std::abs(drag * tableau.c.back() - (1 - std::exp(-drag))) <= 1e-4) == (part < 1));
+    }
+  }
+}
+
 TEST_CASE("without springs only damping bounds the step") {
   for (const Integrator& integrator : integrators()) {
     CAPTURE(integrator.name);
     CHECK(std::isinf(step_bound(integrator, 0.0, 0.0)));
-    if (!allows_damping(integrator)) continue;
+    if (!allows_damping(integrator, DampingLaw::constant)) continue;
     CHECK(std::isinf(step_bound(integrator, 0.0, 5.0)) == (staged_method(integrator) == nullptr));
   }
 }

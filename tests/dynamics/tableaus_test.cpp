@@ -223,7 +223,9 @@ struct Point {
 using Acceleration = long double (*)(Point);
 long double damped(Point p) { return -std::sin(p.x) - 0.3L * p.v * std::abs(p.v); }
 long double undamped(Point p) { return -std::sin(p.x); }
-Acceleration acceleration_for(const Integrator& integrator) { return allows_damping(integrator) ? damped : undamped; }
+Acceleration acceleration_for(const Integrator& integrator) {
+  return allows_damping(integrator, DampingLaw::adaptive) ? damped : undamped;
+}
 
 Point plain_step(const RungeKutta& method, Point start, long double h, Acceleration acceleration) {
   std::vector<Point> slopes;
@@ -254,6 +256,22 @@ Point plain_step(const Nystrom& method, Point start, long double h, Acceleration
   return end;
 }
 
+// Of x'' = -sin x - rate v, by y = e^(rate t / 2) (x - x(0)): y'' = -e^(rate t / 2) sin x + (rate / 2)^2 y.
+Point step_without_drag(const Nystrom& method, Point start, long double h, long double rate) {
+  Vector accelerations;
+  Point y{h * start.v, start.v};
+  for (int i = 0; i < method.stages; ++i) {
+    long double at = method.c[i] * h * start.v;
+    for (int j = 0; j < i; ++j) at += h * h * method.a[i * method.stages + j] * accelerations[j];
+    const long double growth = std::exp(rate / 2 * method.c[i] * h);
+    accelerations.push_back(growth * undamped({start.x + at / growth, 0}) + rate * rate / 4 * at);
+    y.x += h * h * method.b[i] * (1 - method.c[i]) * accelerations[i];
+    y.v += h * method.b[i] * accelerations[i];
+  }
+  const long double decay = std::exp(-rate / 2 * h);
+  return {start.x + decay * y.x, decay * (y.v - rate / 2 * y.x)};
+}
+
 // By the method's weights, or by others.
 Point plain_step(const Integrator& integrator, Point start, long double h, const Vector* weights = nullptr) {
   const auto step = [&](auto method) {
@@ -269,7 +287,7 @@ Vector stage_accelerations(const NystromTableau& tableau, Point start, long doub
                            Point* end = nullptr) {
   Vector accelerations;
   for (int row = 0;; ++row) {
-    Point p{start.x + tableau.c[row] * h * start.v, start.v};
+    Point p{start.x + tableau.c[row] * h * start.v, tableau.keep[row] * start.v};
     for (std::size_t j = 0; j < accelerations.size(); ++j) {
       p.x += h * h * tableau.position[row * tableau.stages + j] * accelerations[j];
       p.v += h * tableau.velocity[row * tableau.stages + j] * accelerations[j];
@@ -384,6 +402,23 @@ TEST_CASE("a Nystrom tableau takes the step of the method it came from") {
   }
 }
 
+TEST_CASE("a Nystrom tableau with drag takes the method's step of what drag has been taken out of") {
+  constexpr long double h = 0.4L;
+  for (const Integrator& integrator : integrators()) {
+    if (!std::holds_alternative<Nystrom>(integrator.method)) continue;
+    for (const long double rate : {0.5L, 3.0L, 10.0L}) {
+      CAPTURE(integrator.name, rate);
+      const auto& method = std::get<Nystrom>(integrator.method);
+      const Point start{0.7L, -1.1L}, expected = step_without_drag(method, start, h, rate);
+      Point end{};
+      const double drag = static_cast<double>(rate * h);
+      (void)stage_accelerations(nystrom_tableau(integrator, Stages::of_result, drag), start, h, undamped, &end);
+      CHECK(std::abs(end.x - expected.x) < 1e-14L);
+      CHECK(std::abs(end.v - expected.v) < 1e-14L);
+    }
+  }
+}
+
 TEST_CASE("stages that only an error estimate uses cost no force evaluation") {
   CHECK(evaluations_per_step(find_integrator("verlet")) == 1);
   CHECK(evaluations_per_step(find_integrator("srkn11b")) == 11);
@@ -435,10 +470,14 @@ TEST_CASE("an unknown integrator is an input error that lists the known ones") {
   }
 }
 
-TEST_CASE("damping is for every method but splittings with negative kicks and Nystrom methods") {
-  for (const Integrator& integrator : integrators())
-    CHECK(allows_damping(integrator) ==
-          (integrator.name != "srkn11b" && integrator.name != "dprkn8" && integrator.name != "dprkn12"));
+TEST_CASE("splittings with negative kicks bear no damping, Nystrom methods the constant one") {
+  for (const Integrator& integrator : integrators()) {
+    CAPTURE(integrator.name);
+    const bool is_nystrom = integrator.name == "dprkn8" || integrator.name == "dprkn12";
+    CHECK(allows_damping(integrator, DampingLaw::none));
+    CHECK(allows_damping(integrator, DampingLaw::constant) == (integrator.name != "srkn11b"));
+    CHECK(allows_damping(integrator, DampingLaw::adaptive) == (integrator.name != "srkn11b" && !is_nystrom));
+  }
 }
 
 }  // namespace pliant

@@ -120,10 +120,26 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
   const auto unstable = error_of([&] { return plan_time(scene_with("srkn11b", DampingLaw::adaptive), model); });
   CHECK(unstable.kind() == ErrorKind::input);
   check_says(unstable, {"scene.toml:3", "srkn11b", "damping"});
-  const auto without_velocities = error_of([&] { return plan_time(scene_with("dprkn12", DampingLaw::constant), model); });
+  const auto without_velocities = error_of([&] { return plan_time(scene_with("dprkn12", DampingLaw::adaptive), model); });
   CHECK(without_velocities.kind() == ErrorKind::input);
-  check_says(without_velocities, {"scene.toml:3", "dprkn12", "velocities", "damping_law", "verlet"});
+  check_says(without_velocities, {"scene.toml:3", "dprkn12", "velocities", "\"constant\"", "verlet"});
   for (const char* name : {"srkn11b", "dprkn12"}) CHECK_NOTHROW(plan_time(scene_with(name, DampingLaw::none), model));
+  CHECK_NOTHROW(plan_time(scene_with("dprkn12", DampingLaw::constant), model));
+}
+
+TEST_CASE("a Nystrom method meets constant damping at fixed steps alone, and as many rates as it has room for") {
+  SceneDescription scene = scene_with("dprkn8", DampingLaw::constant);
+  std::vector<BodySetup> bodies(14, sphere(0));
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].description.damping = 1e-3 * static_cast<double>(b % 13);
+  const auto crowded = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
+  CHECK(crowded.kind() == ErrorKind::input);
+  check_says(crowded, {"scene.toml:3", "room for 12 rates", "have 13", "dop853"});
+  bodies.resize(12);
+  CHECK_NOTHROW(plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model));
+  scene.simulation.tolerance = 1e-6;
+  const auto varied = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
+  CHECK(varied.kind() == ErrorKind::input);
+  check_says(varied, {"scene.toml:3", "dprkn8", "one length", "one of dop853, verner78_8, vern8;"});
 }
 
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {

@@ -1,5 +1,6 @@
 // A force kernel of stages: the acceleration at this stage, then the placement for the next stage, or the step's end.
 // Second-order form: with abar = A A and bbar = b A, x_s = x + c_s h v + h^2 sum abar_sj a_j, so only accelerations are kept.
+// A Nystrom method's tableau has the damping in its weights, a body's own; the law is then none.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
@@ -26,7 +27,8 @@ struct Course {
   double gravity;
   double reference;        // that the next placement is relative to
   double time_step;        // [s]
-  double elapsed;          // from the step's start to the next stage [s]
+  double elapsed;          // from the step's start to the next stage, as far as the first velocity carries [s]
+  double keep;             // what is left of that velocity
   double position_weight;  // of this stage's acceleration [s^2]
   double velocity_weight;  // [s]
 };
@@ -40,21 +42,20 @@ struct Pending {
   double velocity;        // likewise
 };
 
-// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c; then weights for position (h^2) and
-// velocity (h), this stage's first, then those of earlier stages in turn, with zeros up to a multiple of four.
-uint next_row() { return stage_index * (2u + ((stage_count + 3u) & ~3u)); }
+// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c and keep; then weights for position
+// (h^2) and velocity (h), this stage's first, then those of earlier stages in turn, with zeros up to a multiple of four.
+uint next_row(IN(Share) s) { return s.tableau_row + stage_index * (2u + ((stage_count + 3u) & ~3u)); }
 uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
 
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
 double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
-dvec2 weights(uint j) { return tableau[next_row() + 2u + j]; }
-dvec2 weigh_four(uint j, double a, double b, double c, double d) {
-  return (a * weights(j) + b * weights(j + 1u)) + (c * weights(j + 2u) + d * weights(j + 3u));
+dvec2 weigh_four(uint first, double a, double b, double c, double d) {
+  return (a * tableau[first] + b * tableau[first + 1u]) + (c * tableau[first + 2u] + d * tableau[first + 3u]);
 }
-dvec2 sum_earlier(uint i, uint k) {  // for position and velocity
+dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
   dvec2 sums = dvec2(0);
   for (uint j = 0u; j < stage_index; j += 4u)
-    sums += weigh_four(j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
+    sums += weigh_four(row + 2u + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
   return sums;
 }
 
@@ -62,14 +63,15 @@ dvec2 sum_earlier(uint i, uint k) {  // for position and velocity
 bool wants_velocity() { return is_last() || damping_law != damping_none; }
 
 Course course_on_axis(uint k, IN(Share) s) {
-  uint first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
+  uint first = 6u * (from_half * vertex_count + s.body.first_vertex) + k, row = next_row(s);
   Course c;
   c.gravity = frame[s.body_index].gravity[k];
   c.time_step = frame[s.body_index].time_step;
-  c.elapsed = tableau[next_row()].x * c.time_step;
+  c.elapsed = tableau[row].x * c.time_step;
+  c.keep = tableau[row].y;
   c.reference = motion[first] + c.elapsed * motion[first + 3u];
-  c.position_weight = c.time_step * c.time_step * tableau[next_row() + 1u].x;
-  c.velocity_weight = c.time_step * tableau[next_row() + 1u].y;
+  c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
+  c.velocity_weight = c.time_step * tableau[row + 1u].y;
   return c;
 }
 
@@ -81,11 +83,13 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   p.stage_velocity = motion[before + 3u];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
   p.displacement = motion[before] + c.elapsed * motion[before + 3u] + (c.time_step * c.time_step) * sums.x;
-  p.velocity = motion[before + 3u] + c.time_step * sums.y;
+  p.velocity = c.keep * motion[before + 3u] + c.time_step * sums.y;
   return p;
 }
 
-Pending before_force(uint i, uint k, IN(Share) s) { return before_force_with(i, k, course_on_axis(k, s), sum_earlier(i, k)); }
+Pending before_force(uint i, uint k, IN(Share) s) {
+  return before_force_with(i, k, course_on_axis(k, s), sum_earlier(i, k, next_row(s)));
+}
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   double a = spring_force * s.body.inverse_mass + p.course.gravity;

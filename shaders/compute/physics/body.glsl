@@ -20,7 +20,7 @@ struct Share {
   uint body_index;
   uint first_vertex;  // of the share
   uint vertex_count;
-  uint padding;
+  uint tableau_row;   // where among the tableaus begins the one that the body steps by
 };
 
 // A vertex stands at world position = origin + R (X + u): X the rest position, u the displacement in the body's frame.
