@@ -1,5 +1,6 @@
 // What Ctrl-C and SIGTERM do, in every command that takes long.
 #pragma once
+#include <chrono>
 
 namespace pliant::app {
 
@@ -11,5 +12,10 @@ void watch_for_interrupts();
 
 /// Whether to come to an end. Any thread may ask.
 [[nodiscard]] bool is_interrupted();
+
+/// Whether an interrupt so long after the first is another one: `timeout` sends two together, which are one.
+[[nodiscard]] constexpr bool is_another_interrupt(std::chrono::nanoseconds after_first) {
+  return after_first >= std::chrono::seconds(1);
+}
 
 }  // namespace pliant::app
