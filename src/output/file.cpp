@@ -54,7 +54,9 @@ void OutputFile::require(bool good, const char* problem) const {
 WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), written_(beside(place_)) {
   if (written_ == place_ && !std::filesystem::is_directory(place_)) return;
   { const OutputFile trial(written_); }
-  std::filesystem::remove(written_);
+  std::error_code failure;
+  std::filesystem::remove(written_, failure);
+  if (failure) throw unwritable(written_, "can't be removed");
 }
 
 void WholeFile::close() {
@@ -67,8 +69,11 @@ void WholeFile::close() {
     if (written_ != place_) std::filesystem::remove(written_, failure);
     throw;
   }
-  if (written_ != place_) std::filesystem::rename(written_, place_, failure);
-  if (failure) throw unwritable(place_, "can't be replaced");
+  if (written_ == place_) return;
+  std::filesystem::rename(written_, place_, failure);
+  if (!failure) return;
+  std::filesystem::remove(written_, failure);
+  throw unwritable(place_, "can't be replaced");
 }
 
 }  // namespace pliant

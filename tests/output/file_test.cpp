@@ -55,6 +55,17 @@ TEST_CASE("a device is written to where it is, and a full one is an error") {
   check_says(error_of([&] { full.close(); }), {"/dev/full", "can't be written"});
 }
 
+TEST_CASE("a whole file whose place was taken meanwhile is an error, and leaves nothing beside it") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "a.json";
+  WholeFile file(path);
+  file.write("text");
+  std::filesystem::create_directory(path);
+  check_says(error_of([&] { file.close(); }), {"a.json", "can't be replaced"});
+  CHECK(std::filesystem::is_directory(path));
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+}
+
 TEST_CASE("a folder can't be replaced by a file") {
   const test::ScratchFolder folder;
   const Error error = error_of([&] { WholeFile file(folder.path); });
