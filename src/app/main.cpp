@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <utility>
 
 #include "app/bench_command.hpp"
 #include "app/info_command.hpp"
@@ -37,14 +38,16 @@ CLI::Validator number(double lowest, double highest) {
   return {complaint, fmt::format("{} to {}", lowest, highest)};
 }
 
+// For transform(): in decimal, and written again without leading zeros, which CLI11 takes for octal.
 CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
-  const auto complaint = [lowest, highest](const std::string& text) {
+  const auto complaint = [lowest, highest](std::string& text) {
     std::int64_t value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (end != text.data() + text.size() || status == std::errc::invalid_argument)
       return fmt::format("\"{}\" is no whole number", text);
-    if (status == std::errc()) return complaint_of_range(text, value, lowest, highest);
-    return text + " is out of range";
+    if (status != std::errc()) return text + " is out of range";
+    const std::string given = std::exchange(text, std::to_string(value));
+    return complaint_of_range(given, value, lowest, highest);
   };
   return {complaint, fmt::format("{} to {}", lowest, highest)};
 }
@@ -73,13 +76,14 @@ void add_run(CLI::App& program, app::RunOptions& options) {
       *run, "--device", options.device.kind,
       {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
       "Where to simulate (default auto: a hardware GPU, else the CPU)");
-  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")->check(whole_number(0, 1000000));
+  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")
+      ->transform(whole_number(0, 1000000));
   run->add_option("--precision", options.device.precision, "Bits of the forces; 64 on the CPU alone")
       ->check(CLI::IsMember({32, 64}));
   run->add_option("--threads", options.device.threads, "Threads of the CPU (default: one a processor)")
-      ->check(whole_number(1, 4096));
+      ->transform(whole_number(1, 4096));
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
-                           ->check(whole_number(0, 300'000'000));
+                           ->transform(whole_number(0, 300'000'000));
   run->add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
   CLI::Option* time_step = run->add_option("--time-step", options.time_step, "Length of a step [s]");
   time_step->check(number(1e-30, 1e30));
@@ -118,9 +122,9 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
                                  {"gpu", app::BenchDevices::gpu},
                                  {"all", app::BenchDevices::all}},
                                 "What to measure on (default auto: the CPU, and a hardware GPU if there is one)");
-  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->check(whole_number(0, 1000000));
+  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
-      ->check(whole_number(1, 4096));
+      ->transform(whole_number(1, 4096));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
                   "A rough measurement: seconds for forces and steps, about a minute for precision and stability");

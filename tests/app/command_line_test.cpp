@@ -200,6 +200,18 @@ TEST_CASE("options replace what the scene says") {
   CHECK(summary["threads"] == 2);
 }
 
+TEST_CASE("whole numbers are decimal, whatever zeros they begin with") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --quiet --out " + folder.path.string();
+  for (const auto& [steps, threads] : {std::pair(10, "08"), std::pair(8, "002")}) {
+    const ProgramResult result = run_program(run + " --steps 0" + std::to_string(steps) + " --threads " + threads);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
+    CHECK(summary_in(folder.path)["steps"] == steps);
+    CHECK(summary_in(folder.path)["threads"] == std::stoi(threads));
+  }
+}
+
 // Red, green and blue of each pixel.
 using Colour = std::array<unsigned char, 3>;
 
