@@ -30,7 +30,7 @@ struct DeviceBodies {
 
   /// The state in a half, from which another run may start: no body is halted for now.
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as the last pass of a step leaves them,
+  /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as follow_bodies leaves them,
   /// and none halted for now.
   void prepare_search();
   /// Of all bodies' steps from here on [s].

@@ -21,7 +21,8 @@ struct Pace {
   double tolerance;       // of a step's error
   double first_step;      // at the start, and the longest after a contact [s]
   double largest_step;    // [s]
-  double error_before;    // of the latest step that was not cut short, in units of the tolerance
+  // Of the latest step accepted, in units of the tolerance; but not of one cut short with an error of at most a half.
+  double error_before;
   double largest_motion;  // how long the diagonal of the box of touching vertices' ways in a step may be [m]
   double contact_step;    // in which it would be nearly as long, from the latest contact [s]
   double contact_until;   // the time up to which no step is longer than that: where one that met a contact was to end [s]
