@@ -1,7 +1,4 @@
 // `pliant bench` as scripts use it.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
@@ -107,31 +104,31 @@ TEST_CASE("a full disk is told after the table") {
   CHECK(result.output.find("/dev/full") != std::string::npos);
 }
 
+// Progress is shown before each row.
 TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way to finished rows alone") {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const ScratchFolder folder;
-    const auto file = folder.path / "forces.json", table = folder.path / "table.txt";
-    std::ofstream(file) << "earlier";
-    std::ofstream(table).close();
-    const pid_t child = fork();
-    if (child == 0) {
-      if (std::freopen(table.c_str(), "w", stdout) == nullptr) _exit(126);
-      execl(program_path().c_str(), "pliant", "bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.c_str(),
-            nullptr);
-      _exit(127);
+  for (const int signal : {SIGINT, SIGTERM})
+    for (const int shown : {1, 3}) {
+      CAPTURE(signal, shown);
+      const ScratchFolder folder;
+      const auto file = folder.path / "forces.json";
+      std::ofstream(file) << "earlier";
+      ProgramInTerminal program({"bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.string()});
+      REQUIRE(program.has_shown_progress(shown));
+      CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));  // which a program that is killed would leave
+      const ProgramResult result = program.end_by(signal);
+      CAPTURE(result.output);
+      CHECK(result.exit_code == 130);
+      CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
+      const std::string told = "interrupted after ";
+      REQUIRE(result.output.find(told) != std::string::npos);
+      const int rows = std::stoi(result.output.substr(result.output.find(told) + told.size()));
+      CHECK(rows >= shown - 1);
+      CHECK((read_text(file) == "earlier") == (rows == 0));
+      if (rows == 0) continue;
+      const auto json = nlohmann::json::parse(read_text(file));
+      CHECK(json["interrupted"] == true);
+      CHECK(json["rows"].size() == static_cast<std::size_t>(rows));
     }
-    int status = 0;
-    while (std::filesystem::file_size(table) == 0) REQUIRE(waitpid(child, &status, WNOHANG) == 0);
-    CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));  // which a program that is killed would leave
-    kill(child, signal);
-    REQUIRE(waitpid(child, &status, 0) == child);
-    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
-    if (const std::string text = read_text(file); text != "earlier") {
-      CHECK(nlohmann::json::parse(text)["interrupted"] == true);
-      CHECK_FALSE(nlohmann::json::parse(text)["rows"].empty());
-    }
-    CHECK_FALSE(std::filesystem::exists(file.string() + ".tmp"));
-  }
 }
 
 TEST_CASE("a GPU that is not there exits with 4") { check_fails("forces --quick --device gpu --gpu 99", 4, "GPU"); }

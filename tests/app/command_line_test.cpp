@@ -1,7 +1,4 @@
 // The program as scripts use it: exit codes, messages and files.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -81,6 +78,7 @@ TEST_CASE("a step longer than a frame gives one frame and one row of history, ho
                     " --set collision.response=none --integrator verlet --set simulation.damping_law=none --time-step " +
                     time_step + " --out " + out.string());
     CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
     const std::filesystem::directory_iterator frames(out / "frames");
     CHECK(static_cast<std::size_t>(std::distance(begin(frames), end(frames))) == line_count(read_text(out / "history.csv")) - 1);
     CHECK(line_count(read_text(out / "history.csv")) <= 1 + 4);
@@ -252,18 +250,9 @@ TEST_CASE("Ctrl-C and SIGTERM end a run early and write what there is") {
   for (const int signal : {SIGINT, SIGTERM}) {
     const ScratchFolder folder;
     const std::string out = folder.path.string(), scene = small_scene(folder).string();
-    const pid_t child = fork();
-    if (child == 0) {
-      execl(program_path().c_str(), "pliant", "run", scene.c_str(), "--device", "cpu", "--steps", "100000000", "--quiet", "--out",
-            out.c_str(), nullptr);
-      _exit(127);
-    }
-    int status = 0;
-    while (!std::filesystem::exists(folder.path / "history.csv") || line_count(read_text(folder.path / "history.csv")) < 3)
-      REQUIRE(waitpid(child, &status, WNOHANG) == 0);
-    kill(child, signal);
-    REQUIRE(waitpid(child, &status, 0) == child);
-    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 130));
+    ProgramInTerminal program({"run", scene, "--device", "cpu", "--steps", "100000000", "--out", out});
+    REQUIRE(program.has_shown_progress(3));
+    CHECK(program.end_by(signal).exit_code == 130);
     const auto summary = summary_in(folder.path);
     CHECK(summary["steps"] > 0);
     CHECK(summary["steps"] < 100000000);

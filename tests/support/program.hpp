@@ -1,7 +1,10 @@
-// Runs the built program as a shell would.
+// Runs the built program as a shell would, or in a terminal of its own.
 #pragma once
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pliant {
 
@@ -12,6 +15,26 @@ struct ProgramResult {
 
 /// `arguments` is a shell command line behind the program's name; `before` stands before it, such as "ulimit -v 1000;".
 ProgramResult run_program(const std::string& arguments, const std::string& before = "");
+
+/// The program in a terminal, where it shows progress, each time behind "\r[". At the end it is killed, if it still runs.
+class ProgramInTerminal {
+ public:
+  explicit ProgramInTerminal(const std::vector<std::string>& arguments);
+  ~ProgramInTerminal();
+  ProgramInTerminal(const ProgramInTerminal&) = delete;
+  ProgramInTerminal& operator=(const ProgramInTerminal&) = delete;
+
+  /// Waits until it has shown progress so many times in all; false where it ends before.
+  [[nodiscard]] bool has_shown_progress(int times);
+  /// Sends the signal and waits for the end.
+  ProgramResult end_by(int signal);
+
+ private:
+  bool read_more();
+  pid_t child_ = 0;  // 0: it has ended
+  int terminal_ = -1;
+  std::string output_;
+};
 
 std::string shipped_scene(const std::string& name);  // its path
 
