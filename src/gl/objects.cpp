@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "gl/allocation.hpp"
 
 namespace pliant::gl {
 namespace {
@@ -91,6 +92,12 @@ void expect_within_limit(std::size_t bytes, std::string_view label) {
                 "use coarser meshes or --device cpu");
 }
 
+bool has_room_for(GLuint buffer, const std::vector<std::byte>& content) {
+  const Allocation allocation;
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(content.size()), content.data(), GL_DYNAMIC_STORAGE_BIT);
+  return !allocation.ran_out();
+}
+
 }  // namespace
 
 Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
@@ -99,10 +106,7 @@ Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   // Zeros are uploaded rather than cleared to: on NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued before
   // it and is lost. An empty buffer still gets storage, so that it can be bound.
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
-  glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
-  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(zeros.size()), zeros.data(), GL_DYNAMIC_STORAGE_BIT);
-  glEnable(GL_DEBUG_OUTPUT);
-  if (glGetError() == GL_OUT_OF_MEMORY) {
+  if (!has_room_for(id_, zeros)) {
     glDeleteBuffers(1, &id_);
     throw Error(ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
                 "use coarser meshes or --device cpu");

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "core/expect.hpp"
+#include "gl/allocation.hpp"
 
 namespace pliant::gl {
 namespace {
@@ -25,12 +25,14 @@ void expect_within_limit(const glm::uvec2& size, std::string_view label) {
     refuse(size, label, fmt::format("the driver allows {} a side", limit));
 }
 
-void allocate(GLuint texture, const TextureOptions& options) {
+bool has_room_for(GLuint texture, const TextureOptions& options) {
+  const Allocation allocation;
   const auto width = static_cast<GLsizei>(options.size.x), height = static_cast<GLsizei>(options.size.y);
   if (options.samples > 1)
     glTextureStorage2DMultisample(texture, options.samples, options.format, width, height, GL_TRUE);
   else
     glTextureStorage2D(texture, options.levels, options.format, width, height);
+  return !allocation.ran_out();
 }
 
 void set_sampling(GLuint texture, const TextureOptions& options) {
@@ -50,12 +52,7 @@ void set_sampling(GLuint texture, const TextureOptions& options) {
 Texture::Texture(const TextureOptions& options, std::string_view label) : size_(options.size) {
   expect_within_limit(size_, label);
   glCreateTextures(options.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id_);
-  glDisable(GL_DEBUG_OUTPUT);  // running out of memory is no bug
-  allocate(id_, options);
-  glEnable(GL_DEBUG_OUTPUT);
-  const GLenum error = glGetError();
-  PLIANT_EXPECT(error == GL_NO_ERROR || error == GL_OUT_OF_MEMORY);
-  if (error == GL_OUT_OF_MEMORY) {
+  if (!has_room_for(id_, options)) {
     glDeleteTextures(1, &id_);
     refuse(size_, label, "there is no room for it");
   }
