@@ -5,6 +5,7 @@
 
 #include "dynamics/stability.hpp"
 #include "support/evolve.hpp"
+#include "support/oscillator.hpp"
 
 namespace pliant {
 namespace {
@@ -54,17 +55,8 @@ std::complex<double> kicked_and_drifted(const Splitting& method, std::complex<do
 
 // ... and of a Nystrom method sums its stages' accelerations.
 std::complex<double> summed_over_stages(const Nystrom& method, std::complex<double> y, double z) {
-  const long double x = y.real(), v = -y.imag(), h = z;
-  std::vector<long double> accelerations;
-  long double end_x = x + h * v, end_v = v;
-  for (int i = 0; i < method.stages; ++i) {
-    long double at = x + method.c[i] * h * v;
-    for (int j = 0; j < i; ++j) at += h * h * method.a[i * method.stages + j] * accelerations[j];
-    accelerations.push_back(-at);
-    end_x -= h * h * method.b[i] * (1 - method.c[i]) * at;
-    end_v -= h * method.b[i] * at;
-  }
-  return {static_cast<double>(end_x), static_cast<double>(-end_v)};
+  const Oscillator end = after_step(method, {.x = y.real(), .v = -y.imag()}, z);
+  return {static_cast<double>(end.x), static_cast<double>(-end.v)};
 }
 
 std::complex<double> oscillator_after(const Integrator& integrator, double start, double z, int steps) {

@@ -1,5 +1,4 @@
 // Steps that a tolerance governs, on every device: accuracy, undone steps, exact times, determinism, contacts.
-#include <array>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -9,6 +8,7 @@
 #include "scene/load_scene.hpp"
 #include "support/collision_scene.hpp"
 #include "support/expect_error.hpp"
+#include "support/oscillator.hpp"
 #include "support/paths.hpp"
 
 namespace pliant {
@@ -40,43 +40,11 @@ bool same_bits(const State& a, const State& b) {
          std::memcmp(a.motion.data(), b.motion.data(), a.motion.size() * sizeof(double)) == 0;
 }
 
-// Position and velocity after a step on x'' = -omega^2 x from rest at x.
-std::array<double, 2> oscillator_step(const RungeKutta& method, double omega, double h, double x) {
-  std::vector<long double> v, a;
-  long double end[2] = {x, 0};
-  for (int i = 0; i < method.stages; ++i) {
-    long double at = x, speed = 0;
-    for (int j = 0; j < i; ++j) {
-      at += h * method.a[i * method.stages + j] * v[j];
-      speed += h * method.a[i * method.stages + j] * a[j];
-    }
-    v.push_back(speed);
-    a.push_back(-omega * omega * at);
-    end[0] += h * method.b[i] * v[i];
-    end[1] += h * method.b[i] * a[i];
-  }
-  return {static_cast<double>(end[0]), static_cast<double>(end[1])};
-}
-
-std::array<double, 2> oscillator_step(const Nystrom& method, double omega, double h, double x) {
-  std::vector<long double> a;
-  long double end[2] = {x, 0};
-  for (int i = 0; i < method.stages; ++i) {
-    long double at = x;
-    for (int j = 0; j < i; ++j) at += h * h * method.a[i * method.stages + j] * a[j];
-    a.push_back(-omega * omega * at);
-    end[0] += h * h * method.b[i] * (1 - method.c[i]) * a[i];
-    end[1] += h * method.b[i] * a[i];
-  }
-  return {static_cast<double>(end[0]), static_cast<double>(end[1])};
-}
-
 // By other weights.
-std::array<double, 2> oscillator_step(const Integrator& integrator, const std::vector<long double>& weights, double omega,
-                                      double h, double x) {
+Oscillator after_step(const Integrator& integrator, const std::vector<long double>& weights, const Oscillator& start, double h) {
   const auto step = [&](auto method) {
     method.b = weights;
-    return oscillator_step(method, omega, h, x);
+    return after_step(method, start, h);
   };
   if (const auto* method = std::get_if<Nystrom>(&integrator.method)) return step(*method);
   return step(std::get<RungeKutta>(integrator.method));
@@ -154,8 +122,9 @@ TEST_CASE("the next step's length follows from how far the embedded methods come
     CAPTURE(name);
     const Integrator& integrator = find_integrator(name);
     const StagedMethod& method = *staged_method(integrator);
-    const double h = (integrator.order > 8 ? 2.0 : 0.8) / omega;            // long enough for an error above rounding
-    const auto end = oscillator_step(integrator, method.b, omega, h, 0.1);  // each vertex is one of its own, 0.1 m off
+    const double h = (integrator.order > 8 ? 2.0 : 0.8) / omega;  // long enough for an error above rounding
+    const Oscillator start_of_vertex{.omega = omega, .x = 0.1};   // each vertex is one of its own, 0.1 m off
+    const Oscillator end = after_step(integrator, method.b, start_of_vertex, h);
     physics::Pace pace{};
     pace.target = 100;
     pace.tolerance = 1e-4;
@@ -167,8 +136,8 @@ TEST_CASE("the next step's length follows from how far the embedded methods come
     std::uint32_t estimate[2] = {};
     const std::vector<long double> embedded[] = {method.b_hat, method.b_hat2};
     for (int k = 0; k < 2 && !embedded[k].empty(); ++k) {
-      const auto other = oscillator_step(integrator, embedded[k], omega, h, 0.1);
-      const double error = std::max(std::abs(end[0] - other[0]) / 0.5, std::abs(end[1] - other[1]) / (0.5 * omega));
+      const Oscillator other = after_step(integrator, embedded[k], start_of_vertex, h);
+      const long double error = std::max(std::abs(end.x - other.x) / 0.5L, std::abs(end.v - other.v) / (0.5L * omega));
       estimate[k] = std::bit_cast<std::uint32_t>(static_cast<float>(error));
     }
     pace.error = physics::joined_error(estimate[0], estimate[1]);
