@@ -24,7 +24,8 @@ struct Coordinates {
 };
 
 // (|x| - L)^2 [m^2] of the spring between two vertices, without cancellation: with r from one to the other at rest, d its change,
-// and x = r + d, it is (|x|^2 - L^2)^2 / (|x| + L)^2, and |x|^2 - L^2 = d.(r + x).
+// and x = r + d, it is (|x|^2 - L^2)^2 / (|x| + L)^2, and |x|^2 - L^2 = d.(r + x). One factor is divided before the other comes
+// in, so that only an energy that is beyond all numbers overflows.
 inline double elongation_squared(const Coordinates& at, std::size_t i, std::size_t j) {
   double now = 0, rest = 0, growth = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,7 +35,7 @@ inline double elongation_squared(const Coordinates& at, std::size_t i, std::size
     growth += d * (r + x);
   }
   constexpr double least = std::numeric_limits<double>::min();  // of two vertices that share a place, in both shapes
-  return growth * growth / (now + rest + 2 * std::sqrt(now * rest) + least);
+  return growth * (growth / (now + rest + 2 * std::sqrt(now * rest) + least));
 }
 
 // The sum of (|x| - L)^2 [m^2] over the springs from `i` to the vertices from `i` + 1 to before `end`.

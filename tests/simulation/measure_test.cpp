@@ -52,6 +52,16 @@ TEST_CASE("vertices that share a place have a finite energy") {
   CHECK(elastic() == 0);
 }
 
+TEST_CASE("the energy of a spring is right up to lengths whose square can hardly be told") {
+  ThreadPool pool(1);
+  ModelAndState start = built(two_vertices());
+  for (const double length : {1e30, 1e77, 1e100, 1e150}) {
+    CAPTURE(length);
+    start.state.motion[6] = length;
+    CHECK(measure(start.model, start.state, {0, 0, 0}, pool).elastic == Approx(0.5 * length * length).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("a measurement that is stopped knows no elastic energy, and all the rest") {
   BodySetup setup = sphere(1);
   setup.description.velocity = {3, 0, 0};
