@@ -256,15 +256,15 @@ void wait_for_others(Share s, uint often) {
   barrier();
 }
 
-shared bool sums;  // asked for once, so that all threads of the group go the same way
+shared bool group_sums;  // asked for once, so that all threads of the group go the same way
 
 void serve_stages(Share s) {
-  if (gl_LocalInvocationID.x == 0u) sums = deformed(s);
+  if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
   barrier();
   for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
-    if (sums && stage_index > 0u) wait_for_others(s, stage_index);
+    if (group_sums && stage_index > 0u) wait_for_others(s, stage_index);
     barrier();  // shared memory changes from here on
-    serve(s, sums);
+    serve(s, group_sums);
   }
 }
 #else
