@@ -11,6 +11,7 @@
 #include "bench/precision_report.hpp"
 #include "bench/report.hpp"
 #include "bench/stability_report.hpp"
+#include "bench/step_cases.hpp"
 #include "core/error.hpp"
 #include "output/file.hpp"
 
@@ -70,6 +71,7 @@ int bench_forces(const BenchOptions& options) {
 }
 
 int bench_steps(const BenchOptions& options) {
+  bench::expect_scenes(options.scenes);
   const bench::StepsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_steps);
 }

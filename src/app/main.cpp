@@ -172,17 +172,19 @@ std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
   return {program, name};
 }
 
-// CLI11 asks for a subcommand without naming the word that is none.
+// CLI11 asks for a subcommand without naming the word that is none, or no option.
 std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
   const auto [command, name] = command_in(program);
   std::string choices;
   for (const CLI::App* choice : command->get_subcommands({})) choices += (choices.empty() ? "" : ", ") + choice->get_name();
   const std::vector<std::string> unknown = command->remaining();
-  const std::string what = choices.empty() ? error.what()
-                           : unknown.empty()
-                               ? fmt::format("{} needs a subcommand: {}", name, choices)
-                               : fmt::format("there is no \"{} {}\"; what exists: {}", name, unknown.front(), choices);
-  return fmt::format("pliant: {}; `{} --help` says more\n", what, name);
+  const auto what = [&]() -> std::string {
+    if (choices.empty()) return error.what();
+    if (unknown.empty()) return fmt::format("{} needs a subcommand: {}", name, choices);
+    if (unknown.front().starts_with('-')) return fmt::format("{} has no option {}", name, unknown.front());
+    return fmt::format("there is no \"{} {}\"; what exists: {}", name, unknown.front(), choices);
+  };
+  return fmt::format("pliant: {}; `{} --help` says more\n", what(), name);
 }
 
 int execute(int count, char** arguments) {

@@ -25,9 +25,12 @@ struct StepCases {
   std::vector<std::string> notes;  // what was left out, and why
 };
 
+/// Throws Error (command_line) where there is no such folder or it holds no scene.
+void expect_scenes(const std::filesystem::path& folder);
+
 /// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them, with two bodies. `quick`: few, small
-/// and short; scenes then start a little deformed, so that springs work from the first step on. Throws Error: command_line where
-/// there is no such folder or it holds no scene, input for a scene that is wrong.
+/// and short; scenes then start a little deformed, so that springs work from the first step on. Throws Error: as expect_scenes,
+/// or input for a scene that is wrong.
 [[nodiscard]] StepCases load_step_cases(const std::filesystem::path& folder, bool quick);
 
 }  // namespace pliant::bench
