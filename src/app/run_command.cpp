@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/thread_pool.hpp"
 #include "output/csv.hpp"
+#include "output/file.hpp"
 #include "output/summary.hpp"
 #include "simulation/measure.hpp"
 
@@ -33,7 +34,9 @@ class Run {
         folder_(folder),
         measuring_pool_(options.device.threads),
         frames_(prepared, options.frames, folder / "frames"),
-        history_(folder / "history.csv") {}
+        history_(folder / "history.csv") {
+    for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder / name);  // not after hours of steps
+  }
 
   int execute() {
     if (options_.timings) run_.simulation->time_passes();
@@ -358,18 +361,24 @@ std::filesystem::path folder_of(const RunOptions& options) {
   return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
 }
 
+// Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.
 void expect_folder(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  std::filesystem::path existing = std::filesystem::absolute(folder, ignored);
-  while (!std::filesystem::exists(existing, ignored) && existing.has_relative_path()) existing = existing.parent_path();
-  if (!std::filesystem::is_directory(existing, ignored))
+  std::error_code failure;
+  std::filesystem::path existing = std::filesystem::absolute(folder, failure), missing;
+  while (!std::filesystem::exists(existing, failure) && existing.has_relative_path())
+    existing = (missing = existing).parent_path();
+  if (!std::filesystem::is_directory(existing, failure))
     throw Error(ErrorKind::command_line, existing.string(), "is no folder", "name another place by --out");
+  if (missing.empty()) return;
+  std::filesystem::create_directory(missing, failure);
+  if (failure) throw Error(ErrorKind::command_line, missing.string(), "this folder can't be made", "name another place by --out");
+  std::filesystem::remove(missing, failure);
 }
 
 }  // namespace
 
 int run(const RunOptions& options) {
-  if (!options.check) expect_folder(folder_of(options));
+  if (!options.check || !options.out.empty()) expect_folder(folder_of(options));
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);

@@ -16,8 +16,8 @@ Error unwritable(const std::filesystem::path& path, const char* problem) {
 // Behind symbolic links, which stay. A plain file that may not be written must not be replaced either.
 std::filesystem::path checked_place(const std::filesystem::path& path) {
   std::error_code failure;
+  expect_replaceable(path);
   if (!std::filesystem::exists(path, failure)) return path;
-  if (access(path.c_str(), W_OK) != 0) throw unwritable(path, "can't be written");
   return std::filesystem::is_regular_file(path, failure) ? std::filesystem::canonical(path, failure) : path;
 }
 
@@ -28,6 +28,12 @@ std::filesystem::path beside(const std::filesystem::path& place) {
 }
 
 }  // namespace
+
+void expect_replaceable(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) return;
+  if (std::filesystem::is_directory(path, failure) || access(path.c_str(), W_OK) != 0) throw unwritable(path, "can't be written");
+}
 
 OutputFile::OutputFile(const std::filesystem::path& path) : path_(path) {
   std::error_code failure;
@@ -52,7 +58,7 @@ void OutputFile::require(bool good, const char* problem) const {
 }
 
 WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), written_(beside(place_)) {
-  if (written_ == place_ && !std::filesystem::is_directory(place_)) return;
+  if (written_ == place_) return;
   { const OutputFile trial(written_); }
   std::error_code failure;
   std::filesystem::remove(written_, failure);

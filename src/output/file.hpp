@@ -7,6 +7,9 @@
 
 namespace pliant {
 
+/// Throws Error (command_line) where a folder stands at `path`, or a file that one may not write.
+void expect_replaceable(const std::filesystem::path& path);
+
 class OutputFile {
  public:
   /// Creates the folders that are missing and replaces an existing file. Throws Error (command_line).

@@ -399,6 +399,24 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"another place"});
 }
 
+TEST_CASE("a place that can't be written is told before anything is read or stepped, and by a check as well") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 3 --out ";
+  for (const char* name : {"summary.json", "final_state.csv"}) {
+    const auto out = folder.path / name / "out";
+    std::filesystem::create_directories(out / name);
+    check_fails(run + out.string(), 2, {name, "can't be written"});
+    CHECK(line_count(read_text(out / "history.csv")) <= 1);
+  }
+  for (const std::string place : {"/proc/x", "/dev/null/x"})
+    for (const char* scene : {"nowhere.toml", small_scene(folder).c_str()})
+      for (const char* check : {"", " --check"})
+        check_fails("run " + std::string(scene) + " --device cpu --steps 0 --out " + place + check, 2,
+                    {"another place by --out"});
+  CHECK(run_program(run + (folder.path / "new" / "deep").string() + " --check").exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "new"));
+}
+
 TEST_CASE("a device that is not there exits with 4") {
   const ScratchFolder folder;
   check_fails("run " + small_scene(folder).string() + " --gpu 99 --out " + folder.path.string(), 4, {"; "});

@@ -55,6 +55,14 @@ TEST_CASE("a device is written to where it is, and a full one is an error") {
   check_says(error_of([&] { full.close(); }), {"/dev/full", "can't be written"});
 }
 
+TEST_CASE("a file is replaceable where there is none yet, and a folder never is") {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path / "file") << "text";
+  for (const char* name : {"file", "none", "none/deeper"}) CHECK_NOTHROW(expect_replaceable(folder.path / name));
+  CHECK_NOTHROW(expect_replaceable("/dev/null"));
+  CHECK(error_of([&] { expect_replaceable(folder.path); }).kind() == ErrorKind::command_line);
+}
+
 TEST_CASE("a whole file whose place was taken meanwhile is an error, and leaves nothing beside it") {
   const test::ScratchFolder folder;
   const auto path = folder.path / "a.json";
