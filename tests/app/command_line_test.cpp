@@ -409,10 +409,9 @@ TEST_CASE("a place that can't be written is told before anything is read or step
     CHECK(line_count(read_text(out / "history.csv")) <= 1);
   }
   for (const std::string place : {"/proc/x", "/dev/null/x"})
-    for (const char* scene : {"nowhere.toml", small_scene(folder).c_str()})
+    for (const std::string& scene : {std::string("nowhere.toml"), small_scene(folder).string()})
       for (const char* check : {"", " --check"})
-        check_fails("run " + std::string(scene) + " --device cpu --steps 0 --out " + place + check, 2,
-                    {"another place by --out"});
+        check_fails("run " + scene + " --device cpu --steps 0 --out " + place + check, 2, {"another place by --out"});
   CHECK(run_program(run + (folder.path / "new" / "deep").string() + " --check").exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(folder.path / "new"));
 }
