@@ -86,7 +86,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       rest_positions(device, model.rest_positions, "rest positions"),
       motions(device, std::size_t{12} * vertex_count, "motions"),
       world_positions(device, std::size_t{2} * vertex_count, "world positions"),
-      placements(device, std::size_t{2} * physics::slot_count * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
+      placements(device, std::size_t{2} * (physics::slot_count + 1) * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
                  "placements"),
       control(device, std::vector{first_control()}, "control") {
   all_stages_at_once = runs_all_stages(device, model, variant);

@@ -25,7 +25,8 @@ struct DeviceBodies {
   DeviceArray<glm::vec4> rest_positions;   // w: body index
   DeviceArray<double> motions;             // [half][vertex][6]: u [m], w [m/s]
   DeviceArray<glm::vec4> world_positions;  // [half][vertex], written once a step [m]
-  DeviceArray<std::uint32_t> placements;   // real4 [slot][2][vertex]: position, displacement in units of the body's length
+  DeviceArray<std::uint32_t> placements;   // real4 [slot][2][vertex]: position, displacement in units of the body's length; then
+                                           // [2][vertex]: what rounding the placements of a step's stages has done so far
   DeviceArray<physics::Control> control;   // one
 
   /// The state in a half, from which another run may start: no body is halted for now.

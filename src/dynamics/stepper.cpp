@@ -2,8 +2,10 @@
 #include "dynamics/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 
 #include "core/expect.hpp"
 #include "physics/damping.glsl"
@@ -15,8 +17,18 @@ static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_n
 static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);
 static_assert(static_cast<std::uint32_t>(DampingLaw::adaptive) == physics::damping_adaptive);
 
-// The rows that runge_kutta_stage.glsl reads: see its next_row().
-std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau) {
+// Of a stage in the velocity at the step's end; and the inverse, or zero where the weight is too small to take off by this stage
+// what others have rounded.
+glm::dvec2 weight_at_end(const NystromTableau& tableau, std::size_t stage) {
+  const std::span<const double> weights(&tableau.velocity[static_cast<std::size_t>(tableau.stages * tableau.stages)],
+                                        static_cast<std::size_t>(tableau.stages));
+  const double largest = std::abs(*std::ranges::max_element(weights, {}, [](double weight) { return std::abs(weight); }));
+  return {weights[stage], std::abs(weights[stage]) < largest / 32 ? 0 : 1 / weights[stage]};
+}
+
+// The rows that runge_kutta_stage.glsl reads: see its next_row(). An error estimate weighs stages in another way than the step's
+// end, so that what cancels in one does not in the other.
+std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau, bool cancels_rounding) {
   std::vector<glm::dvec2> rows;
   const auto stages = static_cast<std::size_t>(tableau.stages);
   for (std::size_t next = 1; next <= stages; ++next) {
@@ -25,8 +37,9 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau) {
     };
     rows.emplace_back(tableau.c[next], tableau.keep[next]);
     rows.push_back(weights(next - 1));
+    rows.push_back(next < stages && cancels_rounding ? weight_at_end(tableau, next) : glm::dvec2(0));
     for (std::size_t j = 0; j + 1 < next; ++j) rows.push_back(weights(j));
-    rows.resize(next * (2 + (stages + 3) / 4 * 4));
+    rows.resize(next * (3 + (stages + 3) / 4 * 4));
   }
   return rows;
 }
@@ -54,7 +67,7 @@ DeviceArray<glm::dvec2> tableau_of(Device& device, std::vector<glm::dvec2> rows)
 }  // namespace
 
 std::size_t Stepper::most_drags(const Integrator& integrator) {
-  return physics::tableau_size / stage_rows(nystrom_tableau(integrator)).size();
+  return physics::tableau_size / stage_rows(nystrom_tableau(integrator), true).size();
 }
 
 Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step,
@@ -88,7 +101,7 @@ void Stepper::use_tableaus(Stages stages) {
     const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
     PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
-    std::ranges::copy(stage_rows(tableau), std::back_inserter(rows));
+    std::ranges::copy(stage_rows(tableau, stages == Stages::of_result), std::back_inserter(rows));
   }
   tableau_ = tableau_of(device_, std::move(rows));
   bodies_.set_tableau_rows(row_of_body);

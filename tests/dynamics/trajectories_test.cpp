@@ -31,26 +31,34 @@ double relative_distance(const ModelAndState& start, const State& a, const State
 }
 
 // Rounding of forces leaves sums that are not zero, and nothing holds a body back from drifting: the fewer vertices, the further.
-// `bound` is twice what was measured, on CPU, llvmpipe and an H200.
-void check_trajectories(int level, double bound) {
-  for (const double amplitude : {0.2, 1e-2, 1e-4}) {
+// A CPU sums in another order than a GPU, with more rounding.
+struct Bounds {
+  double cpu, gpu;
+};
+
+void check_trajectories(int level, const Bounds& bounds) {
+  for (const double amplitude : {0.2, 0.1, 1e-2, 1e-3, 1e-4}) {
     const ModelAndState start = flattened_sphere(level, amplitude);
     const Method method{"cv8", 0.5 / stiffest_omega(start.model)};
     const State exact = evolve(*make_cpu_device(2, 64), start, method, 200);
     for (const TestDevice& test : all_devices()) {
       CAPTURE(test.name, start.model.vertex_count(), amplitude);
-      CHECK(relative_distance(start, evolve(*test.device, start, method, 200), exact) < bound);
+      CHECK(relative_distance(start, evolve(*test.device, start, method, 200), exact) <
+            (test.name == "gpu" ? bounds.gpu : bounds.cpu));
     }
   }
 }
 
+// Twice what was measured on CPU, llvmpipe and an H200.
 TEST_CASE("fp32 forces keep small bodies near the fp64 trajectory", "[gl]") {
-  check_trajectories(0, 4e-6);
-  check_trajectories(1, 2.5e-6);
-  check_trajectories(2, 9e-7);
+  check_trajectories(0, {4e-6, 2.2e-6});
+  check_trajectories(1, {2.5e-6, 6e-7});
+  check_trajectories(2, {9e-7, 4e-7});
 }
 
-TEST_CASE("fp32 forces keep bodies near the fp64 trajectory", "[gl][long]") { check_trajectories(3, 6e-7); }
+TEST_CASE("fp32 forces on a GPU keep a body of 642 vertices within 1e-7 of the fp64 trajectory", "[gl][long]") {
+  check_trajectories(3, {6e-7, 1e-7});
+}
 
 }  // namespace
 }  // namespace pliant

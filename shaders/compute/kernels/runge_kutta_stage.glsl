@@ -31,20 +31,33 @@ struct Course {
   double keep;             // what is left of that velocity
   double position_weight;  // of this stage's acceleration [s^2]
   double velocity_weight;  // [s]
+  dvec2 next_weight;       // of the next stage's acceleration in the velocity at the step's end, over h; its inverse, or zero to let it be
+};
+
+// What rounding placements does to forces would add up over stages and steps like a random walk. Within a step it is made to cancel:
+// what the stages so far have rounded, each by its weight in the velocity at the end, is taken off the next placement. The step's
+// first stage is left out, and what the last one rounds remains: their weights are small. Kept where a fourth slot would be.
+bool cancels_rounding() { return real_epsilon > real(1e-10); }
+struct Rounding {
+  double of_position;
+  double of_displacement;
 };
 
 // All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
 struct Pending {
   Course course;
+  Rounding rounding;      // so far
   double rest;
   double stage_velocity;  // at this stage
   double displacement;    // for the next stage, or at the end; position_weight a is missing
   double velocity;        // likewise
 };
 
-// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c and keep; then weights for position
-// (h^2) and velocity (h), this stage's first, then those of earlier stages in turn, with zeros up to a multiple of four.
-uint next_row(IN(Share) s) { return s.tableau_row + stage_index * (2u + ((stage_count + 3u) & ~3u)); }
+// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c and keep; weights for
+// position (h^2) and velocity (h) of this stage; that stage's own in the velocity at the end, and the inverse
+// or zero; then weights of
+// earlier stages in turn, with zeros up to a multiple of four.
+uint next_row(IN(Share) s) { return s.tableau_row + stage_index * (3u + ((stage_count + 3u) & ~3u)); }
 uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
 
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
@@ -55,7 +68,7 @@ dvec2 weigh_four(uint first, double a, double b, double c, double d) {
 dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
   dvec2 sums = dvec2(0);
   for (uint j = 0u; j < stage_index; j += 4u)
-    sums += weigh_four(row + 2u + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
+    sums += weigh_four(row + 3u + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
   return sums;
 }
 
@@ -72,13 +85,39 @@ Course course_on_axis(uint k, IN(Share) s) {
   c.reference = motion[first] + c.elapsed * motion[first + 3u];
   c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
   c.velocity_weight = c.time_step * tableau[row + 1u].y;
+  c.next_weight = tableau[row + 2u];
   return c;
+}
+
+Rounding rounding_so_far(uint i, uint k) {
+  Rounding rounding;
+  rounding.of_position = rounding.of_displacement = double(0);
+  if (!cancels_rounding() || stage_index == 0u || is_last()) return rounding;
+  rounding.of_position = double(placement[4u * position_at(slot_count, vertex_count, i) + k]);
+  rounding.of_displacement = double(placement[4u * displacement_at(slot_count, vertex_count, i) + k]);
+  return rounding;
+}
+
+// Rounds a coordinate for the next stage, and notes what that has done.
+void place_against(double so_far, dvec2 weight, double exact, uint at, uint noted_at) {
+  real rounded = real(FUSED(-so_far, weight.y, exact));
+  placement[at] = rounded;
+  placement[noted_at] = real(FUSED(weight.x, double(rounded) - exact, so_far));
+}
+
+void place_next(uint i, uint k, double inverse_unit, double rest, double relative, IN(Rounding) so_far, dvec2 weight) {
+  uint slot = (stage_index + 1u) & 1u;
+  place_against(so_far.of_position, weight, inverse_unit * (rest + relative), 4u * position_at(slot, vertex_count, i) + k,
+                4u * position_at(slot_count, vertex_count, i) + k);
+  place_against(so_far.of_displacement, weight, inverse_unit * relative, 4u * displacement_at(slot, vertex_count, i) + k,
+                4u * displacement_at(slot_count, vertex_count, i) + k);
 }
 
 Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   uint before = 6u * (from_half * vertex_count + i) + k;
   Pending p;
   p.course = c;
+  p.rounding = rounding_so_far(i, k);
   p.rest = double(rest_position[i][int(k)]);
   p.stage_velocity = motion[before + 3u];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
@@ -98,7 +137,11 @@ double after_force(uint i, uint k, IN(Share) s, double spring_force, double forc
   acceleration[accelerations_of(stage_index, i) + k] = a;
   double displacement = p.displacement + p.course.position_weight * a;
   double velocity = p.velocity + p.course.velocity_weight * a;
-  place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.course.reference);
+  double relative = displacement - p.course.reference;
+  if (cancels_rounding() && !is_last())
+    place_next(i, k, s.body.inverse_unit, p.rest, relative, p.rounding, p.course.next_weight);
+  else
+    place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, relative);
   if (is_last())
     end_step(i, k, s, displacement, velocity, p.course.reference);
   else if (damping_law != damping_none)
