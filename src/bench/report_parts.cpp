@@ -1,7 +1,14 @@
 #include "bench/report_parts.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace pliant::bench {
 namespace {
+
+template <class Value>
+Json value_or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json machine_json(const Machine& machine) {
   return {{"version", machine.version},         {"commit", machine.commit},    {"cpu", machine.cpu},
@@ -33,6 +40,9 @@ Json suite_json(const char* suite, const Json& options, bool interrupted, const 
 }
 
 Json threads_json(const std::string& device, unsigned threads) { return device == "gpu" ? Json(nullptr) : Json(threads); }
+
+Json or_null(const std::optional<double>& value) { return value_or_null(value); }
+Json or_null(const std::optional<std::string>& value) { return value_or_null(value); }
 
 std::string text_of(const Json& object) {
   std::string text;

@@ -1,6 +1,7 @@
 // What the files of all suites have in common, for their reports alone.
 #pragma once
-#include <nlohmann/json.hpp>
+#include <iterator>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -21,14 +22,14 @@ using Json = nlohmann::ordered_json;
 /// be any. Expects an object.
 [[nodiscard]] std::string text_of(const Json& object);
 
-template <class Value>
-[[nodiscard]] Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
+[[nodiscard]] Json or_null(const std::optional<double>& value);
+[[nodiscard]] Json or_null(const std::optional<std::string>& value);
 
+/// `json_of` answers Json. Its type is deduced, as it is known here by name alone.
 template <class Items, class ToJson>
-[[nodiscard]] Json list_of(const Items& items, const ToJson& json_of) {
-  Json list = Json::array();
+[[nodiscard]] auto list_of(const Items& items, const ToJson& json_of) {
+  using List = decltype(json_of(*std::begin(items)));
+  List list = List::array();
   for (const auto& item : items) list.push_back(json_of(item));
   return list;
 }
