@@ -1,5 +1,5 @@
 // The suite `precision`: what an error costs. Every integrator runs at many step sizes on every device and in every precision,
-// and so do other libraries' integrators on the same forces.
+// those that "auto" takes for a tolerance also at many of these, and so do other libraries' integrators on the same forces.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct PrecisionRow {
   unsigned threads = 1;             // of the CPU; null in the file for the GPU
   double tolerance = 0;             // null in the file for fixed steps
   double step = 0;                  // omega times the fixed step [rad]; null in the file for adaptive steps
-  std::uint64_t evaluations = 0;    // of all forces of a body
+  std::uint64_t evaluations = 0;    // of all forces of a body, those of rejected steps included
   std::uint64_t contact_steps = 0;  // steps with a contact
   double seconds = 0;               // of integrating: the median over the runs
   double fastest_seconds = 0;
@@ -58,8 +58,8 @@ struct PrecisionResult {
   bool interrupted = false;  // by Progress
 };
 
-/// Steps are shortened from the longest stable ones on, until an error stops falling, cannot be told any more, or would take too
-/// long. Ends with errors above 0.1 are no rows. Throws Error.
+/// Steps are shortened from the longest stable ones on and tolerances sharpened from 1e-2 on, until an error stops falling,
+/// cannot be told any more, or would take too long. Ends with errors above 0.1 are no rows. Throws Error.
 [[nodiscard]] PrecisionResult bench_precision(const PrecisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

@@ -19,9 +19,12 @@ struct PrecisionCase {
   double omega = 0;                   // of the stiffest body's breathing, sqrt(N k / m) [rad/s]
   std::uint64_t reference_steps = 0;  // of the coarser reference
   bool with_peers = true;             // one body without contacts
+  bool with_tolerances = true;        // without contacts
   bool is_contest = false;            // smooth: where the suite's claim is judged
 
-  [[nodiscard]] TimePlan plan(const Integrator& integrator, std::uint64_t steps) const;
+  [[nodiscard]] TimePlan plan_steps(const Integrator& integrator, std::uint64_t steps) const;
+  /// As plan_time() has it for a scene, but that no frame holds a step back.
+  [[nodiscard]] TimePlan plan_tolerance(const Integrator& integrator, double tolerance) const;
   /// Up to which the method is stable; 1 / omega where nothing bounds it [s].
   [[nodiscard]] double largest_step(const Integrator& integrator) const;
 };

@@ -127,12 +127,12 @@ std::string text_of(const std::optional<Winner>& winner) {
 }
 
 std::string table_of_cheapest(const PrecisionResult& result, const std::string& case_name) {
-  std::string table = fmt::format("{:<7} {:<34} | {:<20}", "error", "cheapest [ms]", "fp64 x 1: pliant");
+  std::string table = fmt::format("{:<7} {:<44} | {:<28}", "error", "cheapest [ms]", "fp64 x 1: pliant");
   for (const std::string_view library : peer_libraries) table += fmt::format(" {:<36}", library);
   table += '\n';
   for (const CheapestRow& row : find_cheapest(result)) {
     if (row.case_name != case_name) continue;
-    table += fmt::format("{:<7.0e} {:<34} | {:<20}", row.error,
+    table += fmt::format("{:<7.0e} {:<44} | {:<28}", row.error,
                          fmt::format("{}, {}", name_of_place(row.any->contender.place), text_of(row.any)), text_of(row.pliant));
     for (const std::optional<Winner>& peer : row.peers) table += fmt::format(" {:<36}", text_of(peer));
     table += '\n';

@@ -17,7 +17,6 @@ namespace pliant {
 namespace {
 
 constexpr double safety = 0.9;
-constexpr double first_step_fraction = 0.1;  // of the bound, where a tolerance governs the steps
 constexpr double smallest_tolerance_32 = 1e-7;
 constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
 
@@ -147,9 +146,11 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   return plan;
 }
 
+bool carries(int precision, double tolerance) { return precision != 32 || tolerance >= smallest_tolerance_32; }
+
 void expect_carried(const SceneDescription& scene, int precision) {
   const auto& [tolerance, where] = std::pair(scene.simulation.tolerance, scene.simulation.tolerance_where);
-  if (precision != 32 || !tolerance || *tolerance >= smallest_tolerance_32) return;
+  if (!tolerance || carries(precision, *tolerance)) return;
   throw Error(fault_of(where), where, fmt::format("a tolerance of {} is below what forces in fp32 carry", *tolerance),
               fmt::format("write {} or more, or run with --device cpu --precision 64", smallest_tolerance_32));
 }

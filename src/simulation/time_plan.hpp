@@ -9,6 +9,9 @@
 
 namespace pliant {
 
+/// Where a tolerance governs the steps the first one is so much of the bound, or one frame if that is shorter.
+inline constexpr double first_step_fraction = 0.1;
+
 struct TimePlan {
   const Integrator* integrator = nullptr;
   double time_step = 0;                       // [s]; with a tolerance the first step, and the one after a contact
@@ -31,6 +34,9 @@ struct TimePlan {
 /// cannot meet the scene's damping or does not estimate the error that the scene's tolerance is for, for integrator = "auto"
 /// without a tolerance, for steps with one, and for a duration of more than 3e8 steps.
 [[nodiscard]] TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps = {});
+
+/// Whether steps can meet the tolerance with forces of so many bits.
+[[nodiscard]] bool carries(int precision, double tolerance);
 
 /// Throws Error (fault_of the scene's `where`) if the scene's tolerance is below what forces of so many bits carry.
 void expect_carried(const SceneDescription& scene, int precision);

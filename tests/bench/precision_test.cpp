@@ -6,11 +6,14 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/peers.hpp"
 #include "bench/precision_cases.hpp"
 #include "bench/precision_cheapest.hpp"
 #include "bench/precision_report.hpp"
+#include "bench/precision_sweeps.hpp"
+#include "gl/context.hpp"
 #include "mesh/generators.hpp"
 #include "simulation/simulation.hpp"
 #include "support/paths.hpp"
@@ -33,13 +36,15 @@ PrecisionCase squashed_sphere(DampingLaw law) {
   what.collision.response = ContactResponse::none;
   what.omega = std::sqrt(what.start.model.vertex_count() * setup.description.stiffness);
   what.duration = 5 / what.omega;
+  what.reference_steps = 500;
   return what;
 }
 
 // By pliant, in steps of 1/200 rad.
 Ending truth_of(const PrecisionCase& what) {
   const auto device = make_cpu_device(1, 64);
-  Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("vern8"), 1000), what.collision);
+  Simulation simulation(*device, what.start.model, what.start.state, what.plan_steps(find_integrator("vern8"), 1000),
+                        what.collision);
   simulation.advance(1000);
   return ending_of(what.start.model, simulation.state());
 }
@@ -100,7 +105,8 @@ TEST_CASE("pliant's coefficients of Vern8 take the same steps in every library")
   const PrecisionCase what = squashed_sphere(DampingLaw::none);
   const Ending truth = truth_of(what);
   const auto device = make_cpu_device(1, 64);
-  Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("vern8"), 10), what.collision);
+  Simulation simulation(*device, what.start.model, what.start.state, what.plan_steps(find_integrator("vern8"), 10),
+                        what.collision);
   simulation.advance(10);
   const double own = relative_error(what, truth, ending_of(what.start.model, simulation.state()));
   for (const PeerMethod& method : peer_methods(false)) {
@@ -121,8 +127,8 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
     const double longest = in_waves ? 3.4 : 1.5, least = in_waves ? 1e-13 : 1e-11;
     std::vector<std::pair<double, double>> points;  // step, error
     for (const PrecisionRow& row : result.rows)
-      if (row.library == "pliant" && row.method == integrator.name && row.precision == 64 && row.step < longest &&
-          row.error > least)
+      if (row.library == "pliant" && row.method == integrator.name && row.precision == 64 && !row.adaptive &&
+          row.step < longest && row.error > least)
         points.emplace_back(row.step, row.error);
     CAPTURE(integrator.name);
     REQUIRE(points.size() >= 2);
@@ -130,6 +136,10 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
     const auto [step_before, error_before] = in_waves ? points.front() : points[points.size() - 2];
     CHECK(std::log(error_before / error) / std::log(step_before / step) == Approx(integrator.order).margin(0.4));
   }
+  for (const int precision : {64, 32})
+    CHECK(std::ranges::any_of(result.rows, [&](const PrecisionRow& row) {
+      return row.library == "pliant" && row.adaptive && row.method == "dprkn12" && row.precision == precision;
+    }));
   double least_single = 1;
   for (const PrecisionRow& row : result.rows)
     if (row.precision == 32) least_single = std::min(least_single, row.error);
@@ -137,13 +147,107 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
   CHECK(least_single < 1e-5);
 }
 
+// Of a tolerance's rows alone.
+std::vector<PrecisionRow> rows_of_tolerances(const PrecisionCase& what, const Place& place) {
+  const auto exact = make_cpu_device(1, 64), device = open(place);
+  Sweeps sweeps(what, find_reference(*exact, what), {.longest_run = 1, .most_evaluations = 500, .rounds = 1},
+                [](std::string_view) { return true; });
+  REQUIRE(sweeps.tolerances(*device, place));
+  return sweeps.rows();
+}
+
+std::set<std::string> methods_of(const std::vector<PrecisionRow>& rows) {
+  std::set<std::string> methods;
+  for (const PrecisionRow& row : rows) methods.insert(row.method);
+  return methods;
+}
+
+TEST_CASE("tolerances have rows of the methods that auto takes for them, and of dop853") {
+  const auto methods = [](DampingLaw law, int precision) {
+    return methods_of(rows_of_tolerances(squashed_sphere(law), {.precision = precision}));
+  };
+  using Names = std::set<std::string>;
+  CHECK(methods(DampingLaw::none, 64) == Names{"dop853", "dprkn8", "dprkn12"});
+  CHECK(methods(DampingLaw::none, 32) == Names{"dop853", "dprkn8", "dprkn12"});
+  CHECK(methods(DampingLaw::constant, 64) == Names{"dop853", "vern8"});
+  CHECK(methods(DampingLaw::constant, 32) == Names{"dop853"});
+  CHECK(methods(DampingLaw::adaptive, 64) == Names{"dop853", "verner78_8"});
+}
+
+TEST_CASE("an adaptive row's error is near what its tolerance asks") {
+  const DampingLaw law = GENERATE(DampingLaw::none, DampingLaw::constant);
+  std::size_t tight = 0;
+  for (const PrecisionRow& row : rows_of_tolerances(squashed_sphere(law), {.precision = 64})) {
+    CAPTURE(row.method, row.tolerance, row.error);
+    CHECK(row.adaptive);
+    CHECK(row.step == 0);
+    CHECK(row.error < 5 * row.tolerance);
+    if (row.method != "dop853" || row.tolerance > 2e-5)
+      continue;  // others' estimates are pessimists, and loose ones meet the bound
+    CHECK(row.error > 1e-3 * row.tolerance);
+    ++tight;
+  }
+  CHECK(tight >= 5);
+}
+
+TEST_CASE("no adaptive row asks more than fp32 carries of it, on any device", "[gl]") {
+  for (const char* device : {"cpu", "gpu"}) {
+    if (device == std::string("gpu") && gl::list_adapters().empty()) continue;
+    double tightest = 1;
+    for (const PrecisionRow& row : rows_of_tolerances(squashed_sphere(DampingLaw::none), {.device = device, .precision = 32})) {
+      CAPTURE(device, row.method, row.tolerance);
+      CHECK(row.device == device);
+      CHECK(row.error < 5 * row.tolerance + 1e-6);
+      tightest = std::min(tightest, row.tolerance);
+    }
+    CHECK(tightest == 1e-7);
+  }
+}
+
+TEST_CASE("an adaptive row counts the evaluations of all steps, of the rejected ones too") {
+  const PrecisionCase what = squashed_sphere(DampingLaw::adaptive);
+  const auto device = make_cpu_device(1, 64);
+  std::uint64_t rejected = 0;
+  for (const PrecisionRow& row : rows_of_tolerances(what, {.precision = 64})) {
+    const Integrator& integrator = find_integrator(row.method);
+    Simulation simulation(*device, what.start.model, what.start.state, what.plan_tolerance(integrator, row.tolerance),
+                          what.collision);
+    const StepReport report = simulation.advance_to(what.duration);
+    const auto stages = static_cast<std::uint64_t>(nystrom_tableau(integrator, Stages::of_estimates).stages);
+    CAPTURE(row.method, row.tolerance);
+    CHECK(report.time == what.duration);
+    CHECK(row.evaluations == (report.steps + report.adaptive->rejected) * stages);
+    rejected += report.adaptive->rejected;
+  }
+  CHECK(rejected > 0);
+}
+
+TEST_CASE("a tolerance that no step meets leaves no end to compare") {
+  const PrecisionCase what = squashed_sphere(DampingLaw::none);
+  const auto exact = make_cpu_device(1, 64), coarse = make_cpu_device(1, 32);
+  const Reference reference = find_reference(*exact, what);
+  CHECK(std::isnan(relative_error(what, reference.ending, run_tolerance(*coarse, what, find_integrator("vern8"), 1e-30).ending)));
+}
+
+TEST_CASE("tolerances go on where steps cannot be longer, though no error falls") {
+  PrecisionCase what = squashed_sphere(DampingLaw::none);
+  what.duration /= 2;  // dprkn12's longest steps are good to 1e-6 there
+  std::vector<double> tolerances;
+  for (const PrecisionRow& row : rows_of_tolerances(what, {.precision = 64}))
+    if (row.method == "dprkn12") tolerances.push_back(row.tolerance);
+  REQUIRE(tolerances.size() > 6);
+  CHECK(tolerances[6] == 1e-8);
+}
+
 TEST_CASE("spheres of the first collision case do not touch, and those of the second do") {
   for (const PrecisionCase& what : make_precision_cases("nowhere", true).cases) {
     if (!what.name.starts_with("collision")) continue;
     const auto device = make_cpu_device(1, 64);
-    Simulation simulation(*device, what.start.model, what.start.state, what.plan(find_integrator("dop853"), 100), what.collision);
+    Simulation simulation(*device, what.start.model, what.start.state, what.plan_steps(find_integrator("dop853"), 100),
+                          what.collision);
     simulation.advance(100);
     CHECK((simulation.report().contact_steps > 0) == (what.name == "collision, through contact"));
+    CHECK(what.with_tolerances == (simulation.report().contact_steps == 0));
   }
 }
 
@@ -272,6 +376,24 @@ TEST_CASE("the table has every method of one thread in fp64, the winners and the
   CHECK_THAT(to_table(made_up()), Catch::Contains("coarse") && Catch::Contains("other") && Catch::Contains("coarse 2 ") &&
                                       Catch::Contains("cpu x 1, fp32") && Catch::Contains("a note") &&
                                       Catch::Contains("4.50 faster"));
+}
+
+TEST_CASE("adaptive rows of pliant are told apart from its fixed ones, and may win like other libraries'") {
+  PrecisionResult result = made_up();
+  result.rows.push_back(row("pliant", "fine", 64, 1e-5, 1e-3));
+  result.rows.back().adaptive = true;
+  result.rows.back().tolerance = 1e-6;
+  result.rows.back().step = 0;
+  CHECK_THAT(to_table(result), Catch::Contains("fine (adaptive) 1 ") && Catch::Contains("fine 5 "));
+  const auto json = nlohmann::json::parse(to_json({}, {}, result));
+  const auto& last = json["rows"].back();
+  CHECK(last["adaptive"] == true);
+  CHECK(last["tolerance"] == 1e-6);
+  CHECK(last["step"].is_null());
+  std::map<double, std::string> winners;
+  for (const auto& one : json["cheapest"]) winners[one["error"]] = one["pliant"]["method"];
+  CHECK(winners.at(1e-5) == "fine (adaptive)");
+  CHECK(winners.at(1e-6) == "fine");
 }
 
 TEST_CASE("times that vary much are told, and steady ones are not") {

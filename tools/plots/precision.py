@@ -124,12 +124,13 @@ def draw_precision_overview(data, against):
     return figure
 
 
-METHOD_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#5e4fa2", "#24292f")
-METHOD_MARKERS = "osD^vPX*"
+METHOD_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#5e4fa2", "#24292f",
+                 "#a6761d", "#1a7f5a")
+METHOD_MARKERS = "osD^vPX*<h"
 
 
 def draw_precision_case(data, against, name):
-    """Every method of pliant on one thread in fp64, and the best of each library."""
+    """Every method of pliant on one thread in fp64, dashed where a tolerance governs its steps, and the best of each library."""
     column, y_label, factor = COSTS[against]
     info = next((info for info in data["cases"] if info["name"] == name), None)
     rows = [row for row in data["rows"] if row["case"] == name and key_of(row) == ("pliant", "cpu", 64, True)]
@@ -145,10 +146,11 @@ def draw_precision_case(data, against, name):
                 axes.plot(curve["errors"], [factor * cost for cost in curve[column]], linestyle=style, color="#6e7781", linewidth=2.4,
                           label=f"best of {label}")
     known = list(dict.fromkeys(row["method"] for row in data["rows"] if row["library"] == "pliant"))  # the same colors in every case
-    for method in dict.fromkeys(row["method"] for row in rows):
-        line, index = [row for row in rows if row["method"] == method], known.index(method)
-        axes.plot([row["error"] for row in line], [factor * row[ROW_KEYS[against]] for row in line], METHOD_MARKERS[index % 8] + "-",
-                  color=METHOD_COLORS[index % 8], linewidth=1.6, markersize=4, label=method)
+    for method, adaptive in dict.fromkeys((row["method"], row["adaptive"]) for row in rows):
+        line, index = [row for row in rows if (row["method"], row["adaptive"]) == (method, adaptive)], known.index(method)
+        axes.plot([row["error"] for row in line], [factor * row[ROW_KEYS[against]] for row in line], METHOD_MARKERS[index % 10],
+                  linestyle="--" if adaptive else "-", markerfacecolor="white" if adaptive else None, color=METHOD_COLORS[index % 10],
+                  linewidth=1.6, markersize=4, label=f"{method} (adaptive)" if adaptive else method)
     limit_errors(axes, info, [row["error"] for row in rows] + [error for curve in others for error in curve["errors"]])
     mark_ticks(axes)
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False, fontsize=9, alignment="left", handlelength=2.8,
