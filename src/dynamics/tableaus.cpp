@@ -304,9 +304,9 @@ std::vector<Integrator> all_integrators() {
        verner78_8()},
       {"vern8", "Verner's efficient method, 13 stages; most accurate in double precision, weakly unstable undamped",
        "Numer. Algorithms 53 (2010) 383-396, RKV87.IIa", 8, 0.40, vern8()},
-      {"dprkn8", "Dormand, El-Mikkawy and Prince, Nystrom: the fewest forces a step at order 8; undamped bodies only",
+      {"dprkn8", "Dormand, El-Mikkawy and Prince, Nystrom: the fewest forces a step at order 8; no adaptive damping",
        "High-order embedded Runge-Kutta-Nystrom formulae, IMA J. Numer. Anal. 7 (1987) 423-430, RKN8(6)9FM", 8, 0.95, dprkn8()},
-      {"dprkn12", "Dormand, El-Mikkawy and Prince, Nystrom; the fewest forces for errors below 1e-3; undamped bodies only",
+      {"dprkn12", "Dormand, El-Mikkawy and Prince, Nystrom; the fewest forces for errors below 1e-3; no adaptive damping",
        "High-order embedded Runge-Kutta-Nystrom formulae, IMA J. Numer. Anal. 7 (1987) 423-430, RKN12(10)17M", 12, 0.31,
        dprkn12()},
   };
