@@ -8,6 +8,8 @@
 // fetches the body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
+// Threads that serve several vertices have no registers for it, and the bodies for which they are best are large: it averages out.
+#define CANCELS_ROUNDING (VERTICES == 1 || LANES == 1)
 #include "@kernel"
 
 // Copies for each of a thread's vertices. Arrays would end up in memory: compilers index them before they unroll.

@@ -31,16 +31,15 @@ struct Course {
   double keep;             // what is left of that velocity
   double position_weight;  // of this stage's acceleration [s^2]
   double velocity_weight;  // [s]
-  dvec2 next_weight;       // of the next stage's acceleration in the velocity at the step's end, over h; its inverse, or zero to let it be
 };
 
 // What rounding placements does to forces would add up over stages and steps like a random walk. Within a step it is made to cancel:
 // what the stages so far have rounded, each by its weight in the velocity at the end, is taken off the next placement. The step's
-// first stage is left out, and what the last one rounds remains: their weights are small. Kept where a fourth slot would be.
-bool cancels_rounding() { return real_epsilon > real(1e-10); }
+// first stage is left out, and what the last one rounds remains: their weights are small. Kept where a fourth slot would be, if the
+// frame around says CANCELS_ROUNDING.
 struct Rounding {
-  double of_position;
-  double of_displacement;
+  real of_position;
+  real of_displacement;
 };
 
 // All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
@@ -54,9 +53,8 @@ struct Pending {
 };
 
 // Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c and keep; weights for
-// position (h^2) and velocity (h) of this stage; that stage's own in the velocity at the end, and the inverse
-// or zero; then weights of
-// earlier stages in turn, with zeros up to a multiple of four.
+// position (h^2) and velocity (h) of this stage; that stage's own in the velocity at the end over h, and the inverse or zero to let it
+// be; then weights of earlier stages in turn, with zeros up to a multiple of four.
 uint next_row(IN(Share) s) { return s.tableau_row + stage_index * (3u + ((stage_count + 3u) & ~3u)); }
 uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
 
@@ -85,24 +83,23 @@ Course course_on_axis(uint k, IN(Share) s) {
   c.reference = motion[first] + c.elapsed * motion[first + 3u];
   c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
   c.velocity_weight = c.time_step * tableau[row + 1u].y;
-  c.next_weight = tableau[row + 2u];
   return c;
 }
 
 Rounding rounding_so_far(uint i, uint k) {
   Rounding rounding;
-  rounding.of_position = rounding.of_displacement = double(0);
-  if (!cancels_rounding() || stage_index == 0u || is_last()) return rounding;
-  rounding.of_position = double(placement[4u * position_at(slot_count, vertex_count, i) + k]);
-  rounding.of_displacement = double(placement[4u * displacement_at(slot_count, vertex_count, i) + k]);
+  rounding.of_position = rounding.of_displacement = real(0);
+  if (!CANCELS_ROUNDING || stage_index == 0u || is_last()) return rounding;
+  rounding.of_position = placement[4u * position_at(slot_count, vertex_count, i) + k];
+  rounding.of_displacement = placement[4u * displacement_at(slot_count, vertex_count, i) + k];
   return rounding;
 }
 
 // Rounds a coordinate for the next stage, and notes what that has done.
-void place_against(double so_far, dvec2 weight, double exact, uint at, uint noted_at) {
-  real rounded = real(FUSED(-so_far, weight.y, exact));
+void place_against(real so_far, dvec2 weight, double exact, uint at, uint noted_at) {
+  real rounded = real(FUSED(-double(so_far), weight.y, exact));
   placement[at] = rounded;
-  placement[noted_at] = real(FUSED(weight.x, double(rounded) - exact, so_far));
+  placement[noted_at] = real(FUSED(weight.x, double(rounded) - exact, double(so_far)));
 }
 
 void place_next(uint i, uint k, double inverse_unit, double rest, double relative, IN(Rounding) so_far, dvec2 weight) {
@@ -138,8 +135,8 @@ double after_force(uint i, uint k, IN(Share) s, double spring_force, double forc
   double displacement = p.displacement + p.course.position_weight * a;
   double velocity = p.velocity + p.course.velocity_weight * a;
   double relative = displacement - p.course.reference;
-  if (cancels_rounding() && !is_last())
-    place_next(i, k, s.body.inverse_unit, p.rest, relative, p.rounding, p.course.next_weight);
+  if (CANCELS_ROUNDING && !is_last())
+    place_next(i, k, s.body.inverse_unit, p.rest, relative, p.rounding, tableau[next_row(s) + 2u]);
   else
     place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, relative);
   if (is_last())
