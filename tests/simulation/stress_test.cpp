@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "dynamics/stability.hpp"
 #include "model/load_bodies.hpp"
@@ -101,9 +99,7 @@ ModelAndState squashed(int level, const glm::dvec3& stretch) {
 constexpr double blow_up = 10;
 constexpr double safety = 0.9;  // of the automatic step
 
-// The worst first. Twelve vertices so squashed stay symmetrical and pass through one another, at any step: they are left out.
-const std::vector<glm::dvec3> squashes = {{0.5, 1.4, 1.4}, {0.5, 1.25, 1.25}, {0.5, 1, 1}};
-std::span<const glm::dvec3> squashes_of(int level) { return std::span(squashes).subspan(level == 0 ? 1 : 0); }
+const glm::dvec3 squashes[] = {{0.5, 1.4, 1.4}, {0.5, 1.25, 1.25}, {0.5, 1, 1}};  // the worst first
 
 // The largest energy of an undamped body against that at its start, as far as it has blown up.
 double energy_growth(const ModelAndState& start, const Method& method, std::uint64_t steps) {
@@ -123,7 +119,7 @@ double energy_growth(int level, const glm::dvec3& stretch, const Integrator& int
 
 // Squashed in any of the ways.
 bool blows_up(int level, const Integrator& integrator, double part_of_bound, std::uint64_t steps) {
-  return std::ranges::any_of(squashes_of(level), [&](const glm::dvec3& stretch) {
+  return std::ranges::any_of(squashes, [&](const glm::dvec3& stretch) {
     return !(energy_growth(level, stretch, integrator, part_of_bound, steps) < blow_up);
   });
 }
@@ -140,7 +136,7 @@ TimePlan automatic_plan(const Integrator& integrator, const Model& model) {
 }  // namespace
 
 TEST_CASE("spheres squashed to a half stay whole at the automatic step, by every integrator") {
-  for (const glm::dvec3& stretch : squashes_of(0)) {
+  for (const glm::dvec3& stretch : squashes) {
     const ModelAndState start = squashed(0, stretch);
     for (const Integrator& integrator : integrators()) {
       CAPTURE(integrator.name, stretch.y);
