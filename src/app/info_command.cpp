@@ -61,7 +61,7 @@ void print_integrators(const Json& list) {
     fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
                row["force_evaluations_per_step"].get<int>(), row["strained_bound"].get<double>(),
                row["damping"].get<std::string>(), yes_or_no(row["tolerance"]), row["description"].get<std::string>());
-  fmt::print("squashed: the part of the step bound that spheres squashed to a half bear for 20,000 steps.\n");
+  fmt::print("squashed: the part of the step bound that spheres squashed to a half were measured to bear; automatic steps take 0.9 of it.\n");
   fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }
 

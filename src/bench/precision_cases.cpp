@@ -123,7 +123,8 @@ TimePlan PrecisionCase::plan_tolerance(const Integrator& integrator, double tole
 
 double PrecisionCase::largest_step(const Integrator& integrator) const {
   double bound = INFINITY;
-  for (const ModelBody& body : start.model.bodies) bound = std::min(bound, step_bound(integrator, body, damping_law));
+  for (const ModelBody& body : start.model.bodies)
+    bound = std::min({bound, step_bound(integrator, body, damping_law), drag_bound(integrator, body, damping_law)});
   return std::isfinite(bound) ? bound : 1 / omega;
 }
 

@@ -1,4 +1,5 @@
 // The suite `stability`: how motions end, by step and damping.
+#include <algorithm>
 #include <cmath>
 
 #include "bench/stability_tasks.hpp"
@@ -27,7 +28,7 @@ void add_cell(StabilityTasks& tasks, const Integrator& integrator, const Sphere&
                   damping,
                   part * undamped,
                   undamped,
-                  step_bound(integrator, body.body(), law),
+                  std::min(step_bound(integrator, body.body(), law), drag_bound(integrator, body.body(), law)),
                   steps,
                   verdict.outcome,
                   verdict.energy_ratio};

@@ -38,7 +38,7 @@ struct Integrator {
   std::string_view description;  // half a line
   std::string_view source;       // where the coefficients come from
   int order = 0;
-  double strained_bound = 1;  // the part of the step bound that a body squashed to a half bears; measured, at most 1
+  double strained_bound = 1;  // the part of the step bound that spheres squashed to a half bear; measured, at most 1
   std::variant<RungeKutta, Nystrom, Splitting> method;
 };
 

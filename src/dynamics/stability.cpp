@@ -18,7 +18,7 @@ namespace {
 constexpr double amplification_limit = 1.0 + 1e-4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int grid_count = 32;  // intervals of the damping rate
-constexpr int largest_stage_count = 30;
+constexpr int largest_stage_count = 29;
 
 // The end of the interval that starts at 0 in which amplification(y) stays at or below the limit. Methods of the sizes in
 // use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
@@ -106,14 +106,20 @@ double runge_kutta_bound(const RungeKutta& method, double omega, double damping_
   return bound;
 }
 
-// By how much of v / g a body that nothing but drag holds back, z = g h, is wrong after a step.
+// By how much a body that nothing but drag and gravity act on is wrong after a step, z = g h: of v / g and v, or of the final
+// velocity and its way over 1 / g.
 double drift_error(const Integrator& integrator, double z) {
   const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_result, z);
-  return std::max(std::abs(z * tableau.c.back() + std::expm1(-z)), std::abs(tableau.keep.back() - std::exp(-z)));
+  double position = 0, velocity = 0;  // per unit of acceleration
+  for (int j = tableau.stages * tableau.stages; j < tableau.stages * (tableau.stages + 1); ++j) {
+    position += tableau.position[j];
+    velocity += tableau.velocity[j];
+  }
+  const double lost = -std::expm1(-z);  // of the velocity
+  return std::max({std::abs(z * tableau.c.back() - lost), std::abs(tableau.keep.back() - std::exp(-z)),
+                   std::abs(z * z * position - (z - lost)), std::abs(z * velocity - lost)});
 }
 
-// A step with drag never amplifies what one without does not: at any rate, however large, the body comes to rest. But steps that
-// are long against 1 / g stop it short of where it should, so that accuracy bounds them.
 struct NystromBounds {
   double undamped;  // omega h
   double drifting;  // g h
@@ -131,12 +137,6 @@ NystromBounds nystrom_bounds(const Integrator& integrator) {
                      first_exit(1.0 / 16, [&](double z) { return 1 + drift_error(integrator, z); })};
   }
   return place->second;
-}
-
-double nystrom_bound(const Integrator& integrator, double omega, double damping_rate_max) {
-  const NystromBounds bounds = nystrom_bounds(integrator);
-  return std::min(omega > 0 ? bounds.undamped / omega : infinity,
-                  damping_rate_max > 0 ? bounds.drifting / damping_rate_max : infinity);
 }
 
 double splitting_bound(const Splitting& method, double omega, double damping_rate_max) {
@@ -187,7 +187,8 @@ double step_bound(const Integrator& integrator, double omega_squared, double dam
   const double omega = std::sqrt(omega_squared);
   if (const auto* method = std::get_if<RungeKutta>(&integrator.method))
     return runge_kutta_bound(*method, omega, damping_rate_max);
-  if (std::holds_alternative<Nystrom>(integrator.method)) return nystrom_bound(integrator, omega, damping_rate_max);
+  if (std::holds_alternative<Nystrom>(integrator.method))
+    return omega > 0 ? nystrom_bounds(integrator).undamped / omega : infinity;
   return splitting_bound(std::get<Splitting>(integrator.method), omega, damping_rate_max);
 }
 
@@ -195,6 +196,12 @@ double step_bound(const Integrator& integrator, const ModelBody& body, DampingLa
   const double rate = largest_damping_rate(body, law);
   const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;  // omega^2
   return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
+}
+
+double drag_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
+  const double rate = largest_damping_rate(body, law);
+  if (rate == 0 || !std::holds_alternative<Nystrom>(integrator.method)) return infinity;
+  return nystrom_bounds(integrator).drifting / rate;
 }
 
 }  // namespace pliant

@@ -17,13 +17,18 @@ namespace pliant {
 /// The step h [s] up to which one step amplifies no more than 1 + 1e-4, for every damping rate g from 0 to
 /// damping_rate_max and both solutions lambda of lambda^2 + g lambda + omega_squared = 0. Infinite where nothing bounds it.
 /// A slower mode can bear less where g is near omega or above; that of omega_squared = 0, a body drifting through a
-/// damping medium, needs a call of its own. A Nystrom method bears any rate; its step ends where one step of drift through a
-/// damping medium is wrong by 1e-4 of v / g. Damping expects allows_damping(integrator, DampingLaw::constant).
+/// damping medium, needs a call of its own. A Nystrom method bears with any rate what it bears without, as far as
+/// drag_bound goes. Damping expects allows_damping(integrator, DampingLaw::constant).
 [[nodiscard]] double step_bound(const Integrator& integrator, double omega_squared /* N k/m [1/s^2] */,
                                 double damping_rate_max /* [1/s] */);
 
 /// The same for a body: of its stiffest mode, and of its own translation, which springs do not hold back.
 [[nodiscard]] double step_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law);
+
+/// The step [s] up to which a Nystrom method, whose weights hold the damping, lets a body drift as far as drag does: one step of
+/// motion by drag and gravity alone is wrong by at most 1e-4. Longer ones stop it short, and weights overflow in the end. Infinite
+/// for other methods.
+[[nodiscard]] double drag_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law);
 
 /// Angular frequency of the body's stiffest small motion [1/s].
 [[nodiscard]] double stiffest_frequency(const ModelBody& body);

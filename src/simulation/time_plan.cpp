@@ -85,7 +85,18 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const std::st
       fmt::format("{} keeps the damping in its weights and has room for {} rates (damping over a vertex's mass); the bodies "
                   "have {}",
                   plan.integrator->name, most, rates.size()),
-      "choose another integrator, such as dop853, or give bodies the same damping");
+      fmt::format("choose another integrator, such as {}, or give bodies the same rate",
+                  rates.size() <= Stepper::most_drags(find_integrator("dprkn8")) ? "dprkn8" : "dop853"));
+}
+
+void expect_drag_resolved(const TimePlan& plan, double bound, const std::string& where) {
+  if (plan.time_step <= bound) return;
+  throw Error(
+      fault_of(where), where,
+      fmt::format("{} resolves the scene's damping by steps of at most {:.4g} s, not {:.4g} s: bodies would stop short of where "
+                  "drag lets them",
+                  plan.integrator->name, bound, plan.time_step),
+      "shorten the time step, or choose verlet, which takes any");
 }
 
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
@@ -133,14 +144,18 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   expect_method_damps(plan, simulation.integrator.where);
   expect_method_estimates(plan, simulation.integrator.where);
   expect_tableaus_fit(plan, model, simulation.integrator.where);
-  for (const ModelBody& body : model.bodies)
+  double longest_drag = std::numeric_limits<double>::infinity();
+  for (const ModelBody& body : model.bodies) {
     plan.step_bound = std::min(plan.step_bound, step_bound(*plan.integrator, body, plan.damping_law));
+    longest_drag = std::min(longest_drag, drag_bound(*plan.integrator, body, plan.damping_law));
+  }
   if (plan.tolerance) {
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
     count_steps(scene, std::min(plan.step_bound, 1 / plan.frame_rate));
   } else {
-    plan.time_step =
-        simulation.time_step.value_or(automatic_step(plan.integrator->strained_bound * plan.step_bound, plan.frame_rate));
+    plan.time_step = simulation.time_step.value_or(
+        automatic_step(std::min(plan.integrator->strained_bound * plan.step_bound, longest_drag), plan.frame_rate));
+    expect_drag_resolved(plan, longest_drag, simulation.integrator.where);
     plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
   }
   return plan;

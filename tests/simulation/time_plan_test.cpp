@@ -134,12 +134,34 @@ TEST_CASE("a Nystrom method meets constant damping at fixed steps alone, and as 
   const auto crowded = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
   CHECK(crowded.kind() == ErrorKind::input);
   check_says(crowded, {"scene.toml:3", "room for 11 rates", "have 13", "dop853"});
-  bodies.resize(11);
+  scene.simulation.integrator.value = "dprkn12";
+  bodies.resize(3);
+  const auto few = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
+  check_says(few, {"room for 2 rates", "have 3", "such as dprkn8"});
+  scene.simulation.integrator.value = "dprkn8";
+  bodies.resize(11, sphere(0));
   CHECK_NOTHROW(plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model));
   scene.simulation.tolerance = 1e-6;
   const auto varied = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
   CHECK(varied.kind() == ErrorKind::input);
   check_says(varied, {"scene.toml:3", "dprkn8", "one length", "one of dop853, verner78_8, vern8;"});
+}
+
+TEST_CASE("steps too long for a Nystrom method to resolve the damping are an input error, and the automatic one is none") {
+  BodySetup setup = sphere(0);
+  setup.description.damping = 1000;
+  const Model model = built(setup).model;
+  for (const char* name : {"dprkn8", "dprkn12"}) {
+    SceneDescription scene = scene_with(name, DampingLaw::constant);
+    scene.simulation.time_step = 0.05;
+    const auto coarse = error_of([&] { return plan_time(scene, model); });
+    CHECK(coarse.kind() == ErrorKind::input);
+    check_says(coarse, {"scene.toml:3", name, "0.05 s", "stop short", "verlet"});
+    scene.simulation.time_step = {};
+    const double bound = drag_bound(find_integrator(name), model.bodies.front(), DampingLaw::constant);
+    CHECK(plan_time(scene, model).time_step <= bound);
+    CHECK(plan_time(scene, model).time_step > 0.5 * bound);
+  }
 }
 
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {

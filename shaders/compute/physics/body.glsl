@@ -55,7 +55,7 @@ const uint halted_for_now = 2u;   // until the next step: this one is none, or w
 const uint halted_waiting = 3u;   // for good: its work groups do not run at once, though they should
 const uint most_polls = 1u << 22;  // before that is said; some seconds
 
-const uint tableau_size = 1024u;  // room for 30 stages
+const uint tableau_size = 1024u;  // rows: room for 29 stages, see runge_kutta_stage.glsl
 
 const uint no_vertex = 0xffffffffu;
 
