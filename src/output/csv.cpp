@@ -22,10 +22,25 @@ void append_vector(std::string& line, const glm::dvec3& vector) {
   for (int axis = 0; axis < 3; ++axis) append_number(line, vector[axis]);
 }
 
+OutputFile file_with(const std::filesystem::path& path, const std::string& text) {
+  WholeFile beginning(path);
+  beginning.write(text);
+  beginning.close();
+  return OutputFile(path, OutputFile::Begin::at_end);
+}
+
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& path) : file_(path) {
-  file_.write("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices\n");
+  add("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices\n");
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& path, std::string so_far)
+    : file_(file_with(path, so_far)), text_(std::move(so_far)) {}
+
+void HistoryFile::add(const std::string& line) {
+  file_.write(line);
+  text_ += line;
 }
 
 void HistoryFile::append(const HistoryRow& row) {
@@ -35,7 +50,7 @@ void HistoryFile::append(const HistoryRow& row) {
     append_number(line, value);
   append_vector(line, row.momentum);
   append_vector(line, row.angular_momentum);
-  file_.write(fmt::format("{},{},{}\n", line, row.contact_steps, row.reverted_vertices));
+  add(fmt::format("{},{},{}\n", line, row.contact_steps, row.reverted_vertices));
   file_.flush();
 }
 

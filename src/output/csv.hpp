@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 
 #include "model/model.hpp"
 #include "output/file.hpp"
@@ -27,11 +28,17 @@ struct HistoryRow {
 class HistoryFile {
  public:
   explicit HistoryFile(const std::filesystem::path& path);
+  /// Goes on behind `so_far`, an earlier text(), whatever stands at `path`: that is replaced as a whole.
+  HistoryFile(const std::filesystem::path& path, std::string so_far);
   void append(const HistoryRow& row);
+  /// The rows so far, with the header.
+  [[nodiscard]] const std::string& text() const { return text_; }
   void close() { file_.close(); }
 
  private:
+  void add(const std::string& line);
   OutputFile file_;
+  std::string text_;
 };
 
 /// final_state.csv: a row a vertex, numbered within its body; world positions [m] and velocities [m/s].

@@ -1,7 +1,9 @@
 #include "output/file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -27,6 +29,16 @@ std::filesystem::path beside(const std::filesystem::path& place) {
   return std::filesystem::path(place) += ".tmp";
 }
 
+// Devices and some file systems can't; what they hold is as safe as they make it.
+void sync_to_disk(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  const int result = fsync(file);
+  const bool failed = result != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
+  ::close(file);
+  if (failed) throw unwritable(path, "can't be written to the end");
+}
+
 }  // namespace
 
 void expect_replaceable(const std::filesystem::path& path) {
@@ -35,11 +47,11 @@ void expect_replaceable(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, failure) || access(path.c_str(), W_OK) != 0) throw unwritable(path, "can't be written");
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path) : path_(path) {
+OutputFile::OutputFile(const std::filesystem::path& path, Begin begin) : path_(path) {
   std::error_code failure;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
   require(!failure, "its folder can't be made");
-  stream_.open(path, std::ios::binary);
+  stream_.open(path, begin == Begin::at_end ? std::ios::binary | std::ios::app : std::ios::binary);
   require(stream_.good(), "can't be written");
 }
 
@@ -66,19 +78,35 @@ WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(p
 }
 
 void WholeFile::close() {
-  std::error_code failure;
+  write_out();
+  move();
+}
+
+void WholeFile::close_on_disk() {
+  write_out();
+  sync_to_disk(written_);
+  move();
+  sync_to_disk(std::filesystem::absolute(place_).parent_path());  // the place's new name
+}
+
+void WholeFile::write_out() const {
   try {
     OutputFile file(written_);
     file.write(bytes_);
     file.close();
   } catch (const Error&) {
-    if (written_ != place_) std::filesystem::remove(written_, failure);
+    std::error_code ignored;
+    if (written_ != place_) std::filesystem::remove(written_, ignored);
     throw;
   }
+}
+
+void WholeFile::move() const {
   if (written_ == place_) return;
+  std::error_code failure, ignored;
   std::filesystem::rename(written_, place_, failure);
   if (!failure) return;
-  std::filesystem::remove(written_, failure);
+  std::filesystem::remove(written_, ignored);
   throw unwritable(place_, "can't be replaced");
 }
 

@@ -12,8 +12,10 @@ void expect_replaceable(const std::filesystem::path& path);
 
 class OutputFile {
  public:
-  /// Creates the folders that are missing and replaces an existing file. Throws Error (command_line).
-  explicit OutputFile(const std::filesystem::path& path);
+  enum class Begin { empty, at_end };
+
+  /// Creates the folders that are missing, and replaces an existing file or goes on at its end. Throws Error (command_line).
+  explicit OutputFile(const std::filesystem::path& path, Begin begin = Begin::empty);
 
   void write(std::string_view bytes) { stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
   /// Makes what was written so far visible to other programs. Throws Error (command_line).
@@ -39,8 +41,12 @@ class WholeFile {
   void write(std::string_view bytes) { bytes_ += bytes; }
   /// Replaces what stood there. Throws Error (command_line).
   void close();
+  /// ... once the disk holds it: after a power cut there is either what stood there or what replaced it.
+  void close_on_disk();
 
  private:
+  void write_out() const;
+  void move() const;
   std::filesystem::path place_, written_;  // the same where it is written directly
   std::string bytes_;
 };

@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "PLY is written in the machine's byte order");
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
-  OutputFile file(path);
+  WholeFile file(path);
   file.write(text);
   file.close();
 }

@@ -13,8 +13,8 @@ enum class FrameFormat { none, png, obj, ply, vtk };
 /// `folder`/frame_0012.obj: what ParaView and Blender take for one series. Expects a format other than none.
 [[nodiscard]] std::filesystem::path frame_path(const std::filesystem::path& folder, int index, FrameFormat format);
 
-// Positions [m] and velocities [m/s] are in the world, one a vertex of the model. All throw Error (command_line) when the
-// file can't be written.
+// Positions [m] and velocities [m/s] are in the world, one a vertex of the model. A file appears as a whole, so that a program
+// that is killed leaves no half of one. All throw Error (command_line) when it can't be written.
 
 /// Wavefront OBJ: an object a body, 12 digits.
 void write_obj(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions);

@@ -6,7 +6,7 @@
 
 namespace pliant {
 
-/// Overwrites `path`. Throws Error (command_line) when it can't be written.
+/// Replaces `path` as a whole. Throws Error (command_line) when it can't be written.
 void write_png(const std::filesystem::path& path, const render::Image& image);
 
 }  // namespace pliant

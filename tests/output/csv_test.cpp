@@ -79,6 +79,23 @@ TEST_CASE("the history grows row by row, with energy as the sum of its parts") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::stod(table[2][i]) == expected[i]);
 }
 
+TEST_CASE("a history goes on behind the rows of an earlier one, and later rows are gone") {
+  const ScratchFolder folder;
+  const auto path = folder.path / "history.csv";
+  HistoryFile earlier(path);
+  earlier.append({.step = 1});
+  const std::string so_far = earlier.text();
+  earlier.append({.step = 2});
+  earlier.close();
+  CHECK(earlier.text() == read_text(path));
+  HistoryFile later(path, so_far);
+  CHECK(read_text(path) == so_far);
+  later.append({.step = 3});
+  later.close();
+  CHECK(later.text() == read_text(path));
+  CHECK(read_csv(path)[2][0] == "3");
+}
+
 TEST_CASE("a full disk is an error and not a short file") {
   CHECK_THROWS_AS(write_final_state("/dev/full", two_bodies(), some_vectors(1), some_vectors(2)), Error);
   HistoryFile history("/dev/full");

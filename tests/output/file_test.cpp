@@ -33,6 +33,32 @@ TEST_CASE("a whole file that is never closed leaves no trace") {
   CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
 }
 
+TEST_CASE("a whole file that waits for the disk is the same file") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file.txt";
+  std::ofstream(path) << "earlier";
+  WholeFile file(path);
+  file.write("later");
+  file.close_on_disk();
+  CHECK(read_text(path) == "later");
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  WholeFile nowhere("/dev/null");
+  CHECK_NOTHROW(nowhere.close_on_disk());
+}
+
+TEST_CASE("a file begins empty, or at the end of what there is") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file.txt";
+  for (const auto& [begin, after] :
+       {std::pair(OutputFile::Begin::at_end, "text"), std::pair(OutputFile::Begin::at_end, "texttext"),
+        std::pair(OutputFile::Begin::empty, "text")}) {
+    OutputFile file(path, begin);
+    file.write("text");
+    file.close();
+    CHECK(read_text(path) == after);
+  }
+}
+
 TEST_CASE("a symbolic link stays one, and the file behind it is replaced") {
   const test::ScratchFolder folder;
   const auto path = folder.path / "file.txt", link = folder.path / "link";
