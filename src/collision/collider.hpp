@@ -39,6 +39,8 @@ class Collider {
   /// Of every vertex, the latest step in which it touched another body; 0: none.
   [[nodiscard]] std::vector<std::uint32_t> marks() const { return marks_.download(); }
   [[nodiscard]] BufferId mark_buffer() const { return marks_.id(); }
+  /// Between steps. Marks are known by their steps, and trees are refitted before they are searched.
+  [[nodiscard]] CarriedArray carried_array() const { return carried(marks_); }
   void restore_marks(std::span<const std::uint32_t> marks) { marks_.upload(marks); }
 
  private:

@@ -86,12 +86,23 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       rest_positions(device, model.rest_positions, "rest positions"),
       motions(device, std::size_t{12} * vertex_count, "motions"),
       world_positions(device, std::size_t{2} * vertex_count, "world positions"),
-      placements(device, std::size_t{2} * (physics::slot_count + 1) * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
+      placements(device,
+                 std::size_t{2} * (physics::slot_count + 1) * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
                  "placements"),
       control(device, std::vector{first_control()}, "control") {
   all_stages_at_once = runs_all_stages(device, model, variant);
   motions.upload(state.motion);
   world_positions.upload(rounded_world_positions(model, state));
+}
+
+// Of the placements only the step's start: the slots of stages are written before they are read.
+std::vector<CarriedArray> DeviceBodies::carried_arrays() const {
+  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / (physics::slot_count + 1);
+  return {carried(frames),
+          carried(motions),
+          carried(world_positions),
+          {.buffer = placements.id(), .first_byte = physics::start_slot * slot_bytes, .byte_count = slot_bytes, .is_real = true},
+          carried(control)};
 }
 
 void DeviceBodies::prepare_search() {

@@ -3,6 +3,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
+#include "device/carried_array.hpp"
 #include "device/device.hpp"
 #include "model/model.hpp"
 #include "physics/body.glsl"
@@ -31,6 +32,8 @@ struct DeviceBodies {
 
   /// The state in a half, from which another run may start: no body is halted for now.
   [[nodiscard]] State download(std::uint32_t half) const;
+  /// Between steps.
+  [[nodiscard]] std::vector<CarriedArray> carried_arrays() const;
   /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as follow_bodies leaves them,
   /// and none halted for now.
   void prepare_search();

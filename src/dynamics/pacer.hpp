@@ -34,6 +34,9 @@ class Pacer {
   /// Waits for the queued steps.
   [[nodiscard]] physics::Pace pace() const { return pace_.download().front(); }
 
+  /// Between steps.
+  [[nodiscard]] CarriedArray carried_array() const { return carried(pace_); }
+
   /// Before the stepper's passes: fits the step to the target.
   [[nodiscard]] Pass beginning_pass() const;
   /// After them: estimates the error.

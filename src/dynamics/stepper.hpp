@@ -32,6 +32,8 @@ class Stepper {
   /// Sums the spring forces at the step's start, of bodies whose kept ones are stale. Part of a splitting's step.
   [[nodiscard]] Pass refresh_pass() const;
 
+  /// Between steps: a splitting's kept forces. All else is the step's own.
+  [[nodiscard]] CarriedArray carried_array() const { return carried(forces_); }
   /// Of a method with stages, at the latest step's stages: [stage][vertex][3] [m/s^2].
   [[nodiscard]] BufferId accelerations() const { return accelerations_.id(); }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "simulation/carried_state.hpp"
 
 namespace pliant {
 namespace {
@@ -177,6 +178,29 @@ State Simulation::state() { return bodies_.download(half()); }
 
 std::vector<glm::vec4> Simulation::world_positions() {
   return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
+}
+
+std::vector<CarriedArray> Simulation::carried_arrays() const {
+  std::vector<CarriedArray> arrays = bodies_.carried_arrays();
+  arrays.push_back(stepper_.carried_array());
+  arrays.push_back(collider_.carried_array());
+  if (pacer_) arrays.push_back(pacer_->carried_array());
+  return arrays;
+}
+
+std::string Simulation::save() {
+  ByteWriter saved;
+  saved.put(queued_steps_);
+  write_arrays(device_, carried_arrays(), saved);
+  return saved.take();
+}
+
+void Simulation::restore(std::string_view saved) {
+  ByteReader from(saved);
+  queued_steps_ = from.get<std::uint64_t>();
+  read_arrays(device_, carried_arrays(), from);
+  if (!from.at_end()) throw Error(ErrorKind::input, "", "its state holds more than its scene has use for", "");
+  if (pacer_) known_pace_ = pacer_->pace();
 }
 
 Intersections Simulation::intersections() {

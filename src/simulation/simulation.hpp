@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "collision/collider.hpp"
@@ -91,6 +92,11 @@ class Simulation {
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
   [[nodiscard]] std::vector<glm::vec4> world_positions();
+  /// All that the next steps and reports depend on, as bytes. Waits for the queued steps.
+  [[nodiscard]] std::string save();
+  /// What save() gave of a simulation of the same bodies, plan and kind of collisions: goes on from there, bit for bit if on the
+  /// same device. Throws Error (input), without a place, where the bytes do not fit; the simulation is then of no use.
+  void restore(std::string_view saved);
   /// Tests the world positions as they stand, by the scene's own search and triangle test.
   [[nodiscard]] Intersections intersections();
 
@@ -101,6 +107,7 @@ class Simulation {
 
  private:
   [[nodiscard]] std::uint32_t half();  // the one that holds the current state
+  [[nodiscard]] std::vector<CarriedArray> carried_arrays() const;
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
   void add_pace(StepReport& report);

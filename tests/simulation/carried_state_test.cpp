@@ -1,0 +1,138 @@
+// A simulation that goes on from another's saved state is that simulation, to the bit.
+#include "simulation/carried_state.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "support/collision_scene.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+void check_same(Simulation& a, Simulation& b) {
+  const State of_a = a.state(), of_b = b.state();
+  CHECK(of_a.motion == of_b.motion);
+  REQUIRE(of_a.frames.size() == of_b.frames.size());
+  CHECK(std::memcmp(of_a.frames.data(), of_b.frames.data(), of_a.frames.size() * sizeof(physics::Frame)) == 0);
+  CHECK(a.world_positions() == b.world_positions());
+  CHECK(a.report() == b.report());
+  CHECK(a.collider().marks() == b.collider().marks());
+}
+
+// Somewhere else and moving in another way, so that whatever is not restored shows.
+State another_start(const ModelAndState& start) {
+  State other = start.state;
+  for (std::size_t k = 0; k < other.motion.size(); ++k) other.motion[k] += 0.01 * static_cast<double>(k % 7);
+  return other;
+}
+
+void check_fixed(Device& device, const Method& method, const CollisionDescription& collision) {
+  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  const TimePlan plan = plan_of(method);
+  Simulation whole(device, start.model, start.state, plan, collision);
+  whole.advance(25);
+  CHECK(whole.report().contact_steps >= 5);
+  for (const std::uint64_t cut : {1u, 9u, 16u}) {
+    CAPTURE(cut);
+    Simulation first(device, start.model, start.state, plan, collision);
+    first.advance(cut);
+    Simulation second(device, start.model, another_start(start), plan, collision);
+    second.advance(3);
+    second.restore(first.save());
+    check_same(first, second);
+    second.advance(25 - cut);
+    check_same(whole, second);
+  }
+}
+
+TEST_CASE("fixed steps go on from a saved state to the bit, with stages and kept forces, through contacts", "[gl][long]") {
+  CollisionDescription by_force;
+  by_force.search = ContactSearch::brute_force;
+  for (const TestDevice& test : all_devices())
+    for (const Method& method : {Method{"cv8", 0.01, DampingLaw::adaptive}, Method{"verlet", 0.01, DampingLaw::adaptive},
+                                 Method{"srkn11b", 0.01}, Method{"dprkn8", 0.01, DampingLaw::constant}}) {
+      CAPTURE(test.name, method.integrator);
+      check_fixed(*test.device, method, {});
+      if (test.name != "gpu") check_fixed(*test.device, method, by_force);
+    }
+}
+
+void check_adaptive(Device& device, const Adaptive& adaptive) {
+  constexpr double duration = 1;  // [s]
+  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  const TimePlan plan = plan_of(adaptive, start.model);
+  Simulation whole(device, start.model, start.state, plan, {});
+  const StepReport end = whole.advance_to(duration);
+  CHECK(end.contact_steps > 0);
+  CHECK(end.adaptive->rejected > 0);
+  for (const int batches : {1, 2}) {
+    CAPTURE(batches);
+    Simulation first(device, start.model, start.state, plan, {});
+    for (int k = 0; k < batches; ++k) static_cast<void>(first.advance_toward(duration));
+    CHECK(first.report().time < duration);
+    Simulation second(device, start.model, another_start(start), plan, {});
+    static_cast<void>(second.advance_toward(0.01));
+    second.restore(first.save());
+    check_same(first, second);
+    static_cast<void>(second.advance_to(duration));
+    check_same(whole, second);
+  }
+}
+
+TEST_CASE("steps of adaptive length go on from a saved state to the bit, with their controller", "[gl][long]") {
+  for (const TestDevice& test : all_devices())
+    for (const Adaptive& adaptive : {Adaptive{"dop853", 1e-6, {}, DampingLaw::adaptive}, Adaptive{"dprkn8", 1e-6}}) {
+      CAPTURE(test.name, adaptive.integrator);
+      check_adaptive(*test.device, adaptive);
+    }
+}
+
+TEST_CASE("looking at a simulation, or saving it, changes nothing") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const auto device = make_cpu_device(2, 32);
+  const TimePlan plan = plan_of(Method{"verlet", 0.01, DampingLaw::adaptive});
+  Simulation watched(*device, start.model, start.state, plan, {}), alone(*device, start.model, start.state, plan, {});
+  for (int step = 0; step < 20; ++step) {
+    watched.advance(1);
+    const std::string before = watched.save();
+    static_cast<void>(watched.intersections());
+    CHECK(watched.save() == before);
+  }
+  alone.advance(20);
+  check_same(watched, alone);
+}
+
+TEST_CASE("a saved state goes on in the other precision, up to rounding") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  const TimePlan plan = plan_of(Method{"verlet", 0.005, DampingLaw::adaptive});
+  CollisionDescription none;
+  none.response = ContactResponse::none;
+  const auto single = make_cpu_device(2, 32), whole = make_cpu_device(2, 64);
+  for (const auto& [from, to] : {std::pair(single.get(), whole.get()), std::pair(whole.get(), single.get())}) {
+    Simulation first(*from, start.model, start.state, plan, none), second(*to, start.model, another_start(start), plan, none);
+    first.advance(7);
+    second.restore(first.save());
+    first.advance(30);
+    second.advance(30);
+    const double apart = distance(first.state().world_positions(start.model), second.state().world_positions(start.model));
+    CHECK(apart > 0);
+    CHECK(apart < 1e-5);
+  }
+}
+
+TEST_CASE("a saved state of other bodies or of another kind of steps is refused") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0}), other = built(sphere(1));
+  const auto device = make_cpu_device(1, 32);
+  const TimePlan plan = plan_of(Method{"dop853", 0.01});
+  Simulation simulation(*device, start.model, start.state, plan, {}), smaller(*device, other.model, other.state, plan, {}),
+      adaptive(*device, start.model, start.state, plan_of(Adaptive{}, start.model), {});
+  const std::string saved = simulation.save();
+  CHECK(error_of([&] { smaller.restore(saved); }).kind() == ErrorKind::input);
+  CHECK(error_of([&] { adaptive.restore(saved); }).kind() == ErrorKind::input);
+  CHECK(error_of([&] { simulation.restore(adaptive.save()); }).kind() == ErrorKind::input);
+  CHECK(error_of([&] { simulation.restore(saved.substr(0, saved.size() - 1)); }).kind() == ErrorKind::input);
+}
+
+}  // namespace
+}  // namespace pliant
