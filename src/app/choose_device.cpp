@@ -25,9 +25,9 @@ bool has_hardware_gpu() {
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   expect_consistent(choice);
   const bool asked = choice.kind == DeviceKind::gpu || choice.gpu_index;
-  const bool found = choice.kind == DeviceKind::automatic && choice.precision == 32 && !asked && has_hardware_gpu();
+  const bool found = choice.kind == DeviceKind::automatic && choice.precision.value_or(32) == 32 && !asked && has_hardware_gpu();
   if (asked || found) return make_gpu_device(choice.gpu_index.value_or(0));
-  return make_cpu_device(choice.threads, choice.precision);
+  return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 
 }  // namespace pliant::app

@@ -12,8 +12,8 @@ enum class DeviceKind { automatic, cpu, gpu };
 struct DeviceChoice {
   DeviceKind kind = DeviceKind::automatic;
   std::optional<int> gpu_index;  // of gl::list_adapters()
-  int precision = 32;
-  unsigned threads = 0;  // 0: one a processor
+  std::optional<int> precision;  // of the forces [bits]; empty: 32
+  unsigned threads = 0;          // 0: one a processor
 };
 
 [[nodiscard]] bool has_hardware_gpu();

@@ -59,8 +59,8 @@ class FrameSink::Painter {
   std::unique_ptr<render::FrameRenderer> renderer_;
 };
 
-FrameSink::FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder)
-    : run_(run), format_(format), folder_(std::move(folder)) {
+FrameSink::FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder, int first)
+    : run_(run), format_(format), folder_(std::move(folder)), count_(first) {
   if (format == FrameFormat::png) painter_ = std::make_unique<Painter>(run);
 }
 

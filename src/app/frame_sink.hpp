@@ -9,11 +9,13 @@ namespace pliant::app {
 
 class FrameSink {
  public:
-  FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder);
+  /// Frames are numbered from `first` on.
+  FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder, int first = 0);
   ~FrameSink();
 
   /// Writes the state as it stands as the next frame.
   void write(const State& state);
+  /// Of all frames, those before the first one too.
   [[nodiscard]] int count() const { return count_; }
 
  private:
@@ -22,7 +24,7 @@ class FrameSink {
   FrameFormat format_;
   std::filesystem::path folder_;
   std::unique_ptr<Painter> painter_;
-  int count_ = 0;
+  int count_;
 };
 
 }  // namespace pliant::app

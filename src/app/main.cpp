@@ -71,7 +71,7 @@ void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std
 
 void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
-  run->add_option("scene", options.scene, "Scene file (TOML)")->required();
+  CLI::Option* scene = run->add_option("scene", options.scene, "Scene file (TOML)");
   add_choice<app::DeviceKind>(
       *run, "--device", options.device.kind,
       {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
@@ -103,9 +103,28 @@ void add_run(CLI::App& program, app::RunOptions& options) {
                            {"ply", FrameFormat::ply},
                            {"vtk", FrameFormat::vtk}},
                           "What to write for each frame (default none)");
-  run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
+  CLI::Option* checkpoint =
+      run->add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
+          ->check(not_empty());
+  CLI::Option* interval = run->add_option("--checkpoint-every", options.checkpoint_interval,
+                                          "Wall time between checkpoints [s]: how much work a crash may cost (default 300)");
+  interval->check(number(0, 1e9));
+  CLI::Option* resume = run->add_option("--resume", options.resume,
+                                        "Checkpoint to go on from, instead of a scene: the run is the one that was begun, to the "
+                                        "bit, and goes on writing checkpoints there");
+  resume->check(not_empty())->excludes(scene);
+  CLI::Option* timings =
+      run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
+  timings->excludes(checkpoint)->excludes(resume);
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
+  for (const char* name : {"--steps", "--duration", "--time-step", "--tolerance", "--integrator", "--set", "--frames", "--check"})
+    resume->excludes(run->get_option(name));
+  run->callback([scene, resume, checkpoint, interval] {
+    if (scene->empty() && resume->empty()) throw CLI::RequiredError("scene, or --resume,");
+    if (!interval->empty() && checkpoint->empty() && resume->empty())
+      throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
+  });
 }
 
 void add_info(CLI::App& program, app::InfoOptions& options) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/checksum.hpp"
+#include "core/read_text.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -15,8 +17,8 @@ void take_automatic_integrator(SimulationDescription& simulation) {
   simulation.integrator = {"auto", "--tolerance"};
 }
 
-SceneDescription load_described_scene(const RunOptions& options) {
-  SceneDescription scene = load_scene(options.scene, options.overrides);
+SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
+  SceneDescription scene = parse_scene(text, options.scene, options.overrides);
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
   if (options.time_step) {
     scene.simulation.time_step = options.time_step;
@@ -34,6 +36,10 @@ SceneDescription load_described_scene(const RunOptions& options) {
     scene.simulation.length_where = "--duration";
   }
   return scene;
+}
+
+std::uint64_t checksum_of(const TriangleMesh& mesh) {
+  return checksum(std::as_bytes(std::span(mesh.triangles)), checksum(std::as_bytes(std::span(mesh.positions))));
 }
 
 void warn_of_integrator(PreparedRun& run) {
@@ -69,8 +75,11 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   auto prepared = std::make_unique<PreparedRun>();
   PreparedRun& run = *prepared;
   run.load_time.start();
-  run.scene = load_described_scene(options);
-  run.start = build_model(load_bodies(run.scene, &run.warnings), run.scene.simulation.gravity);
+  run.scene_text = options.scene_text ? *options.scene_text : read_text(options.scene);
+  run.scene = describe_scene(run.scene_text, options);
+  const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings);
+  for (const BodySetup& setup : setups) run.mesh_checksums.push_back(checksum_of(setup.mesh));
+  run.start = build_model(setups, run.scene.simulation.gravity);
   run.plan = plan_time(run.scene, run.start.model, options.steps);
   run.load_time.stop();
   run.build_time.start();

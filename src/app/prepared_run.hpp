@@ -1,5 +1,6 @@
 // A scene made ready to run: loaded, built and planned, with the command line's changes applied.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@
 namespace pliant::app {
 
 struct PreparedRun {
+  std::string scene_text;
   SceneDescription scene;
+  std::vector<std::uint64_t> mesh_checksums;  // of each body's vertices and triangles
   ModelAndState start;
   TimePlan plan;
   std::unique_ptr<Device> device;

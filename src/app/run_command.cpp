@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/checkpoint.hpp"
 #include "app/frame_sink.hpp"
 #include "app/interrupts.hpp"
 #include "app/prepared_run.hpp"
@@ -28,25 +29,37 @@ constexpr double time_of_a_batch = 0.1;  // of steps, after which Ctrl-C is hear
 
 class Run {
  public:
-  Run(const RunOptions& options, PreparedRun& prepared, const std::filesystem::path& folder)
+  /// From its start, or from where the checkpoint stood.
+  Run(const RunOptions& options, PreparedRun& prepared, const Checkpoint* from)
       : options_(options),
         run_(prepared),
-        folder_(folder),
+        folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
-        frames_(prepared, options.frames, folder / "frames"),
-        history_(folder / "history.csv") {
-    for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder / name);  // not after hours of steps
+        is_resumed_(from != nullptr),
+        progress_(from == nullptr ? RunProgress() : from->progress),
+        frames_(prepared, options.frames, folder_ / "frames", static_cast<int>(progress_.frames_written)),
+        checkpoints_(options),
+        history_(from == nullptr ? HistoryFile(folder_ / "history.csv") : HistoryFile(folder_ / "history.csv", from->history)),
+        before_row_{progress_, history_.text().size()} {
+    stepping_.add(progress_.stepping_seconds);
+    measuring_.add(progress_.measuring_seconds);
+    writing_.add(progress_.writing_seconds);
+    saving_.add(progress_.saving_seconds);
+    for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder_ / name);  // not after hours of steps
   }
 
   int execute() {
     if (options_.timings) run_.simulation->time_passes();
     report_ = run_.simulation->report();
-    record();
-    write_frame();
+    if (is_resumed_)
+      state_ = run_.simulation->state();
+    else
+      begin();
     if (run_.plan.tolerance)
       run_adaptive();
     else
       run_fixed();
+    keep_interrupted();
     history_.close();
     write_end();
     if (report_.non_finite) return exit_non_finite;
@@ -56,8 +69,13 @@ class Run {
  private:
   bool stopped() const { return is_interrupted() || report_.non_finite; }
 
+  void begin() {
+    record();
+    write_frame();
+  }
+
   void run_fixed() {
-    std::uint64_t step = 0;
+    std::uint64_t step = progress_.recorded_steps;
     while (!stopped() && (step = run_.plan.next_frame_step(step)) <= run_.plan.steps) {
       advance_to(step);
       if (report_.steps == step) write_frame();
@@ -67,7 +85,7 @@ class Run {
 
   void run_adaptive() {
     std::optional<double> time;
-    for (std::uint64_t frame = 1; !stopped() && (time = run_.plan.time_of_frame(frame)); ++frame) {
+    for (std::uint64_t& frame = progress_.next_frame; !stopped() && (time = run_.plan.time_of_frame(frame)); ++frame) {
       advance_to_time(*time);
       if (report_.time == *time) write_frame();
     }
@@ -75,9 +93,8 @@ class Run {
   }
 
   void advance_to(std::uint64_t target) {
-    const std::uint64_t before = report_.steps;
     while (report_.steps < target && !stopped()) advance_by(std::min(batch_, target - report_.steps));
-    if (report_.steps != before) record();
+    record_unless_recorded();
   }
 
   // Batches grow while they are short: a report a step would cost more than small steps do.
@@ -92,31 +109,54 @@ class Run {
   }
 
   void advance_to_time(double target) {
-    const std::uint64_t before = report_.steps;
     while (report_.time < target && !stopped()) step([&] { return run_.simulation->advance_toward(target); });
-    if (report_.steps != before) record();
+    record_unless_recorded();
   }
 
   template <class Advance>
   void step(const Advance& advance) {
     report_ = stepping_.time(advance);
     show_progress();
+    if (checkpoints_.is_due()) keep_checkpoint(progress_, history_.text());
+  }
+
+  // Not of a run that has failed: the one before is worth more.
+  void keep_checkpoint(RunProgress progress, const std::string& history) {
+    if (report_.non_finite) return;
+    progress.stepping_seconds = stepping_.seconds();
+    progress.measuring_seconds = measuring_.seconds();
+    progress.writing_seconds = writing_.seconds();
+    progress.saving_seconds = saving_.seconds();
+    saving_.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
+  }
+
+  // An interrupt may have put the latest row between two frames, or left it without its energy: it is made again.
+  void keep_interrupted() {
+    if (checkpoints_.is_wanted() && is_interrupted() && report_.steps > 0)
+      keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
+  }
+
+  void record_unless_recorded() {
+    if (report_.steps != progress_.recorded_steps) record();
   }
 
   void record() {
+    before_row_ = {progress_, history_.text().size()};
     state_ = run_.simulation->state();
-    now_ = measuring_.time([&] { return measured(); });
-    if (report_.steps == 0) first_ = now_;
-    most_in_motion_ = std::max(most_in_motion_, now_.kinetic + now_.elastic);
-    const double drift = std::abs(now_.energy() - first_.energy());
-    largest_drift_ = drift <= largest_drift_ ? largest_drift_ : drift;
+    Measurement& now = progress_.latest;
+    now = measuring_.time([&] { return measured(); });
+    if (report_.steps == 0) progress_.first = now;
+    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic);
+    const double drift = std::abs(now.energy() - progress_.first.energy());
+    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    progress_.recorded_steps = report_.steps;
     history_.append({.step = report_.steps,
                      .time = report_.time,
-                     .kinetic = now_.kinetic,
-                     .elastic = now_.elastic,
-                     .gravitational = now_.gravitational,
-                     .momentum = now_.momentum,
-                     .angular_momentum = now_.angular_momentum,
+                     .kinetic = now.kinetic,
+                     .elastic = now.elastic,
+                     .gravitational = now.gravitational,
+                     .momentum = now.momentum,
+                     .angular_momentum = now.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices});
   }
@@ -131,6 +171,7 @@ class Run {
 
   void write_frame() {
     writing_.time([&] { frames_.write(state_); });
+    progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
   }
 
   // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
@@ -143,8 +184,9 @@ class Run {
 
   // Against what there was at the start and what gravity has given since: neither depends on where the world's origin is.
   double energy_growth() const {
-    const double had = first_.kinetic + first_.elastic + std::abs(now_.gravitational - first_.gravitational);
-    return 1 + (now_.energy() - first_.energy()) / std::max(had, smallest_energy());
+    const Measurement &first = progress_.first, &latest = progress_.latest;
+    const double had = first.kinetic + first.elastic + std::abs(latest.gravitational - first.gravitational);
+    return 1 + (latest.energy() - first.energy()) / std::max(had, smallest_energy());
   }
 
   void write_end() {
@@ -171,9 +213,9 @@ class Run {
     s.simulated_seconds = report_.time;
     s.wall_seconds = stepping_.seconds();
     s.steps_per_second = report_.steps == 0 ? 0 : static_cast<double>(report_.steps) / stepping_.seconds();
-    s.energy = {first_.energy(), now_.energy(), {}};
+    s.energy = {progress_.first.energy(), progress_.latest.energy(), {}};
     if (run_.plan.damping_law == DampingLaw::none && report_.contact_steps == 0)
-      s.energy.max_drift = largest_drift_ / std::max(most_in_motion_, smallest_energy());
+      s.energy.max_drift = progress_.largest_drift / std::max(progress_.most_in_motion, smallest_energy());
     s.contacts = {report_.contact_steps, report_.contact_pairs_max, report_.reverted_vertices};
     if (report_.non_finite)
       s.energy.final = std::nan("");  // the step that broke, whatever a sum of it gives
@@ -191,6 +233,7 @@ class Run {
                     {"step", 1e3 * stepping_.seconds()},
                     {"measure", 1e3 * measuring_.seconds()},
                     {"frames", 1e3 * writing_.seconds()}};
+    if (checkpoints_.is_wanted()) s.timings_ms.emplace_back("checkpoints", 1e3 * saving_.seconds());
     for (const auto& [pass, seconds] : run_.simulation->pass_seconds())
       s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
     s.warnings = run_.warnings;
@@ -221,10 +264,11 @@ class Run {
                report_.steps, length_of_steps(), run_.plan.integrator->name, stepping_.seconds(),
                report_.steps == 0 ? 0.0 : static_cast<double>(report_.steps) / stepping_.seconds(), run_.device->info().kind,
                run_.device->info().name);
-    const double beside = measuring_.seconds() + writing_.seconds();
+    const double beside = measuring_.seconds() + writing_.seconds() + saving_.seconds();
     if (beside > 0.1 && 9 * beside > stepping_.seconds())  // over a tenth of the whole
-      fmt::print("beside these, {:.2f} s of measuring the state and {:.2f} s of frames\n", measuring_.seconds(),
-                 writing_.seconds());
+      fmt::print("beside these, {:.2f} s of measuring the state and {:.2f} s of frames{}\n", measuring_.seconds(),
+                 writing_.seconds(),
+                 checkpoints_.is_wanted() ? fmt::format(" and {:.2f} s of checkpoints", saving_.seconds()) : "");
     fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
     show_timings();
     fmt::print("summary: {}\n", (folder_ / "summary.json").string());
@@ -272,15 +316,19 @@ class Run {
   PreparedRun& run_;
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
+  bool is_resumed_;
+  RunProgress progress_;
   FrameSink frames_;  // before any file is touched: there may be nothing to draw with
+  CheckpointKeeper checkpoints_;
   HistoryFile history_;
+  struct {
+    RunProgress progress;
+    std::size_t history_length;
+  } before_row_;  // the latest one
   StepReport report_;
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
-  Measurement first_, now_;
-  double largest_drift_ = 0;   // of the energy [J]
-  double most_in_motion_ = 0;  // kinetic and elastic [J]
-  Stopwatch stepping_, measuring_, writing_;
+  Stopwatch stepping_, measuring_, writing_, saving_;
 };
 
 // Times a step with every body deformed, so that no force is skipped; a second one, unless that would take long, because the
@@ -357,10 +405,6 @@ void show_check(PreparedRun& run) {
              std::isnan(estimate.seconds) ? "unknown" : fmt::format("about {:.3g} s", estimate.seconds));
 }
 
-std::filesystem::path folder_of(const RunOptions& options) {
-  return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
-}
-
 // Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.
 void expect_folder(const std::filesystem::path& folder) {
   std::error_code failure;
@@ -377,17 +421,25 @@ void expect_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int run(const RunOptions& options) {
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
+}
+
+int run(const RunOptions& given) {
+  std::optional<Checkpoint> from;
+  if (!given.resume.empty()) from = load_checkpoint(given.resume);
+  const RunOptions options = from ? resumed_options(given, *from) : given;
   if (!options.check || !options.out.empty()) expect_folder(folder_of(options));
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
+  if (from) resume(given, *from, prepared);
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   if (options.check) {
     show_check(prepared);
     return 0;
   }
   watch_for_interrupts();
-  return Run(options, prepared, folder_of(options)).execute();
+  return Run(options, prepared, from ? &*from : nullptr).execute();
 }
 
 }  // namespace pliant::app

@@ -12,6 +12,7 @@
 namespace pliant::app {
 
 inline constexpr int exit_non_finite = 5;
+inline constexpr double default_checkpoint_interval = 300;  // [s] of wall time
 
 struct RunOptions {
   std::filesystem::path scene;
@@ -24,10 +25,17 @@ struct RunOptions {
   std::vector<std::string> overrides;  // section.key=value
   std::filesystem::path out;           // empty: out/SCENE
   FrameFormat frames = FrameFormat::none;
-  bool timings = false;  // of each kind of pass
-  bool check = false;    // validate and estimate only
+  std::filesystem::path checkpoint;           // file to write what the run can be resumed from; empty: none
+  std::optional<double> checkpoint_interval;  // [s] of wall time
+  std::filesystem::path resume;  // such a file, instead of a scene; options of the scene and of frames are then the file's
+  std::optional<std::string> scene_text;  // instead of what the scene's file holds
+  bool timings = false;                   // of each kind of pass
+  bool check = false;                     // validate and estimate only
   bool quiet = false;
 };
+
+/// Where a run writes.
+[[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
 /// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp); what there is was written in each case. Throws
 /// Error.

@@ -451,8 +451,7 @@ std::size_t line_of_assertion(const std::string& text) {
   return line;
 }
 
-toml::table parse_file(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+toml::table parse_text(const std::string& text, const std::filesystem::path& file) {
   const auto fail_at = [&](std::size_t line, const std::string& what) {
     return Error(ErrorKind::input, fmt::format("{}:{}", file.string(), line), what, "correct the TOML");
   };
@@ -468,8 +467,12 @@ toml::table parse_file(const std::filesystem::path& file) {
 }  // namespace
 
 SceneDescription load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  toml::table root = parse_file(file);
-  for (const std::string& text : overrides) apply_override(root, text);
+  return parse_scene(read_text(file), file, overrides);
+}
+
+SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file, std::span<const std::string> overrides) {
+  toml::table root = parse_text(text, file);
+  for (const std::string& change : overrides) apply_override(root, change);
   SceneDescription scene;
   scene.file = file;
   TableReader::section(root, "", scene);

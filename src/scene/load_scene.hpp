@@ -13,4 +13,8 @@ namespace pliant {
 /// Throws Error: input, naming "file:line: section.key", for the file; command_line, naming "--set ...", for an override.
 [[nodiscard]] SceneDescription load_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+/// The same of a text that was read from `file`.
+[[nodiscard]] SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
+                                           std::span<const std::string> overrides = {});
+
 }  // namespace pliant

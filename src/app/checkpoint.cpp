@@ -1,0 +1,200 @@
+// See checkpoint.hpp. Every field is written and read in one order, by the two functions that visit them.
+#include "app/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/bytes.hpp"
+#include "core/error.hpp"
+#include "output/checkpoint_file.hpp"
+
+namespace pliant::app {
+namespace {
+
+void put(ByteWriter& to, const RunOptions& options) {
+  to.put_text(options.scene.string());
+  to.put(options.device.kind);
+  to.put_optional(options.device.gpu_index);
+  to.put_optional(options.device.precision);
+  to.put(options.device.threads);
+  to.put_optional(options.steps);
+  to.put_optional(options.duration);
+  to.put_optional(options.time_step);
+  to.put_optional(options.tolerance);
+  to.put(std::uint8_t{options.integrator.has_value()});
+  to.put_text(options.integrator.value_or(""));
+  to.put(std::uint64_t{options.overrides.size()});
+  for (const std::string& text : options.overrides) to.put_text(text);
+  to.put_text(options.out.string());
+  to.put(options.frames);
+  to.put(options.checkpoint_interval.value_or(default_checkpoint_interval));
+}
+
+template <class T>
+void get(ByteReader& from, T& value) {
+  value = from.get<T>();
+}
+
+template <class T>
+void get(ByteReader& from, std::optional<T>& value) {
+  value = from.get_optional<T>();
+}
+
+RunOptions get_options(ByteReader& from) {
+  RunOptions options;
+  options.scene = from.get_text();
+  get(from, options.device.kind);
+  get(from, options.device.gpu_index);
+  get(from, options.device.precision);
+  get(from, options.device.threads);
+  get(from, options.steps);
+  get(from, options.duration);
+  get(from, options.time_step);
+  get(from, options.tolerance);
+  const bool names_integrator = from.get<std::uint8_t>() != 0;
+  const std::string integrator(from.get_text());
+  if (names_integrator) options.integrator = integrator;
+  for (auto count = from.get<std::uint64_t>(); count > 0; --count) options.overrides.emplace_back(from.get_text());
+  options.out = from.get_text();
+  get(from, options.frames);
+  options.checkpoint_interval = from.get<double>();
+  return options;
+}
+
+bool names_device(const RunOptions& given) {
+  return given.device.kind != DeviceKind::automatic || given.device.gpu_index || given.device.precision;
+}
+
+void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
+  const std::size_t count = checkpoint.mesh_checksums.size();
+  for (std::size_t body = 0; body < count; ++body)
+    if (count != run.mesh_checksums.size() || checkpoint.mesh_checksums[body] != run.mesh_checksums[body])
+      throw Error(ErrorKind::input, "", fmt::format("the mesh of body \"{}\" has changed since", run.scene.bodies.at(body).name),
+                  "bring back the mesh that the run was begun with");
+}
+
+std::string title_of(const std::string& device, int precision) { return fmt::format("{} at precision {}", device, precision); }
+
+void expect_device(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run) {
+  const std::string before = title_of(checkpoint.device_name, checkpoint.options.device.precision.value_or(32));
+  const std::string now = title_of(run.device->info().name, run.device->precision());
+  if (before == now) return;
+  const std::string what = fmt::format("the run was on {}, and this is {}: its bits would differ", before, now);
+  if (!names_device(given))
+    throw Error(ErrorKind::device, "", what, "take the device of before, or ask for this one by --device or --precision");
+  run.warnings.push_back(fmt::format("the run was on {}, and goes on on {}: its bits differ from here on", before, now));
+}
+
+void warn_of_version(const Checkpoint& checkpoint, PreparedRun& run) {
+  if (checkpoint.version != PLIANT_VERSION)
+    run.warnings.push_back(fmt::format("the run was begun by pliant {}, and this is pliant {}: its bits may differ from here on",
+                                       checkpoint.version, PLIANT_VERSION));
+}
+
+}  // namespace
+
+Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress, const std::string& history) {
+  Checkpoint checkpoint{.version = PLIANT_VERSION,
+                        .options = options,
+                        .working_folder = std::filesystem::current_path(),
+                        .device_name = run.device->info().name,
+                        .scene_text = run.scene_text,
+                        .mesh_checksums = run.mesh_checksums,
+                        .progress = progress,
+                        .history = history,
+                        .simulation = run.simulation->save()};
+  checkpoint.options.device.kind = run.device->info().kind == "gpu" ? DeviceKind::gpu : DeviceKind::cpu;
+  checkpoint.options.device.precision = run.device->precision();
+  return checkpoint;
+}
+
+std::string to_bytes(const Checkpoint& checkpoint) {
+  ByteWriter to;
+  to.put_text(checkpoint.version);
+  put(to, checkpoint.options);
+  to.put_text(checkpoint.working_folder.string());
+  to.put_text(checkpoint.device_name);
+  to.put_text(checkpoint.scene_text);
+  to.put(std::uint64_t{checkpoint.mesh_checksums.size()});
+  for (const std::uint64_t sum : checkpoint.mesh_checksums) to.put(sum);
+  to.put(checkpoint.progress);
+  to.put_text(checkpoint.history);
+  to.put_text(checkpoint.simulation);
+  return to.take();
+}
+
+Checkpoint checkpoint_from(std::string_view bytes) {
+  ByteReader from(bytes);
+  Checkpoint checkpoint;
+  checkpoint.version = from.get_text();
+  checkpoint.options = get_options(from);
+  checkpoint.working_folder = from.get_text();
+  checkpoint.device_name = from.get_text();
+  checkpoint.scene_text = from.get_text();
+  for (auto count = from.get<std::uint64_t>(); count > 0; --count) checkpoint.mesh_checksums.push_back(from.get<std::uint64_t>());
+  get(from, checkpoint.progress);
+  checkpoint.history = from.get_text();
+  checkpoint.simulation = from.get_text();
+  if (!from.at_end()) throw Error(ErrorKind::input, "", "holds more than a checkpoint does", "");
+  return checkpoint;
+}
+
+Checkpoint load_checkpoint(const std::filesystem::path& file) {
+  const std::string content = read_checkpoint(file);
+  try {
+    return checkpoint_from(content);
+  } catch (const Error& error) {
+    throw Error(error.kind(), file.string(), error.what(), "take an earlier copy");
+  }
+}
+
+RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint) {
+  RunOptions options = checkpoint.options;
+  options.scene_text = checkpoint.scene_text;
+  options.resume = given.resume;
+  options.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint;
+  if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
+  options.out = folder_of(options);
+  if (std::filesystem::current_path() != checkpoint.working_folder) {
+    options.scene = checkpoint.working_folder / options.scene;
+    options.out = checkpoint.working_folder / options.out;
+  }
+  if (!given.out.empty()) options.out = given.out;
+  if (given.device.kind != DeviceKind::automatic || given.device.gpu_index) {
+    options.device.kind = given.device.kind;
+    options.device.gpu_index = given.device.gpu_index;
+  }
+  if (given.device.precision) options.device.precision = given.device.precision;
+  if (given.device.threads != 0) options.device.threads = given.device.threads;
+  options.quiet = given.quiet;
+  return options;
+}
+
+void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run) {
+  try {
+    expect_meshes(checkpoint, run);
+    expect_device(given, checkpoint, run);
+    warn_of_version(checkpoint, run);
+    run.simulation->restore(checkpoint.simulation);
+  } catch (const Error& error) {
+    throw Error(error.kind(), given.resume.string(), error.what(), "");
+  }
+}
+
+CheckpointKeeper::CheckpointKeeper(const RunOptions& options)
+    : file_(options.checkpoint), interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
+  if (is_wanted()) expect_place_for_checkpoint(file_);
+}
+
+void CheckpointKeeper::write(const Checkpoint& checkpoint) {
+  try {
+    write_checkpoint(file_, to_bytes(checkpoint));
+  } catch (const Error& error) {
+    fmt::print(stderr, "pliant: warning: no checkpoint is written: {}; the run goes on, and the checkpoint before it stays\n",
+               error.what());
+  }
+  latest_ = Clock::now();
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,74 @@
+// What a run can be taken up from, and when it is written.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/prepared_run.hpp"
+#include "simulation/measure.hpp"
+
+namespace pliant::app {
+
+/// What a run knows beside its simulation.
+struct RunProgress {
+  std::uint64_t recorded_steps = 0;  // of the latest row of the history
+  std::uint64_t next_frame = 1;      // that steps of adaptive length go for
+  std::uint64_t frames_written = 0;  // files
+  Measurement first, latest;         // of the state, at the start and in the latest row
+  double largest_drift = 0;          // of the energy [J]
+  double most_in_motion = 0;         // kinetic and elastic [J]
+  double stepping_seconds = 0, measuring_seconds = 0, writing_seconds = 0, saving_seconds = 0;
+};
+
+struct Checkpoint {
+  std::string version;  // pliant's
+  RunOptions options;   // as the run was begun, but for its device, which is the one that it had
+  std::filesystem::path working_folder;
+  std::string device_name;
+  std::string scene_text;
+  std::vector<std::uint64_t> mesh_checksums;  // by body
+  RunProgress progress;
+  std::string history;     // history.csv
+  std::string simulation;  // Simulation::save
+};
+
+[[nodiscard]] Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress,
+                                       const std::string& history);
+
+[[nodiscard]] std::string to_bytes(const Checkpoint& checkpoint);
+/// Throws Error (input) where bytes are missing or too many.
+[[nodiscard]] Checkpoint checkpoint_from(std::string_view bytes);
+
+/// Reads a file. Throws Error (input).
+[[nodiscard]] Checkpoint load_checkpoint(const std::filesystem::path& file);
+
+/// The options by which the run goes on that `given` resumes: those it was begun with, but for where `given` names another
+/// device, precision, number of threads, place or interval.
+[[nodiscard]] RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint);
+
+/// Puts the prepared run where the checkpoint stood. Throws Error: input, when a mesh has changed; device, when the bits would
+/// differ because this is another device, unless `given` names one; then that is a warning.
+void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run);
+
+/// When a checkpoint is due, and how it is written.
+class CheckpointKeeper {
+ public:
+  /// Does nothing unless the options name a file. Throws Error (command_line) when it can't be written.
+  explicit CheckpointKeeper(const RunOptions& options);
+
+  [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
+  [[nodiscard]] bool is_due() const { return is_wanted() && Clock::now() - latest_ >= interval_; }
+  /// Where it can't be written the run goes on, with a warning, and the checkpoint before stays.
+  void write(const Checkpoint& checkpoint);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path file_;
+  std::chrono::duration<double> interval_;
+  Clock::time_point latest_ = Clock::now();
+};
+
+}  // namespace pliant::app

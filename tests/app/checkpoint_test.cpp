@@ -1,0 +1,229 @@
+// Runs that are killed, interrupted or copied, and taken up again.
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/read_text.hpp"
+#include "gl/context.hpp"
+#include "output/checkpoint_file.hpp"
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant {
+namespace {
+
+using test::ScratchFolder;
+
+// Two small spheres that collide, in a run of so many reports that it waits for someone to read its progress before it is over.
+std::filesystem::path scene_in(const ScratchFolder& folder, const std::string& simulation,
+                               const std::string& mesh = "icosphere:1") {
+  const auto path = folder.path / "scene.toml";
+  std::ofstream(path) << "[simulation]\n"
+                      << simulation << "\n[output]\nframe_rate = 100\n"
+                      << "[[body]]\nname = \"left\"\nmesh = \"" << mesh << "\"\nposition = [-1.1, 0, 0]\nvelocity = [4, 0, 0]\n"
+                      << "[[body]]\nname = \"right\"\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstiffness = 20\n";
+  return path;
+}
+
+const std::string verlet = "time_step = 0.002\nintegrator = \"verlet\"\nduration = 4";
+
+// What a run says of itself but for what it took, and where.
+nlohmann::json account_in(const std::filesystem::path& folder) {
+  auto summary = nlohmann::json::parse(read_text(folder / "summary.json"));
+  for (const char* key : {"wall_seconds", "steps_per_second", "timings_ms"}) summary.erase(key);
+  return summary;
+}
+
+void check_same_run(const std::filesystem::path& a, const std::filesystem::path& b) {
+  CHECK(account_in(a) == account_in(b));
+  for (const char* name : {"history.csv", "final_state.csv"}) CHECK(read_text(a / name) == read_text(b / name));
+  std::size_t frames = 0;
+  for (const auto& frame : std::filesystem::directory_iterator(a / "frames")) {
+    CHECK(read_text(frame) == read_text(b / "frames" / frame.path().filename()));
+    ++frames;
+  }
+  CHECK(frames > 10);
+}
+
+// Of a run that has been killed, against the same run that has not: whole rows, and whole frames.
+void check_readable(const std::filesystem::path& killed, const std::filesystem::path& whole) {
+  CHECK_FALSE(std::filesystem::exists(killed / "summary.json"));
+  const std::string rows = read_text(killed / "history.csv");
+  CHECK(rows.ends_with('\n'));
+  CHECK(read_text(whole / "history.csv").starts_with(rows));
+  for (const auto& frame : std::filesystem::directory_iterator(killed / "frames"))
+    if (frame.path().extension() == ".obj") CHECK(read_text(frame) == read_text(whole / "frames" / frame.path().filename()));
+}
+
+void check_killed_run(const std::string& simulation, const std::string& options) {
+  const ScratchFolder folder;
+  const std::string scene = scene_in(folder, simulation).string(), checkpoint = (folder.path / "run.checkpoint").string();
+  const auto whole = folder.path / "whole", killed = folder.path / "killed";
+  const ProgramResult result = run_program("run " + scene + " --quiet --frames obj --out " + whole.string() + options);
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  std::vector<std::string> arguments = {"run",          scene,      "--frames",           "obj", "--out", killed.string(),
+                                        "--checkpoint", checkpoint, "--checkpoint-every", "0"};
+  std::istringstream words(options);
+  for (std::string word; words >> word;) arguments.push_back(word);
+  ProgramInTerminal program(arguments);
+  REQUIRE(program.has_shown_progress(9));
+  program.end_by(SIGKILL);
+  check_readable(killed, whole);
+  std::filesystem::remove(scene);  // the checkpoint holds it
+  const ProgramResult resumed = run_program("run --quiet --checkpoint-every 1000 --resume " + checkpoint);
+  CAPTURE(resumed.output);
+  CHECK(resumed.exit_code == 0);
+  check_same_run(whole, killed);
+}
+
+TEST_CASE("a run that is killed and resumed ends as one that is not, to the bit") {
+  check_killed_run(verlet, " --device cpu");
+}
+
+TEST_CASE("a killed run is resumed with the options it had, in either precision and with steps of adaptive length", "[long]") {
+  check_killed_run(verlet, " --device cpu --precision 64 --integrator cv8 --set body.left.stiffness=10");
+  check_killed_run("tolerance = 1e-5\nintegrator = \"auto\"\nduration = 2", " --device cpu --duration 3");
+}
+
+TEST_CASE("a run on the GPU that is killed and resumed ends as one that is not, to the bit", "[gl][long]") {
+  if (gl::list_adapters().empty()) return;
+  check_killed_run(verlet, " --device gpu --duration 3");
+}
+
+TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from which it ends as one that is not") {
+  const ScratchFolder folder;
+  const std::string scene = scene_in(folder, verlet).string(), checkpoint = (folder.path / "run.checkpoint").string();
+  const auto whole = folder.path / "whole", part = folder.path / "part";
+  REQUIRE(run_program("run " + scene + " --device cpu --quiet --frames ply --out " + whole.string()).exit_code == 0);
+  ProgramInTerminal program(
+      {"run", scene, "--device", "cpu", "--frames", "ply", "--out", part.string(), "--checkpoint", checkpoint});
+  REQUIRE(program.has_shown_progress(9));
+  CHECK_FALSE(std::filesystem::exists(checkpoint));  // five minutes have not passed
+  CHECK(program.end_by(SIGINT).exit_code == 130);
+  const auto steps = account_in(part)["steps"];
+  CHECK(steps > 0);
+  CHECK(steps < account_in(whole)["steps"]);
+  REQUIRE(run_program("run --quiet --resume " + checkpoint).exit_code == 0);
+  check_same_run(whole, part);
+}
+
+// A checkpoint of a run that was over soon, in the middle of it.
+struct Begun {
+  ScratchFolder folder;
+  std::string checkpoint = (folder.path / "run.checkpoint").string();
+  explicit Begun(const std::string& mesh = "icosphere:1") {
+    const std::string scene = scene_in(folder, verlet + "\n", mesh).string();
+    const ProgramResult result = run_program("run " + scene + " --device cpu --duration 0.2 --quiet --checkpoint-every 0" +
+                                             " --checkpoint " + checkpoint + " --out " + (folder.path / "out").string());
+    CAPTURE(result.output);
+    REQUIRE(result.exit_code == 0);
+  }
+  ProgramResult resume(const std::string& options = "") const {
+    return run_program("run --quiet --resume " + checkpoint + options);
+  }
+  void check_refused(int exit_code, const std::string& what, const std::string& options = "") const {
+    const std::string before = read_text(checkpoint), history = read_text(folder.path / "out/history.csv");
+    const ProgramResult result = resume(options);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == exit_code);
+    CHECK_THAT(result.output, Catch::Contains("run.checkpoint") && Catch::Contains(what));
+    CHECK(read_text(checkpoint) == before);
+    CHECK(read_text(folder.path / "out/history.csv") == history);
+  }
+  // Puts `now` for `before` into the checkpoint as if it had been written so.
+  void replace(const std::string& before, const std::string& now) const {
+    REQUIRE(before.size() == now.size());
+    std::string content = read_checkpoint(checkpoint);
+    const auto at = content.find(before);
+    REQUIRE(at != std::string::npos);
+    write_checkpoint(checkpoint, content.replace(at, now.size(), now));
+  }
+};
+
+TEST_CASE("a checkpoint that is damaged, cut short or none exits with 3 and changes no file") {
+  const Begun begun;
+  const std::string whole = read_text(begun.checkpoint);
+  for (const auto& [bytes, what] : {std::pair(whole.substr(0, whole.size() / 2), "cut short"),
+                                    std::pair(whole.substr(0, whole.size() - 1) + '\x55', "damaged"),
+                                    std::pair(std::string("time,energy\n0,1\n"), "no checkpoint")}) {
+    std::ofstream(begun.checkpoint, std::ios::binary) << bytes;
+    begun.check_refused(3, what);
+  }
+  write_checkpoint(begun.checkpoint, "a right checksum, but nothing that a checkpoint holds");
+  begun.check_refused(3, "bytes are missing");
+}
+
+TEST_CASE("a run is not resumed with another mesh, and the error names the body") {
+  const ScratchFolder folder;
+  const auto mesh = folder.path / "mesh.obj";
+  const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(mesh) << tetrahedron;
+  const Begun begun(mesh.string());
+  std::ofstream(mesh) << "v 0 0 0.001" + tetrahedron.substr(7);
+  begun.check_refused(3, "the mesh of body \"left\" has changed");
+  std::ofstream(mesh) << tetrahedron;
+  CHECK(begun.resume().exit_code == 0);
+}
+
+TEST_CASE("a run goes on on another device or at another precision only if told to, with a warning") {
+  const Begun begun;
+  const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
+  begun.replace(device, std::string(device.size(), 'x'));
+  begun.check_refused(4, "its bits would differ");
+  const ProgramResult told = begun.resume(" --device cpu");
+  CHECK(told.exit_code == 0);
+  CHECK_THAT(told.output, Catch::Contains("warning: the run was on xxx") && Catch::Contains("its bits differ from here on"));
+  const ProgramResult whole = Begun().resume(" --precision 64");
+  CHECK(whole.exit_code == 0);
+  CHECK_THAT(whole.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+}
+
+TEST_CASE("a run begun by another pliant goes on with a warning") {
+  const Begun begun;
+  const std::string version = account_in(begun.folder.path / "out")["version"];
+  begun.replace(version, std::string(version.size(), '9'));
+  const ProgramResult result = begun.resume();
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("begun by pliant 999"));
+}
+
+TEST_CASE("a run can go on in another folder, with the whole history") {
+  const Begun begun;
+  const auto out = begun.folder.path / "out", other = begun.folder.path / "other";
+  REQUIRE(begun.resume(" --out " + other.string()).exit_code == 0);
+  for (const char* name : {"history.csv", "final_state.csv"}) CHECK(read_text(out / name) == read_text(other / name));
+}
+
+TEST_CASE("options that a resumed run can't follow, or that lack their counterpart, exit with 2") {
+  const Begun begun;
+  const std::string scene = (begun.folder.path / "scene.toml").string();
+  const auto check_refused = [](const std::string& arguments, const char* what) {
+    const ProgramResult result = run_program("run " + arguments);
+    CAPTURE(arguments, result.output);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.output, Catch::Contains(what));
+  };
+  for (const std::string option : {"--steps 3", "--set simulation.duration=9", "--frames png", "--timings", "--check"})
+    check_refused("--resume " + begun.checkpoint + " " + option, "--resume");
+  check_refused(scene + " --resume " + begun.checkpoint, "--resume");
+  check_refused(scene + " --checkpoint-every 5", "--checkpoint");
+  check_refused(scene + " --checkpoint-every -1 --checkpoint x", "--checkpoint-every");
+  check_refused(scene + " --device cpu --checkpoint /dev/null/x --out " + begun.folder.path.string(), "/dev/null/x");
+  CHECK_FALSE(std::filesystem::exists(begun.folder.path / "summary.json"));
+}
+
+TEST_CASE("a checkpoint that can't be written costs no run") {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program(
+      "run " + scene_in(folder, verlet).string() +
+      " --device cpu --duration 0.1 --quiet --checkpoint-every 0 --checkpoint /dev/full --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("warning: no checkpoint is written: /dev/full"));
+  CHECK(std::filesystem::exists(folder.path / "summary.json"));
+}
+
+}  // namespace
+}  // namespace pliant
