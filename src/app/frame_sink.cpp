@@ -1,5 +1,7 @@
 #include "app/frame_sink.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "gl/objects.hpp"
@@ -19,10 +21,16 @@ render::SceneBox box_of(const PreparedRun& run) {
   return box;
 }
 
+// Where steps are longer than frames there is a frame a step: a second of video is a second all the same.
+VideoFormat video_format_of(const PreparedRun& run) {
+  const double rate = run.scene.output.frame_rate;
+  return {run.scene.output.size.x, run.scene.output.size.y, run.plan.tolerance ? rate : std::min(rate, 1 / run.plan.time_step)};
+}
+
 std::unique_ptr<gl::Context> context_for_drawing() {
   std::string reason;
   if (gl::list_adapters(&reason).empty())
-    throw Error(ErrorKind::device, "--frames png", "drawing needs OpenGL 4.5: " + reason,
+    throw Error(ErrorKind::device, "--frames png or --video", "drawing needs OpenGL 4.5: " + reason,
                 "install libegl1 and libgl1-mesa-dri, or write obj, ply or vtk frames");
   return std::make_unique<gl::Context>(0);
 }
@@ -59,23 +67,29 @@ class FrameSink::Painter {
   std::unique_ptr<render::FrameRenderer> renderer_;
 };
 
-FrameSink::FrameSink(PreparedRun& run, FrameFormat format, std::filesystem::path folder, int first)
-    : run_(run), format_(format), folder_(std::move(folder)), count_(first) {
-  if (format == FrameFormat::png) painter_ = std::make_unique<Painter>(run);
+FrameSink::FrameSink(PreparedRun& run, FrameTargets targets) : run_(run), targets_(std::move(targets)), count_(targets_.first) {
+  if (targets_.format == FrameFormat::png || !targets_.video.empty()) painter_ = std::make_unique<Painter>(run);
+  if (!targets_.video.empty()) video_ = std::make_unique<VideoFile>(targets_.video, video_format_of(run));
 }
 
 FrameSink::~FrameSink() = default;
 
 void FrameSink::write(const State& state) {
-  if (format_ == FrameFormat::none) return;
-  const std::filesystem::path path = frame_path(folder_, count_++, format_);
-  if (format_ == FrameFormat::png) return write_png(path, painter_->paint());
+  if (targets_.format == FrameFormat::none && !video_) return;
+  const int index = count_++;
+  if (video_) return video_->write(painter_->paint());
+  const std::filesystem::path path = frame_path(targets_.folder, index, targets_.format);
+  if (targets_.format == FrameFormat::png) return write_png(path, painter_->paint());
   const Model& model = run_.start.model;
   const auto positions = state.world_positions(model);
-  if (format_ == FrameFormat::obj) return write_obj(path, model, positions);
+  if (targets_.format == FrameFormat::obj) return write_obj(path, model, positions);
   const auto velocities = state.world_velocities(model);
-  if (format_ == FrameFormat::ply) return write_ply(path, model, positions, velocities);
+  if (targets_.format == FrameFormat::ply) return write_ply(path, model, positions, velocities);
   write_vtk(path, model, positions, velocities);
+}
+
+void FrameSink::close() {
+  if (video_) video_->close();
 }
 
 }  // namespace pliant::app

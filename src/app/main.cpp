@@ -103,6 +103,10 @@ void add_run(CLI::App& program, app::RunOptions& options) {
                            {"ply", FrameFormat::ply},
                            {"vtk", FrameFormat::vtk}},
                           "What to write for each frame (default none)");
+  CLI::Option* video =
+      run->add_option("--video", options.video,
+                      "Video file to draw frames into, such as out.mp4 (needs ffmpeg; without it PNG frames are written)");
+  video->check(not_empty())->excludes(run->get_option("--frames"));
   CLI::Option* checkpoint =
       run->add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
           ->check(not_empty());
@@ -115,7 +119,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
   resume->check(not_empty())->excludes(scene);
   CLI::Option* timings =
       run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
-  timings->excludes(checkpoint)->excludes(resume);
+  for (CLI::Option* option : {timings, video}) option->excludes(checkpoint)->excludes(resume);
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
   for (const char* name : {"--steps", "--duration", "--time-step", "--tolerance", "--integrator", "--set", "--frames", "--check"})

@@ -37,7 +37,10 @@ class Run {
         measuring_pool_(options.device.threads),
         is_resumed_(from != nullptr),
         progress_(from == nullptr ? RunProgress() : from->progress),
-        frames_(prepared, options.frames, folder_ / "frames", static_cast<int>(progress_.frames_written)),
+        frames_(prepared, {.format = options.frames,
+                           .folder = folder_ / "frames",
+                           .video = options.video,
+                           .first = static_cast<int>(progress_.frames_written)}),
         checkpoints_(options),
         history_(from == nullptr ? HistoryFile(folder_ / "history.csv") : HistoryFile(folder_ / "history.csv", from->history)),
         before_row_{progress_, history_.text().size()} {
@@ -62,6 +65,7 @@ class Run {
     keep_interrupted();
     history_.close();
     write_end();
+    end_frames();
     if (report_.non_finite) return exit_non_finite;
     return is_interrupted() ? exit_interrupted : 0;
   }
@@ -174,6 +178,16 @@ class Run {
     progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
   }
 
+  // At last: when a video can't be ended, all else is there.
+  void end_frames() {
+    frames_.close();
+    if (options_.quiet || frames_.count() == 0) return;
+    if (options_.video.empty())
+      fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
+    else
+      fmt::print("video:   {} ({} frames)\n", options_.video.string(), frames_.count());
+  }
+
   // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
   double smallest_energy() const {
     double scale = std::numeric_limits<double>::min();
@@ -272,7 +286,6 @@ class Run {
     fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report_.contact_steps, report_.contact_pairs_max);
     show_timings();
     fmt::print("summary: {}\n", (folder_ / "summary.json").string());
-    if (frames_.count() > 0) fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
   }
 
   void show_timings() const {
@@ -419,6 +432,14 @@ void expect_folder(const std::filesystem::path& folder) {
   std::filesystem::remove(missing, failure);
 }
 
+// Where nothing can encode a video its pictures are written.
+RunOptions drawable(RunOptions options) {
+  if (options.video.empty() || VideoFile::has_encoder()) return options;
+  options.video.clear();
+  options.frames = FrameFormat::png;
+  return options;
+}
+
 }  // namespace
 
 std::filesystem::path folder_of(const RunOptions& options) {
@@ -428,11 +449,13 @@ std::filesystem::path folder_of(const RunOptions& options) {
 int run(const RunOptions& given) {
   std::optional<Checkpoint> from;
   if (!given.resume.empty()) from = load_checkpoint(given.resume);
-  const RunOptions options = from ? resumed_options(given, *from) : given;
+  const RunOptions options = from ? resumed_options(given, *from) : drawable(given);
   if (!options.check || !options.out.empty()) expect_folder(folder_of(options));
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
   if (from) resume(given, *from, prepared);
+  if (!given.video.empty() && options.video.empty())
+    prepared.warnings.push_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   if (options.check) {
     show_check(prepared);

@@ -25,6 +25,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  // section.key=value
   std::filesystem::path out;           // empty: out/SCENE
   FrameFormat frames = FrameFormat::none;
+  std::filesystem::path video;                // file to write instead of frames; empty: none
   std::filesystem::path checkpoint;           // file to write what the run can be resumed from; empty: none
   std::optional<double> checkpoint_interval;  // [s] of wall time
   std::filesystem::path resume;  // such a file, instead of a scene; options of the scene and of frames are then the file's

@@ -66,7 +66,7 @@ bool ProgramInTerminal::has_shown_progress(int times) {
 }
 
 ProgramResult ProgramInTerminal::end_by(int signal) {
-  kill(child_, signal);
+  kill(-child_, signal);
   while (read_more()) {
   }
   int status = 0;

@@ -26,7 +26,7 @@ class ProgramInTerminal {
 
   /// Waits until it has shown progress so many times in all; false where it ends before.
   [[nodiscard]] bool has_shown_progress(int times);
-  /// Sends the signal and waits for the end.
+  /// Sends the signal as a terminal does, to the program and what it has started in its group, and waits for the end.
   ProgramResult end_by(int signal);
 
  private:

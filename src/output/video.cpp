@@ -1,0 +1,89 @@
+// Raw pictures go through a pipe; see ffmpeg(1) and https://trac.ffmpeg.org/wiki/Encode/H.264.
+#include "output/video.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/expect.hpp"
+#include "output/file.hpp"
+
+namespace pliant {
+namespace {
+
+Error failed(const std::filesystem::path& path, const std::string& last_line) {
+  return {ErrorKind::command_line, path.string(),
+          fmt::format("ffmpeg failed: {}", last_line.empty() ? "it said nothing" : last_line),
+          "mend that, or write --frames png"};
+}
+
+std::filesystem::path encoder() {
+  if (const auto program = find_program("ffmpeg")) return *program;
+  throw Error(ErrorKind::command_line, "--video", "there is no ffmpeg on PATH", "install it, or write --frames png");
+}
+
+// yuv420p, which every player knows, has even sizes. Colours are sRGB's, said to be so, for players guess by size otherwise.
+// "file:" keeps names with colons or a leading dash from being taken for something else.
+std::vector<std::string> arguments_for(const std::filesystem::path& path, const VideoFormat& format) {
+  return {"-hide_banner",
+          "-nostdin",
+          "-loglevel",
+          "error",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pixel_format",
+          "rgb24",
+          "-video_size",
+          fmt::format("{}x{}", format.width, format.height),
+          "-framerate",
+          fmt::format("{}", format.frame_rate),
+          "-i",
+          "pipe:0",
+          "-vf",
+          "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+          "-colorspace",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "iec61966-2-1",
+          "-color_range",
+          "tv",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "medium",
+          "-crf",
+          "18",
+          "-pix_fmt",
+          "yuv420p",
+          "-movflags",
+          "+faststart",
+          "file:" + path.string()};
+}
+
+}  // namespace
+
+bool VideoFile::has_encoder() { return find_program("ffmpeg").has_value(); }
+
+VideoFile::VideoFile(const std::filesystem::path& path, const VideoFormat& format) : path_(path), format_(format) {
+  static_cast<void>(WholeFile(path));  // makes the folder, and tells whether one may write there
+  encoder_.emplace(encoder(), arguments_for(path, format));
+}
+
+void VideoFile::write(const render::Image& image) {
+  PLIANT_EXPECT(image.width == format_.width && image.height == format_.height);
+  PLIANT_EXPECT(image.pixels.size() == std::size_t{3} * image.width * image.height);
+  if (encoder_->write(std::as_bytes(std::span(image.pixels)))) return;
+  const ProgramPipe::End end = encoder_->finish();
+  encoder_.reset();
+  throw failed(path_, end.last_line);
+}
+
+void VideoFile::close() {
+  const ProgramPipe::End end = encoder_->finish();
+  encoder_.reset();
+  if (!end.succeeded) throw failed(path_, end.last_line);
+}
+
+}  // namespace pliant

@@ -1,0 +1,63 @@
+// What ffmpeg is told and given, by a script in its place.
+#include "output/video.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/read_text.hpp"
+#include "support/expect_error.hpp"
+#include "support/scratch.hpp"
+#include "support/stand_in.hpp"
+
+namespace pliant {
+namespace {
+
+using test::ScratchFolder;
+using test::StandIn;
+
+render::Image picture(std::uint8_t value) { return {6, 4, std::vector<std::uint8_t>(72, value)}; }
+
+// Writes its arguments and its input beside itself.
+const std::string recorder = "printf '%s\\n' \"$@\" > \"$0.arguments\"\ncat > \"$0.input\"\n";
+
+TEST_CASE("ffmpeg is given every picture's bytes in order, their size and rate, and the file's place") {
+  const ScratchFolder folder;
+  const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
+  CHECK(VideoFile::has_encoder());
+  VideoFile video(folder.path / "new" / "a b.mp4", {6, 4, 29.5});
+  for (const int value : {1, 2, 3}) video.write(picture(static_cast<std::uint8_t>(value)));
+  video.close();
+  CHECK(read_text(folder.path / "bin/ffmpeg.input") == std::string(72, '\1') + std::string(72, '\2') + std::string(72, '\3'));
+  const std::string arguments = read_text(folder.path / "bin/ffmpeg.arguments");
+  for (const char* part : {"-f\nrawvideo\n", "-pixel_format\nrgb24\n", "-video_size\n6x4\n", "-framerate\n29.5\n", "-i\npipe:0\n",
+                           "-c:v\nlibx264\n", "-pix_fmt\nyuv420p\n"})
+    CHECK_THAT(arguments, Catch::Contains(part));
+  CHECK(arguments.ends_with("\nfile:" + (folder.path / "new" / "a b.mp4").string() + "\n"));
+}
+
+TEST_CASE("an ffmpeg that fails is an error with its last line, at once or at the end") {
+  const ScratchFolder folder;
+  const std::string complaint = "echo first >&2\necho no such codec >&2\nexit 1\n";
+  {
+    const StandIn ffmpeg(folder.path / "bin", "ffmpeg", "cat > /dev/null\n" + complaint);
+    VideoFile video(folder.path / "a.mp4", {6, 4, 60});
+    video.write(picture(1));
+    check_says(error_of([&] { video.close(); }), {"a.mp4", "ffmpeg failed: no such codec", "--frames png"});
+  }
+  const StandIn ffmpeg(folder.path / "bin", "ffmpeg", complaint);
+  VideoFile video(folder.path / "a.mp4", {6, 4, 60});
+  const Error error = error_of([&] {
+    for (;;) video.write(picture(1));
+  });
+  CHECK(error.kind() == ErrorKind::command_line);
+  check_says(error, {"a.mp4", "ffmpeg failed: no such codec"});
+}
+
+TEST_CASE("a video in a place that can't be written is an error before ffmpeg is started") {
+  const ScratchFolder folder;
+  const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
+  CHECK(error_of([&] { VideoFile(folder.path, {6, 4, 60}); }).kind() == ErrorKind::command_line);
+  CHECK(error_of([&] { VideoFile("/dev/null/a.mp4", {6, 4, 60}); }).kind() == ErrorKind::command_line);
+}
+
+}  // namespace
+}  // namespace pliant
