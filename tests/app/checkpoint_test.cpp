@@ -79,9 +79,7 @@ void check_killed_run(const std::string& simulation, const std::string& options)
   check_same_run(whole, killed);
 }
 
-TEST_CASE("a run that is killed and resumed ends as one that is not, to the bit") {
-  check_killed_run(verlet, " --device cpu");
-}
+TEST_CASE("a run that is killed and resumed ends as one that is not, to the bit") { check_killed_run(verlet, " --device cpu"); }
 
 TEST_CASE("a killed run is resumed with the options it had, in either precision and with steps of adaptive length", "[long]") {
   check_killed_run(verlet, " --device cpu --precision 64 --integrator cv8 --set body.left.stiffness=10");
