@@ -79,9 +79,9 @@ class Simulation {
 
   /// Queues steps of a fixed length; they may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
-  /// With a tolerance instead: queues as many steps as may reach `time` [s], most_steps_at_once at most, waits, and reports. The
-  /// last one ends there exactly; what is queued beyond it is empty.
-  StepReport advance_toward(double time);
+  /// With a tolerance instead: queues as many steps as may reach `time` [s], `most_steps` at most, waits, and reports. The
+  /// last one ends there exactly; what is queued beyond it is empty. The same bits, however many are queued at a time.
+  StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);
   /// Goes on until report().time is `time` [s], or a step was non-finite.
   StepReport advance_to(double time);
   /// From here on the device waits after each pass, and notes what each kind of pass takes. Slower: see run_timed.

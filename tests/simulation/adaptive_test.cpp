@@ -73,6 +73,20 @@ double largest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm:
 
 }  // namespace
 
+TEST_CASE("steps that a tolerance governs have the same bits, however many are queued at a time") {
+  const auto device = make_cpu_device(2, 32);
+  const ModelAndState start = squashed();
+  const double time = 5 / stiffest_omega(start.model);
+  const Adaptive adaptive{};
+  Run all_at_once(*device, start, adaptive), few(*device, start, adaptive);
+  const StepReport expected = all_at_once.simulation.advance_to(time);
+  CHECK(expected.steps > 5);
+  for (std::uint64_t most = 1; few.simulation.report().time < time; most = most % 4 + 1)
+    few.simulation.advance_toward(time, most);
+  CHECK(few.simulation.report() == expected);
+  CHECK(same_bits(few.simulation.state(), all_at_once.simulation.state()));
+}
+
 TEST_CASE("the error of a run follows the tolerance") {
   const auto device = make_cpu_device(2, 64);
   const ModelAndState start = squashed();
