@@ -58,6 +58,18 @@ physics::Pace first_pace(const Model& model, const StagedMethod& method, const P
 
 }  // namespace
 
+std::uint64_t steps_toward(double target, const physics::Pace& pace, std::uint64_t most) {
+  const bool is_new = pace.allowed <= pace.first_step;
+  const double longest = std::max(pace.allowed, pace.accepted == 0 ? pace.largest_step : pace.largest_taken);
+  double left = target - pace.time, step = pace.allowed;
+  std::uint64_t steps = 0;
+  for (; left > 0 && steps < most; ++steps) {
+    left -= physics::fitted_step(step, left);
+    if (is_new) step = std::min(step * physics::largest_growth(), longest);
+  }
+  return steps;
+}
+
 Pacer::Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator,
              DampingLaw law, const PaceLimits& limits)
     : device_(device), bodies_(bodies), stepper_(stepper) {

@@ -20,6 +20,11 @@ struct PaceLimits {
   double largest_step = 0;  // [s]; may be infinite
 };
 
+/// How many steps to queue toward `target` [s], `most` at most: what is beyond it costs time for nothing, and so does waiting for
+/// another report. Where steps are short because a motion is new, at the start or after a contact, they are taken to grow as
+/// fast as they may, up to the longest so far.
+[[nodiscard]] std::uint64_t steps_toward(double target, const physics::Pace& pace, std::uint64_t most);
+
 class Pacer {
  public:
   /// Expects a stepper with Stages::of_estimates, of a method that estimates_error. All references but the model must outlive

@@ -129,8 +129,7 @@ void Simulation::advance(std::uint64_t steps) {
 StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {
   PLIANT_EXPECT(pacer_.has_value());
   pacer_->aim_at(time);
-  const double wanted = std::ceil((time - known_pace_.time) / known_pace_.allowed);
-  if (wanted > 0) queue(static_cast<std::uint64_t>(std::min(wanted, static_cast<double>(most_steps))));
+  queue(steps_toward(time, known_pace_, most_steps));
   return report();
 }
 

@@ -1,10 +1,10 @@
-// The controller of adaptive steps by itself: physics/pace.glsl.
-#include "physics/pace.glsl"
-
+// The controller of adaptive steps by itself, physics/pace.glsl, and how many steps are queued for it.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
+
+#include "dynamics/pacer.hpp"
 
 namespace pliant {
 namespace {
@@ -39,6 +39,13 @@ void touch(Pace& pace, glm::vec3 way) {
   extend(pace.least_x, pace.most_x, way.x);
   extend(pace.least_y, pace.most_y, way.y);
   extend(pace.least_z, pace.most_z, way.z);
+}
+
+// The steps to a target where each has this error, by the controller.
+std::uint64_t steps_taken(Pace pace, double target, float error) {
+  pace.target = target;
+  while (pace.time < target) judge_with(pace, physics::next_step(pace), error);
+  return pace.accepted;
 }
 
 float joined(float e, float f) {
@@ -165,6 +172,28 @@ TEST_CASE("targets up to a free step apart cost a step each and no rejection, ho
       CHECK(pace.accepted == 80);
       CHECK(pace.rejected == 0);
     }
+}
+
+TEST_CASE("queued steps are no more than smooth motion takes, and at most one fewer") {
+  const Pace at_start = pace_with(1e-6);
+  Pace steady = at_start;
+  for (int k = 0; k < 40; ++k) judge_with(steady, physics::next_step(steady), 1e-7f);
+  Pace after_contact = at_start;
+  for (int k = 0; k < 10; ++k) judge_with(after_contact, physics::next_step(after_contact), 0);
+  touch(after_contact, {0.01f, 0, 0});
+  judge_with(after_contact, physics::next_step(after_contact), 0);
+  CHECK(after_contact.allowed < 0.02);
+  for (const double time : {1e-6, 0.01, 0.0123, 0.05, 1.7, 10.0}) {
+    CAPTURE(time);
+    for (const auto& [pace, error] : {std::pair(at_start, 0.0f), std::pair(steady, 1e-7f), std::pair(after_contact, 0.0f)}) {
+      const std::uint64_t taken = steps_taken(pace, pace.time + time, error) - pace.accepted;
+      const std::uint64_t queued = steps_toward(pace.time + time, pace, 10'000);
+      CHECK(queued <= taken);
+      CHECK(queued + 1 >= taken);
+    }
+  }
+  CHECK(steps_toward(at_start.time, at_start, 1000) == 0);
+  CHECK(steps_toward(1e9, at_start, 32) == 32);
 }
 
 TEST_CASE("no step is longer than the longest one") {

@@ -58,6 +58,9 @@ FN double next_step(IN(Pace) pace) { return fitted_step(pace.allowed, pace.targe
 // against 0.4, with exponents 0.7 and 0.4, forces are summed 10 to 16 % less often where damping is kinked and no more often elsewhere.
 FN double aimed_error() { return double(1) / double(10); }
 
+// No step is longer than the one before by more than this factor.
+FN double largest_growth() { return double(6); }
+
 FN void forget_step(INOUT(Pace) pace) {
   pace.error = 0u;
   pace.least_x = pace.least_y = pace.least_z = 0xffffffffu;
@@ -99,7 +102,7 @@ FN double power_of_error(double error, float exponent) {
 FN double after_acceptance(IN(Pace) pace, double error) {
   float k = float(pace.estimate_order);
   double factor = power_of_error(error, -0.5f / k) * power_of_error(pace.error_before, 0.2f / k);
-  return clamp(factor, double(1) / double(3), double(6));
+  return clamp(factor, double(1) / double(3), largest_growth());
 }
 
 FN double after_rejection(IN(Pace) pace, double error) {
@@ -109,7 +112,7 @@ FN double after_rejection(IN(Pace) pace, double error) {
 // After a step that was cut short for the target. Its small error is no reason for short steps, and says how long a free one may be;
 // right after a rejection that is not tried.
 FN double after_cut(IN(Pace) pace, double taken, double error) {
-  double free_step = taken * min(power_of_error(error, -1.0f / float(pace.estimate_order)), double(6));
+  double free_step = taken * min(power_of_error(error, -1.0f / float(pace.estimate_order)), largest_growth());
   return pace.rejected_before != 0u ? pace.allowed : max(free_step, pace.allowed);
 }
 
