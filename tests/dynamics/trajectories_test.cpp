@@ -56,17 +56,34 @@ TEST_CASE("fp32 forces keep small bodies near the fp64 trajectory", "[gl]") {
   check_trajectories(2, {9e-7, 4e-7});
 }
 
-// Where roundings of placements add up instead of cancelling, 2.6e-7 to 2.9e-7 are measured.
-TEST_CASE("within a step roundings of placements cancel", "[gl]") {
-  for (const double amplitude : {0.2, 0.15, 0.1}) {
-    const ModelAndState start = flattened_sphere(2, amplitude);
-    const Method method{"cv8", 0.5 / stiffest_omega(start.model)};
-    const State exact = evolve(*make_cpu_device(2, 64), start, method, 200);
-    for (const TestDevice& test : all_devices()) {
-      CAPTURE(test.name, amplitude);
-      if (test.name == "gpu") CHECK(relative_distance(start, evolve(*test.device, start, method, 200), exact) < 2e-7);
+struct Cancelling {
+  const char* integrator;
+  double omega_step, bound;
+};
+
+// The bounds lie midway, by factors, between what is measured on llvmpipe where roundings of placements cancel and where they add
+// up. Large weights that nearly cancel, dop853's and above all vern8's, magnify what is left.
+void check_cancelling(std::initializer_list<Cancelling> cases) {
+  const std::vector<TestDevice> devices = all_devices();
+  if (devices.back().name != "gpu") return;
+  for (const auto& [integrator, omega_step, bound] : cases) {
+    double sum = 0;
+    for (const double amplitude : {0.2, 0.15, 0.1}) {
+      const ModelAndState start = flattened_sphere(2, amplitude);
+      const Method method{integrator, omega_step / stiffest_omega(start.model)};
+      const State exact = evolve(*make_cpu_device(2, 64), start, method, 200);
+      sum += std::pow(relative_distance(start, evolve(*devices.back().device, start, method, 200), exact), 2);
     }
+    CAPTURE(integrator);
+    CHECK(std::sqrt(sum / 3) < bound);
   }
+}
+
+TEST_CASE("within a step roundings of placements cancel", "[gl]") { check_cancelling({{"cv8", 0.5, 1.9e-7}}); }
+
+TEST_CASE("within a step roundings of placements cancel, by every method's own weights", "[gl][long]") {
+  check_cancelling(
+      {{"dop853", 0.5, 2.3e-6}, {"vern8", 0.5, 1.7e-5}, {"rk4", 1, 7e-7}, {"dprkn8", 1, 9e-7}, {"dprkn12", 1, 1.2e-6}});
 }
 
 TEST_CASE("fp32 forces on a GPU keep a body of 642 vertices within 1e-7 of the fp64 trajectory", "[gl][long]") {
