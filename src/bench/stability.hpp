@@ -28,6 +28,7 @@ struct LimitRow {
   double stiffness = 0;                 // k [N/m]
   double damping = 0;                   // c [kg/s]; 0: undamped
   double amplitude = 0;                 // of the breathing, or how much the body is squashed
+  std::uint64_t steps = 0;              // that each length was tried for
   double predicted_step = 0;            // [s]
   std::optional<double> measured_step;  // [s]; null: stable as far as was tried
 };

@@ -18,10 +18,12 @@ namespace {
 
 constexpr double growth_limit = 1e-4;  // of amplitude, a step; as dynamics/stability.hpp has it
 constexpr double growth_in_all = 1e4;  // of energy; undamped splittings swing by 200 a quarter of a percent below their limit
-constexpr double blow_up = 30;         // of energy; they swing by 10 at 0.95 of it
 constexpr double still = 0.01;         // of the start's energy: what is left of a body at rest
 constexpr std::uint64_t judged_stride = 4;
 constexpr std::uint64_t window = 1000;
+constexpr int growth_samples = 64;
+constexpr std::uint64_t growth_stride = 7;
+static_assert(2 * growth_samples * growth_stride == steps_of_growth);
 
 CollisionDescription alone() {
   CollisionDescription description;
@@ -129,13 +131,11 @@ TimePlan plan_of(const Integrator& integrator, DampingLaw law, double time_step)
 }
 
 bool grows(Device& device, const ModelAndState& start, const TimePlan& plan) {
-  constexpr int samples = 64;
-  constexpr std::uint64_t stride = 7;
   Experiment experiment(device, start, plan);
-  const double before = experiment.largest_energy(samples, stride);
+  const double before = experiment.largest_energy(growth_samples, growth_stride);
   if (!std::isfinite(before)) return true;
-  const double after = experiment.largest_energy(samples, stride);
-  const double allowed = std::pow(1 + growth_limit, 2.0 * samples * stride), at_start = energy_of(start);
+  const double after = experiment.largest_energy(growth_samples, growth_stride);
+  const double allowed = std::pow(1 + growth_limit, 2.0 * growth_samples * growth_stride), at_start = energy_of(start);
   return !(after <= std::max(allowed * before, 1e-6 * at_start)) || after > growth_in_all * at_start;
 }
 
@@ -172,15 +172,16 @@ Verdict judge(Device& device, const ModelAndState& start, const TimePlan& plan, 
     last_quarter.kinetic = std::max(last_quarter.kinetic, now.kinetic);
     last_quarter.elastic = std::max(last_quarter.elastic, now.elastic);
   }
-  if (largest > blow_up * before) return {Outcome::blown_up, last / before};
+  if (largest > blow_up_growth * before) return {Outcome::blown_up, last / before};
   if (last_quarter.kinetic > still * before) return {Outcome::stable, last / before};
   return {last_quarter.elastic > still * before ? Outcome::creeping : Outcome::damped, last / before};
 }
 
-std::optional<double> first_blow_up(Device& device, const ModelAndState& start, const TimePlan& plan, double predicted) {
-  for (int percent = 40; percent <= 120; percent += 2) {
+std::optional<double> first_blow_up(Device& device, const ModelAndState& start, const TimePlan& plan, double predicted,
+                                    std::uint64_t steps) {
+  for (int percent = 10; percent <= 120; percent += 2) {
     const double time_step = 0.01 * percent * predicted;
-    if (judge(device, start, with_step(plan, time_step), 400).outcome == Outcome::blown_up) return time_step;
+    if (judge(device, start, with_step(plan, time_step), steps).outcome == Outcome::blown_up) return time_step;
   }
   return {};
 }

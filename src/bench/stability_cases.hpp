@@ -32,9 +32,12 @@ void breathe(ModelAndState& start, double amplitude);
 
 [[nodiscard]] TimePlan plan_of(const Integrator& integrator, DampingLaw law, double time_step /* [s] */);
 
-/// Whether motion grows by more than 1e-4 a step: the largest energy of 64 samples, seven steps apart, against that of the 64
-/// before; or 1e4-fold in all: a Runge-Kutta method just beyond its limit ends in steady wild motion, the body turning inside
-/// out. What has died down to a millionth of the start's energy does not count. Expects a start of small amplitude.
+inline constexpr std::uint64_t steps_of_growth = 896;
+
+/// Within so many steps, whether motion grows by more than 1e-4 a step: the largest energy of 64 samples, seven steps apart,
+/// against that of the 64 before; or 1e4-fold in all: a Runge-Kutta method just beyond its limit ends in steady wild motion, the
+/// body turning inside out. What has died down to a millionth of the start's energy does not count. Expects a start of small
+/// amplitude.
 [[nodiscard]] bool grows(Device& device, const ModelAndState& start, const TimePlan& plan);
 
 /// The shortest step at which the motion grows, to 0.25 %, searched outward from below `predicted` [s], and finely just beyond
@@ -47,7 +50,7 @@ enum class Outcome {
   damped,    // at rest in its own shape: kinetic and elastic energy stayed below a hundredth of the start's energy in the last
              // quarter
   creeping,  // kinetic energy did: so damped that it is not back in its shape yet
-  blown_up,  // a vertex was not finite at some time, or the energy above 30 times the start's
+  blown_up,  // a vertex was not finite at some time, or the energy above blow_up_growth times the start's
 };
 
 struct Verdict {
@@ -58,10 +61,10 @@ struct Verdict {
 /// Over so many steps, looked at every four: at least 16.
 [[nodiscard]] Verdict judge(Device& device, const ModelAndState& start, const TimePlan& plan, std::uint64_t steps);
 
-/// The shortest step that blows up within 400 steps, of those every 2 % of `predicted` [s] from 0.4 to 1.2 of it; empty where
+/// The shortest step that blows up within `steps` steps, of those every 2 % of `predicted` [s] from 0.1 to 1.2 of it; empty where
 /// none does. `plan`'s own step does not matter.
 [[nodiscard]] std::optional<double> first_blow_up(Device& device, const ModelAndState& start, const TimePlan& plan,
-                                                  double predicted);
+                                                  double predicted, std::uint64_t steps);
 
 /// Relative change of the energy between the first and the last thousand steps, each averaged so smoothly that the oscillation
 /// of a symplectic method's energy cancels. Expects 2000 steps or more.

@@ -22,6 +22,7 @@ void add_limit(StabilityTasks& tasks, const Integrator& integrator, const Place&
                     body.stiffness,
                     damping,
                     small_amplitude,
+                    steps_of_growth,
                     predicted,
                     find_limit(device, start, plan, predicted)};
   });
@@ -34,26 +35,29 @@ void add_small_limits(StabilityTasks& tasks) {
     for (const Place& place : tasks.places())
       for (const Sphere& body : bodies) add_limit(tasks, integrator, place, body, 0);
   const Sphere body{1, 40};
-  for (const char* name : {"verlet", "cv8", "dop853"})
+  for (const char* name : {"verlet", "cv8", "dop853", "dprkn8", "dprkn12"})
     for (const double rate : {0.5, 2.0, 8.0})  // over omega
       add_limit(tasks, find_integrator(name), tasks.places().front(), body, rate * body.omega());
 }
 
 void add_large_limit(StabilityTasks& tasks, const Integrator& integrator, const Place& place, double amplitude) {
   const Sphere body{.squash = amplitude};
-  tasks.add("limits", integrator, place, body.vertex_count(), 16'000, [=, &integrator](Device& device) {
-    const double predicted = step_bound(integrator, body.body(), DampingLaw::none);
-    const TimePlan plan = plan_of(integrator, DampingLaw::none, predicted);
-    return LimitRow{std::string(integrator.name),
-                    place.device,
-                    place.precision,
-                    body.vertex_count(),
-                    body.stiffness,
-                    0,
-                    amplitude,
-                    predicted,
-                    first_blow_up(device, body.build(), plan, predicted)};
-  });
+  const std::uint64_t steps = tasks.is_quick() ? 2'000 : 20'000;
+  tasks.add("limits", integrator, place, body.vertex_count(), 25.0 * static_cast<double>(steps),
+            [=, &integrator](Device& device) {
+              const double predicted = step_bound(integrator, body.body(), DampingLaw::none);
+              const TimePlan plan = plan_of(integrator, DampingLaw::none, predicted);
+              return LimitRow{std::string(integrator.name),
+                              place.device,
+                              place.precision,
+                              body.vertex_count(),
+                              body.stiffness,
+                              0,
+                              amplitude,
+                              steps,
+                              predicted,
+                              first_blow_up(device, body.build(), plan, predicted, steps)};
+            });
 }
 
 // Large motion is not linear: the longer a step is against a period, the more of its bound that costs.

@@ -22,9 +22,9 @@ const char* name_of(Outcome outcome) {
 std::string line(const LimitRow& row) {
   const std::string step = row.measured_step ? fmt::format("{:.5g}", 1e3 * *row.measured_step) : "-";
   const std::string ratio = row.measured_step ? fmt::format("{:.3f}", *row.measured_step / row.predicted_step) : "-";
-  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8.4g} {:>9} {:>13.5g} {:>12} {:>7}\n", row.integrator, row.device,
-                     row.precision, row.vertices, row.stiffness, row.damping, row.amplitude, 1e3 * row.predicted_step, step,
-                     ratio);
+  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8.4g} {:>9} {:>6} {:>13.5g} {:>12} {:>7}\n", row.integrator, row.device,
+                     row.precision, row.vertices, row.stiffness, row.damping, row.amplitude, row.steps, 1e3 * row.predicted_step,
+                     step, ratio);
 }
 
 std::string line(const DriftRow& row) {
@@ -83,6 +83,7 @@ Json row_json(const LimitRow& row) {
           {"stiffness", row.stiffness},
           {"damping", row.damping},
           {"amplitude", row.amplitude},
+          {"steps", row.steps},
           {"predicted_step", row.predicted_step},
           {"measured_step", finite_or_null(row.measured_step)}};
 }
@@ -137,8 +138,8 @@ Json row_json(const ErrorRow& row) {
 
 std::string to_table(const StabilityResult& result) {
   std::string table = lines_of<LimitRow>(
-      result, fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8} {:>9} {:>13} {:>12} {:>7}\n", "limits", "device", "bits",
-                          "vertices", "k", "c", "amplitude", "predicted, ms", "measured, ms", "ratio"));
+      result, fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8} {:>9} {:>6} {:>13} {:>12} {:>7}\n", "limits", "device", "bits",
+                          "vertices", "k", "c", "amplitude", "steps", "predicted, ms", "measured, ms", "ratio"));
   table += maps(result);
   table += lines_of<DriftRow>(result, fmt::format("{:<10} {:<6} {:>4} {:>8} {:>8} {:>13} {:>13}\n", "energy", "device", "bits",
                                                   "vertices", "steps", "drift", "the method's"));
