@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/checksum.hpp"
+#include "core/error.hpp"
 #include "core/read_text.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
@@ -10,26 +11,28 @@
 namespace pliant::app {
 namespace {
 
-// The scene's method gives way where it can't meet the tolerance of an option; one that an option names as well does not.
-void take_automatic_integrator(SimulationDescription& simulation) {
-  const auto& [name, where] = simulation.integrator;
-  if (where.starts_with("--") || name == "auto" || estimates_error(find_integrator(name, where))) return;
-  simulation.integrator = {"auto", "--tolerance"};
+// An option replaces what the scene says; but with --set both come from the command line.
+void expect_one_of(const std::string& option, const std::string& key, const RunOptions& options) {
+  for (const std::string& override : options.overrides)
+    if (override.substr(0, override.find_first_of("= ")) == key)
+      throw Error(ErrorKind::command_line, option, fmt::format("--set {} is given, too, and steps follow one of them", override),
+                  "give one of them");
 }
 
 SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
   SceneDescription scene = parse_scene(text, options.scene, options.overrides);
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
   if (options.time_step) {
+    expect_one_of("--time-step", "simulation.tolerance", options);
     scene.simulation.time_step = options.time_step;
     scene.simulation.tolerance.reset();
     scene.simulation.length_where = "--time-step";
   }
   if (options.tolerance) {
+    expect_one_of("--tolerance", "simulation.time_step", options);
     scene.simulation.tolerance = options.tolerance;
     scene.simulation.tolerance_where = "--tolerance";
     scene.simulation.time_step.reset();
-    take_automatic_integrator(scene.simulation);
   }
   if (options.duration) {
     scene.simulation.duration = *options.duration;
@@ -43,7 +46,8 @@ std::uint64_t checksum_of(const TriangleMesh& mesh) {
 }
 
 void warn_of_integrator(PreparedRun& run) {
-  if (run.scene.simulation.integrator.where == "--tolerance")
+  const std::string& name = run.scene.simulation.integrator.value;
+  if (name != "auto" && name != run.plan.integrator->name)
     run.warnings.push_back(fmt::format("the scene's integrator can't meet a tolerance: {} is taken, as by --integrator auto",
                                        run.plan.integrator->name));
 }
@@ -84,7 +88,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.load_time.stop();
   run.build_time.start();
   run.device = choose_device(options.device);
-  expect_carried(run.scene, run.device->precision());
+  expect_carried(run.scene, run.plan, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   warn_of_integrator(run);
   warn_of_step(run);

@@ -26,7 +26,8 @@ std::vector<const Integrator*> adaptive_methods(DampingLaw law, int precision) {
   std::vector<const Integrator*> methods{&find_integrator("dop853")};
   for (const double tolerance : all_tolerances) {
     const Integrator& automatic = automatic_integrator(tolerance, law);
-    if (carries(precision, tolerance) && std::ranges::find(methods, &automatic) == methods.end()) methods.push_back(&automatic);
+    if (tolerance >= smallest_tolerance(automatic, precision) && std::ranges::find(methods, &automatic) == methods.end())
+      methods.push_back(&automatic);
   }
   return methods;
 }
@@ -55,7 +56,7 @@ bool Sweeps::tolerances(Device& device, const Place& place) {
     const auto run = [this, &device, integrator](double tolerance) {
       return run_tolerance(device, what_, *integrator, tolerance);
     };
-    if (!sharpen_tolerance(like, name_of(place), run)) return false;
+    if (!sharpen_tolerance(like, name_of(place), smallest_tolerance(*integrator, place.precision), run)) return false;
   }
   return true;
 }
@@ -66,7 +67,7 @@ bool Sweeps::peers() {
     const PrecisionRow like{
         .case_name = what_.name, .library = method.library, .method = method.name, .adaptive = method.adaptive};
     const auto run = [this, method](double effort) { return run_peer(*system_, what_, method, effort); };
-    const bool on = method.adaptive ? sharpen_tolerance(like, method.library, run)
+    const bool on = method.adaptive ? sharpen_tolerance(like, method.library, 0, run)
                                     : shorten_steps(like, method.library, contest_refinement, run);
     if (!on) return false;
   }
@@ -119,9 +120,9 @@ bool Sweeps::goes_on(const std::string& where, const PrecisionRow& like) const {
   return go_on_(fmt::format("{}, {}, {}{}", what_.name, where, like.method, like.adaptive ? " (adaptive)" : ""));
 }
 
-bool Sweeps::may_go_on(const Course& course) const {
-  return course.without_progress < 2 && course.next_seconds <= limits_.longest_run &&
-         course.next_evaluations <= limits_.most_evaluations;
+bool Sweeps::may_go_on(const Trend& trend) const {
+  return trend.without_progress < 2 && trend.next_seconds <= limits_.longest_run &&
+         trend.next_evaluations <= limits_.most_evaluations;
 }
 
 // With which a method is stable enough to end near the truth: from steps of 1 rad on by doubling and halving, then by bisection.
@@ -141,45 +142,45 @@ double Sweeps::fewest_steps(const RunAt& run) const {
 
 bool Sweeps::shorten_steps(PrecisionRow like, const std::string& where, double factor, const RunAt& run) {
   if (!goes_on(where, like)) return false;
-  Course course;
-  for (double wanted = fewest_steps(run); may_go_on(course); wanted *= factor) {
+  Trend trend;
+  for (double wanted = fewest_steps(run); may_go_on(trend); wanted *= factor) {
     const double steps = std::round(wanted);
     like.step = what_.omega * what_.duration / steps;
     if (!goes_on(where, like)) return false;
-    measure(like, steps, run, factor, course);
+    measure(like, steps, run, factor, trend);
   }
   return true;
 }
 
-bool Sweeps::sharpen_tolerance(PrecisionRow like, const std::string& where, const RunAt& run) {
+bool Sweeps::sharpen_tolerance(PrecisionRow like, const std::string& where, double smallest, const RunAt& run) {
   if (!goes_on(where, like)) return false;
   static_cast<void>(run(all_tolerances[0]));  // builds the kernels
-  Course course;
+  Trend trend;
   for (const double tolerance : all_tolerances) {
-    if (!carries(like.precision, tolerance) || !may_go_on(course)) break;
+    if (tolerance < smallest || !may_go_on(trend)) break;
     like.tolerance = tolerance;
     if (!goes_on(where, like)) return false;
-    measure(like, tolerance, run, tolerance_growth, course);
+    measure(like, tolerance, run, tolerance_growth, trend);
   }
   return true;
 }
 
-void Sweeps::measure(PrecisionRow row, double effort, const RunAt& run_at, double growth, Course& course) {
+void Sweeps::measure(PrecisionRow row, double effort, const RunAt& run_at, double growth, Trend& trend) {
   const Run run = run_at(effort);
   row.evaluations = run.evaluations;
   row.contact_steps = run.contact_steps;
   row.error = relative_error(what_, reference_.ending, run.ending);
-  const bool worked_more = run.evaluations > course.evaluations;  // not where steps are as long as stability lets them be
-  course.evaluations = run.evaluations;
-  course.next_seconds = growth * run.seconds;
-  course.next_evaluations = growth * static_cast<double>(run.evaluations);
+  const bool worked_more = run.evaluations > trend.evaluations;  // not where steps are as long as stability lets them be
+  trend.evaluations = run.evaluations;
+  trend.next_seconds = growth * run.seconds;
+  trend.next_evaluations = growth * static_cast<double>(run.evaluations);
   if (!(row.error < largest_error)) return;
-  if (row.error < falling * course.best_error)
-    course.without_progress = 0;
+  if (row.error < falling * trend.best_error)
+    trend.without_progress = 0;
   else if (worked_more)
-    ++course.without_progress;
-  course.best_error = std::min(course.best_error, row.error);
-  if (row.error <= reference_.error) course.without_progress = 2;  // less can't be told
+    ++trend.without_progress;
+  trend.best_error = std::min(trend.best_error, row.error);
+  if (row.error <= reference_.error) trend.without_progress = 2;  // less can't be told
   measured_.push_back({std::move(row), run_at, effort, {run.seconds}});
 }
 

@@ -59,7 +59,7 @@ class Sweeps {
   };
 
   // Of one method; the next run is expected to take what the last one took, times the growth of work.
-  struct Course {
+  struct Trend {
     double next_seconds = 0, next_evaluations = 0, best_error = INFINITY;
     std::uint64_t evaluations = 0;  // of the last one
     int without_progress = 0;       // runs that took more of them
@@ -67,11 +67,11 @@ class Sweeps {
 
   [[nodiscard]] PrecisionRow row_like(const Integrator& integrator, const Place& place) const;
   [[nodiscard]] bool goes_on(const std::string& where, const PrecisionRow& like) const;
-  [[nodiscard]] bool may_go_on(const Course& course) const;
+  [[nodiscard]] bool may_go_on(const Trend& trend) const;
   [[nodiscard]] double fewest_steps(const RunAt& run) const;
   bool shorten_steps(PrecisionRow like, const std::string& where, double factor, const RunAt& run);
-  bool sharpen_tolerance(PrecisionRow like, const std::string& where, const RunAt& run);
-  void measure(PrecisionRow row, double effort, const RunAt& run_at, double growth, Course& course);
+  bool sharpen_tolerance(PrecisionRow like, const std::string& where, double smallest, const RunAt& run);
+  void measure(PrecisionRow row, double effort, const RunAt& run_at, double growth, Trend& trend);
 
   const PrecisionCase& what_;
   Reference reference_;

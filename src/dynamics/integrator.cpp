@@ -128,7 +128,7 @@ const Integrator& find_integrator(std::string_view name, const std::string& wher
   std::vector<std::string_view> names;
   std::ranges::transform(all, std::back_inserter(names), &Integrator::name);
   throw Error(fault_of(where), where, fmt::format("there is no integrator \"{}\"", name),
-              fmt::format("choose one of {}", fmt::join(names, ", ")));
+              fmt::format("choose one of {}; with a tolerance also auto", fmt::join(names, ", ")));
 }
 
 const StagedMethod* staged_method(const Integrator& integrator) {

@@ -12,6 +12,9 @@ namespace pliant {
 /// Where a tolerance governs the steps the first one is so much of the bound, or one frame if that is shorter.
 inline constexpr double first_step_fraction = 0.1;
 
+/// Of what a strained body bears: the automatic step.
+inline constexpr double automatic_step_safety = 0.9;
+
 struct TimePlan {
   const Integrator* integrator = nullptr;
   double time_step = 0;                       // [s]; with a tolerance the first step, and the one after a contact
@@ -31,14 +34,15 @@ struct TimePlan {
 };
 
 /// `steps` replaces the scene's duration. Throws Error (fault_of the scene's `where`) for an unknown integrator, for one that
-/// cannot meet the scene's damping or does not estimate the error that the scene's tolerance is for, for integrator = "auto"
-/// without a tolerance, for steps with one, and for a duration of more than 3e8 steps.
+/// cannot meet the scene's damping, has no room for its rates or can't estimate the error that the scene's tolerance is for, for
+/// steps too long to resolve damping, for integrator = "auto" without a tolerance, for steps with one, and for a duration of more
+/// than 3e8 steps. A scene's integrator that cannot meet the tolerance of --tolerance gives way to what "auto" takes.
 [[nodiscard]] TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps = {});
 
-/// Whether steps can meet the tolerance with forces of so many bits.
-[[nodiscard]] bool carries(int precision, double tolerance);
+/// That steps can meet by this method with forces of so many bits.
+[[nodiscard]] double smallest_tolerance(const Integrator& integrator, int precision);
 
-/// Throws Error (fault_of the scene's `where`) if the scene's tolerance is below what forces of so many bits carry.
-void expect_carried(const SceneDescription& scene, int precision);
+/// Throws Error (fault_of the scene's `where`) if the plan's tolerance is below that.
+void expect_carried(const SceneDescription& scene, const TimePlan& plan, int precision);
 
 }  // namespace pliant

@@ -208,22 +208,62 @@ TEST_CASE("an automatic integrator estimates its error, whatever the law and the
 }
 
 TEST_CASE("a tolerance below what fp32 carries is an error where it stands, unless forces are in fp64") {
-  SceneDescription scene = scene_with("dop853", DampingLaw::none);
-  CHECK_NOTHROW(expect_carried(scene, 32));
-  scene.simulation.tolerance_where = "scene.toml:4: simulation.tolerance";
-  scene.simulation.tolerance = 1e-7;
-  CHECK_NOTHROW(expect_carried(scene, 32));
-  scene.simulation.tolerance = 0.99e-7;
-  CHECK_NOTHROW(expect_carried(scene, 64));
-  const auto check_carried = [&] {
-    expect_carried(scene, 32);
-    return 0;
+  const Model model = built(sphere(0)).model;
+  struct Case {
+    const char* integrator;
+    double smallest;
+    const char* says;
   };
-  const Error error = error_of(check_carried);
-  CHECK(error.kind() == ErrorKind::input);
-  check_says(error, {"scene.toml:4", "fp32", "1e-07", "--precision 64"});
-  scene.simulation.tolerance_where = "--tolerance";
-  CHECK(error_of(check_carried).kind() == ErrorKind::command_line);
+  for (const auto& [integrator, smallest, says] : {Case{"dop853", 1e-7, "1e-07"}, Case{"vern8", 1e-6, "1e-06"}}) {
+    SceneDescription scene = scene_with(integrator, DampingLaw::none);
+    const auto check_carried = [&](int precision) {
+      expect_carried(scene, plan_time(scene, model), precision);
+      return 0;
+    };
+    CHECK_NOTHROW(check_carried(32));
+    scene.simulation.tolerance_where = "scene.toml:4: simulation.tolerance";
+    scene.simulation.tolerance = smallest;
+    CHECK_NOTHROW(check_carried(32));
+    scene.simulation.tolerance = 0.99 * smallest;
+    CHECK_NOTHROW(check_carried(64));
+    const Error error = error_of([&] { return check_carried(32); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {"scene.toml:4", "fp32", integrator, says, "--precision 64"});
+    scene.simulation.integrator.where = scene.simulation.tolerance_where = "--tolerance";
+    CHECK(error_of([&] { return check_carried(32); }).kind() == ErrorKind::command_line);
+  }
+}
+
+TEST_CASE("a scene's method that can't meet the tolerance of an option gives way, and one that an option names does not") {
+  BodySetup setup = sphere(0);
+  setup.description.damping = 3;
+  const Model model = built(setup).model;
+  for (const Integrator& integrator : integrators())
+    for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive}) {
+      CAPTURE(integrator.name, static_cast<int>(law));
+      SceneDescription scene = scene_with(std::string(integrator.name), law);
+      scene.simulation.tolerance = 1e-4;
+      scene.simulation.tolerance_where = "--tolerance";
+      const Integrator& taken = *plan_time(scene, model).integrator;
+      CHECK(estimates_error(taken));
+      CHECK(allows_damping(taken, law));
+      scene.simulation.integrator.where = "--integrator";
+      if (&taken == &integrator)
+        CHECK_NOTHROW(plan_time(scene, model));
+      else
+        check_says(error_of([&] { return plan_time(scene, model); }), {"--integrator", "auto", "dop853"});
+    }
+}
+
+TEST_CASE("the first step of a tolerance is no longer than a frame, and the run has a limit") {
+  const Model model = built(sphere(0)).model;
+  SceneDescription scene = scene_with("dop853", DampingLaw::none);
+  scene.simulation.tolerance = 1e-6;
+  scene.output.frame_rate = 1e6;
+  scene.simulation.duration = 100;
+  CHECK(plan_time(scene, model).time_step <= 1e-6);
+  scene.simulation.duration = 301;
+  check_says(error_of([&] { return plan_time(scene, model); }), {"3e8 steps", "frame_rate"});
 }
 
 TEST_CASE("a number of steps and a tolerance exclude each other") {
