@@ -13,7 +13,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr SweepLimits full_limits{.longest_run = 1.5, .most_evaluations = 4000, .rounds = 3};
-constexpr SweepLimits quick_limits{.longest_run = 0.06, .most_evaluations = 1200, .rounds = 3};
+constexpr SweepLimits quick_limits{.longest_run = 0.15, .most_evaluations = 1200, .rounds = 3};
 
 PrecisionCaseInfo info_of(const PrecisionCase& what, double reference_error) {
   return {.name = what.name,

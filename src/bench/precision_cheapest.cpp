@@ -38,6 +38,12 @@ bool is_asked_of_contest(double error) {
   return error <= 1.001 * largest_contest_error && error >= 0.999 * smallest_contest_error;
 }
 
+// A power of ten each, of every case that counts.
+std::size_t comparisons_asked(const PrecisionResult& result) {
+  const auto cases = std::ranges::count_if(result.cases, [](const auto& info) { return info.is_contest && info.is_complete; });
+  return static_cast<std::size_t>(cases * (1 + std::lround(std::log10(largest_contest_error / smallest_contest_error))));
+}
+
 using Cost = double (*)(const PrecisionRow&);
 // Whatever else the machine does can only slow a run down.
 double seconds_of(const PrecisionRow& row) { return row.fastest_seconds; }
@@ -190,7 +196,8 @@ std::vector<ContestEntry> contest_of(const PrecisionResult& result) {
   return contest;
 }
 
-std::string verdict_of(const std::vector<ContestEntry>& contest) {
+std::string verdict_of(const PrecisionResult& result) {
+  const std::vector<ContestEntry> contest = contest_of(result);
   if (contest.empty()) return {};
   std::vector<std::string> slower;
   std::size_t faster = 0;
@@ -201,8 +208,11 @@ std::string verdict_of(const std::vector<ContestEntry>& contest) {
   std::string verdict =
       fmt::format("one thread, fp64: of {} comparisons with the fastest other library pliant is faster in {}, level in {}",
                   contest.size(), faster, contest.size() - faster - slower.size());
-  return verdict +
-         (slower.empty() ? ", slower in none" : fmt::format(", SLOWER in {}: {}", slower.size(), fmt::join(slower, ", ")));
+  verdict += slower.empty() ? ", slower in none" : fmt::format(", SLOWER in {}: {}", slower.size(), fmt::join(slower, ", "));
+  if (const std::size_t unmet = comparisons_asked(result) - contest.size(); unmet > 0)
+    verdict += fmt::format("; {} of {} could not be made, no other library getting there within the limits of the suite", unmet,
+                           comparisons_asked(result));
+  return verdict;
 }
 
 std::vector<EvaluationCost> evaluation_costs(const PrecisionResult& result) {

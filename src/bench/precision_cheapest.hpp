@@ -93,8 +93,8 @@ struct ContestEntry {
 };
 [[nodiscard]] std::vector<ContestEntry> contest_of(const PrecisionResult& result);
 
-/// What came of the contest: a sentence; empty without entries.
-[[nodiscard]] std::string verdict_of(const std::vector<ContestEntry>& contest);
+/// What came of the contest, and how much of it could not be held: a sentence; empty without entries.
+[[nodiscard]] std::string verdict_of(const PrecisionResult& result);
 
 /// Time of a run over its force evaluations, on one thread in fp64: the median over a library's rows [s].
 struct EvaluationCost {

@@ -96,7 +96,7 @@ std::vector<std::string> notes_of(const PrecisionResult& result) {
   if (static_cast<double>(unsteady) > unsteady_share * static_cast<double>(result.rows.size()))
     notes.push_back(fmt::format("the machine was busy: {} of {} rows took over {} times their fastest run; measure again",
                                 unsteady, result.rows.size(), unsteady_ratio));
-  if (std::string verdict = verdict_of(contest_of(result)); !verdict.empty()) notes.push_back(std::move(verdict));
+  if (std::string verdict = verdict_of(result); !verdict.empty()) notes.push_back(std::move(verdict));
   return notes;
 }
 
