@@ -17,13 +17,11 @@ static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_n
 static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);
 static_assert(static_cast<std::uint32_t>(DampingLaw::adaptive) == physics::damping_adaptive);
 
-// Of a stage in the velocity at the step's end; and the inverse, or zero where the weight is too small to take off by this stage
-// what others have rounded.
+// Of a stage in the velocity at the step's end; and the inverse, by which it takes off what others have rounded, or zero where it
+// can't.
 glm::dvec2 weight_at_end(const NystromTableau& tableau, std::size_t stage) {
-  const std::span<const double> weights(&tableau.velocity[static_cast<std::size_t>(tableau.stages * tableau.stages)],
-                                        static_cast<std::size_t>(tableau.stages));
-  const double largest = std::abs(*std::ranges::max_element(weights, {}, [](double weight) { return std::abs(weight); }));
-  return {weights[stage], std::abs(weights[stage]) < largest / 32 ? 0 : 1 / weights[stage]};
+  const double weight = tableau.velocity[static_cast<std::size_t>(tableau.stages * tableau.stages) + stage];
+  return {weight, weight == 0 ? 0 : 1 / weight};
 }
 
 // The rows that runge_kutta_stage.glsl reads: see its next_row(). An error estimate weighs stages in another way than the step's

@@ -7,6 +7,7 @@
 #include <complex>
 #include <string>
 
+#include "physics/damping.glsl"
 #include "support/evolve.hpp"
 
 namespace pliant {
@@ -223,6 +224,16 @@ TEST_CASE("Nystrom methods bear any rate of damping within their undamped bound,
       CHECK((larger(drift, fall) <= 1e-4) == (part < 1));
     }
   }
+}
+
+TEST_CASE("the largest damping rate is the one that the law reaches at the strongest force") {
+  ModelBody body;
+  body.damping = 3;
+  body.vertex_mass = 2;
+  for (const auto& [law, number] :
+       {std::pair(DampingLaw::constant, physics::damping_constant), std::pair(DampingLaw::adaptive, physics::damping_adaptive)})
+    CHECK(largest_damping_rate(body, law) == Approx(physics::damping_rate(number, 3, 0.5, 1e12)));
+  CHECK(largest_damping_rate(body, DampingLaw::none) == 0);
 }
 
 TEST_CASE("without springs only damping bounds the step") {

@@ -62,7 +62,7 @@ inline TimePlan plan_of(const Adaptive& adaptive, const Model& model) {
   plan.step_bound = std::numeric_limits<double>::infinity();
   for (const ModelBody& body : model.bodies)
     plan.step_bound = std::min(plan.step_bound, step_bound(*plan.integrator, body, adaptive.law));
-  plan.time_step = adaptive.first_step.value_or(0.1 * plan.step_bound);
+  plan.time_step = adaptive.first_step.value_or(first_step_fraction * plan.step_bound);
   if (adaptive.first_step) plan.step_bound = std::max(plan.step_bound, *adaptive.first_step);
   return plan;
 }
