@@ -1,4 +1,4 @@
-// Headless OpenGL contexts. A display, once initialised, lives as long as the process: EGL hands out the same display to
+// Contexts, and what they are. A display, once initialised, lives as long as the process: EGL hands out the same display to
 // every Context of a device, so terminating it would pull it from under the others.
 #include "gl/context.hpp"
 
@@ -98,6 +98,15 @@ std::uint32_t count_multiprocessors() {
   return static_cast<std::uint32_t>(count);
 }
 
+/// Of the current context.
+Adapter describe_current(int index) {
+  const std::string renderer = gl_string(GL_RENDERER);
+  Adapter adapter{
+      index, renderer, gl_string(GL_VENDOR), gl_string(GL_VERSION), is_software_renderer(renderer), 0, count_multiprocessors()};
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &adapter.largest_buffer);
+  return adapter;
+}
+
 /// Makes a context to learn what it is; empty, with the reason, when there is none.
 std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std::string& reason) {
   const auto refuse = [&](std::string_view why) {
@@ -110,12 +119,7 @@ std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std
   const EGLContext context = create_context(display);
   if (context == EGL_NO_CONTEXT) return refuse("no OpenGL 4.5 core context without a window");
   std::optional<OpenAdapter> found;
-  if (make_current_and_load(display, context)) {
-    found = OpenAdapter{
-        {0, gl_string(GL_RENDERER), gl_string(GL_VENDOR), gl_string(GL_VERSION), false, 0, count_multiprocessors()}, display};
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &found->adapter.largest_buffer);
-    found->adapter.is_software = is_software_renderer(found->adapter.renderer);
-  }
+  if (make_current_and_load(display, context)) found = OpenAdapter{describe_current(0), display};
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display, context);
   if (!found) return refuse("the OpenGL functions do not load");
@@ -196,6 +200,7 @@ void enable_debug_output() {
 struct Context::Impl {
   OpenAdapter open;
   EGLContext context = EGL_NO_CONTEXT;
+  std::optional<WindowContext> window;  // whose context this is, if not its own
 };
 
 std::vector<Adapter> list_adapters(std::string* reason) {
@@ -215,7 +220,17 @@ Context::Context(int index) : impl_(std::make_unique<Impl>()) {
   enable_debug_output();
 }
 
+Context::Context(WindowContext window) : impl_(std::make_unique<Impl>()) {
+  impl_->window = std::move(window);
+  impl_->window->make_current();
+  if (gladLoadGL(impl_->window->find) == 0)
+    throw Error(ErrorKind::device, "", "the window's OpenGL functions do not load", "update the graphics driver");
+  impl_->open.adapter = describe_current(-1);
+  enable_debug_output();
+}
+
 Context::~Context() {
+  if (impl_->window) return;
   if (eglGetCurrentContext() == impl_->context) {
     eglMakeCurrent(impl_->open.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
@@ -224,6 +239,13 @@ Context::~Context() {
 
 const Adapter& Context::adapter() const { return impl_->open.adapter; }
 
-void Context::make_current() { make_current_and_load(impl_->open.display, impl_->context); }
+void Context::make_current() {
+  if (!impl_->window) {
+    make_current_and_load(impl_->open.display, impl_->context);
+    return;
+  }
+  impl_->window->make_current();
+  gladLoadGL(impl_->window->find);
+}
 
 }  // namespace pliant::gl

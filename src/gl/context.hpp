@@ -1,6 +1,7 @@
-// An OpenGL 4.5 core context without a window, through EGL.
+// An OpenGL 4.5 core context: without a window, through EGL, or a window's own.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,12 +22,22 @@ struct Adapter {
 /// hardware first. Never throws; an empty list says why in `reason`.
 [[nodiscard]] std::vector<Adapter> list_adapters(std::string* reason = nullptr);
 
+/// How to reach a context that a window made, for OpenGL 4.5 core.
+struct WindowContext {
+  using Function = void (*)();
+  Function (*find)(const char* name) = nullptr;  // OpenGL's function of that name
+  std::function<void()> make_current;
+};
+
 /// Makes its context current on the constructing thread and keeps it until destroyed. Debug output is on: an API error
 /// or an undefined behaviour reported by the driver ends the program with the message (a bug in pliant).
 class Context {
  public:
   /// Opens adapter `index` of list_adapters(). Throws Error (device) with a remedy.
   explicit Context(int index);
+  /// Adopts a window's context; the window must outlive this. It has adapter index -1, since list_adapters() knows nothing of it
+  /// and must not be called while it is current: EGL cannot put back what is not its own. Throws Error (device).
+  explicit Context(WindowContext window);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;

@@ -39,7 +39,8 @@ constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 2, 0, 0},
 
 class GpuDevice final : public Device {
  public:
-  explicit GpuDevice(int index) : context_(index) {
+  explicit GpuDevice(std::unique_ptr<gl::Context> context) : GpuDevice(*context) { own_context_ = std::move(context); }
+  explicit GpuDevice(gl::Context& context) : context_(context) {
     const gl::Adapter& adapter = context_.adapter();
     info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
     for (const Lanes& choice : lane_choices)
@@ -50,7 +51,7 @@ class GpuDevice final : public Device {
 
   const DeviceInfo& info() const override { return info_; }
   int precision() const override { return 32; }
-  gl::Context& context() { return context_; }
+  gl::Context& context() const { return context_; }
   GLuint gl_buffer(BufferId buffer) const { return storage(buffer).id(); }
 
   BufferId allocate(std::size_t bytes, std::string_view label) override {
@@ -195,7 +196,8 @@ class GpuDevice final : public Device {
       glUniform1ui(location, std::get<std::uint32_t>(value));
   }
 
-  gl::Context context_;
+  std::unique_ptr<gl::Context> own_context_;  // null where it is a window's
+  gl::Context& context_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
   std::vector<GLuint> marks_;
@@ -208,7 +210,9 @@ class GpuDevice final : public Device {
 
 }  // namespace
 
-std::unique_ptr<Device> make_gpu_device(int index) { return std::make_unique<GpuDevice>(index); }
+std::unique_ptr<Device> make_gpu_device(int index) { return std::make_unique<GpuDevice>(std::make_unique<gl::Context>(index)); }
+
+std::unique_ptr<Device> make_gpu_device(gl::Context& context) { return std::make_unique<GpuDevice>(context); }
 
 gl::Context* gpu::context_of(Device& device) {
   auto* gpu = dynamic_cast<GpuDevice*>(&device);
