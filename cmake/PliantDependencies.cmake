@@ -52,3 +52,12 @@ if(PLIANT_SUNDIALS_DIR AND NOT sundials_libraries MATCHES NOTFOUND)
   set_source_files_properties(src/bench/peers_sundials.cpp src/bench/peers_arkode.cpp src/bench/peers_cvode.cpp PROPERTIES
     COMPILE_DEFINITIONS PLIANT_SUNDIALS)
 endif()
+
+# Optional: the window of `pliant view`. Debian: libglfw3-dev.
+find_package(glfw3 3.3 QUIET)
+option(PLIANT_VIEWER "Build the viewer, pliant view; needs GLFW" ${glfw3_FOUND})
+if(PLIANT_VIEWER AND NOT glfw3_FOUND)
+  message(FATAL_ERROR "PLIANT_VIEWER needs GLFW 3.3 (Debian: libglfw3-dev)")
+elseif(NOT PLIANT_VIEWER)
+  message(STATUS "Without the viewer: pliant view will only say so (GLFW found: ${glfw3_FOUND})")
+endif()

@@ -9,8 +9,9 @@ import sys
 
 # The order of docs/architecture.md. A folder of shaders counts as a module: both languages include from there.
 LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device", "dynamics", "collision",
-          "simulation", "render", "output", "bench", "app"]
+          "simulation", "render", "output", "view", "bench", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
+WINDOW_FILE = "src/gl/window.cpp"  # the only one that sees GLFW
 SUFFIXES = {".hpp", ".cpp", ".inc", ".glsl", ".comp", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
@@ -36,7 +37,9 @@ def resolve(name, including, root):
 def problem_of(path, name, root):
     """What is wrong with file `path` including `name`; None when nothing is."""
     module = module_of(path, root)
-    if name.startswith(("glad/", "GL/", "EGL/", "GLFW/")):
+    if name.startswith("GLFW/"):
+        return None if path == root / WINDOW_FILE else f"GLFW's headers belong in {WINDOW_FILE} alone"
+    if name.startswith(("glad/", "GL/", "EGL/")):
         inside = any(path.is_relative_to(root / "src" / allowed) for allowed in GL_MODULES)
         return None if inside else f"OpenGL's headers belong in {', '.join(GL_MODULES)} alone"
     included = resolve(name, path, root)
