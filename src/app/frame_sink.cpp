@@ -11,15 +11,7 @@
 namespace pliant::app {
 namespace {
 
-render::SceneBox box_of(const PreparedRun& run) {
-  const auto positions = run.start.state.world_positions(run.start.model);
-  render::SceneBox box{positions.front(), positions.front()};
-  for (const glm::dvec3& position : positions) {
-    box.low = glm::min(box.low, position);
-    box.high = glm::max(box.high, position);
-  }
-  return box;
-}
+render::SceneBox box_of(const PreparedRun& run) { return render::box_around(run.start.state.world_positions(run.start.model)); }
 
 // Where steps are longer than frames there is a frame a step: a second of video is a second all the same.
 VideoFormat video_format_of(const PreparedRun& run) {

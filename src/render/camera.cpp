@@ -7,6 +7,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 namespace pliant::render {
 namespace {
@@ -27,18 +28,40 @@ double SceneBox::radius() const {
   return half_diagonal > 0 ? half_diagonal : 1.0;
 }
 
-CameraDescription frame_scene(const SceneBox& box, double aspect) {
-  constexpr double field_of_view = 30.0, filled = 0.94;
-  const glm::dvec3 back = glm::normalize(glm::dvec3(0.22, 0.32, 1.0));
-  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+SceneBox box_around(std::span<const glm::dvec3> places) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  SceneBox box{glm::dvec3(infinity), glm::dvec3(-infinity)};
+  for (const glm::dvec3& place : places) {
+    if (!std::isfinite(place.x + place.y + place.z)) continue;
+    box.low = glm::min(box.low, place);
+    box.high = glm::max(box.high, place);
+  }
+  return box.low.x <= box.high.x ? box : SceneBox{};
+}
+
+CameraAxes axes_of(const CameraDescription& camera) {
+  const glm::dvec3 away = camera.eye - camera.target;
+  const double distance = glm::length(away);
+  const glm::dvec3 back = distance > 0 ? away / distance : glm::dvec3(0, 0, 1);
+  const glm::dvec3 right = glm::normalize(glm::cross(up_for(-back), back));
+  return {right, glm::cross(back, right), back};
+}
+
+CameraDescription frame_from(const glm::dvec3& back, const SceneBox& box, double aspect, double field_of_view) {
+  constexpr double filled = 0.94;
+  const CameraAxes axes = axes_of({back, glm::dvec3(0.0), field_of_view});
   const double tangent = std::tan(glm::radians(field_of_view) * 0.5) * filled;
   double distance = box.radius() * 0.1;
   for (unsigned i = 0; i < 8; ++i) {
     const glm::dvec3 p = corner(box, i) - box.centre();
-    const double half_height = std::max(std::abs(glm::dot(p, up)), std::abs(glm::dot(p, right)) / aspect);
+    const double half_height = std::max(std::abs(glm::dot(p, axes.up)), std::abs(glm::dot(p, axes.right)) / aspect);
     distance = std::max(distance, glm::dot(p, back) + half_height / tangent);
   }
   return {box.centre() + back * distance, box.centre(), field_of_view};
+}
+
+CameraDescription frame_scene(const SceneBox& box, double aspect) {
+  return frame_from(glm::normalize(glm::dvec3(0.22, 0.32, 1.0)), box, aspect, 30.0);
 }
 
 double ground_below(const SceneBox& box) { return box.low.y - 0.01 * box.radius(); }

@@ -142,9 +142,12 @@ Studio studio_for(const RenderOptions& options) {
 
 struct FrameRenderer::Impl {
   Impl(const Model& model, const RenderOptions& render_options)
-      : options(render_options), studio(studio_for(render_options)), surface(model), picture(render_options.size) {}
+      : options(render_options),
+        studio(studio_for(render_options)),
+        surface(model),
+        picture(std::in_place, render_options.size) {}
 
-  void upload_camera(const CameraDescription& camera);
+  void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
   void draw_bodies(const gl::Program& program) const;
   void draw_fullscreen(const gl::Program& program) const;
@@ -161,10 +164,12 @@ struct FrameRenderer::Impl {
   Surface surface;
   gl::VertexArray no_vertices{nullptr};
   Maps maps;
-  Picture picture;
+  std::optional<Picture> picture;  // empty only while it is replaced
+  Fill fill = Fill::surface;
 };
 
-void FrameRenderer::Impl::upload_camera(const CameraDescription& camera) {
+void FrameRenderer::Impl::upload_camera() {
+  const CameraDescription& camera = options.camera;
   const double aspect = static_cast<double>(options.size.x) / options.size.y;
   const glm::dmat4 to_clip = view_projection(camera, aspect);
   studio.view_projection = glm::mat4(to_clip);
@@ -234,21 +239,23 @@ void FrameRenderer::Impl::draw_ground_light() const {
 
 void FrameRenderer::Impl::draw_picture() const {
   constexpr GLfloat far_depth = 1;
-  picture.samples_target.bind();
+  picture->samples_target.bind();
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
   glBindTextureUnit(0, maps.ground_light.id());
   glBindTextureUnit(1, maps.shadow.id());
   glEnable(GL_FRAMEBUFFER_SRGB);
   draw_fullscreen(programs.backdrop);
   glEnable(GL_DEPTH_TEST);
+  if (fill == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   draw_bodies(programs.body);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);
 }
 
 /// Averages the samples in linear light.
 void FrameRenderer::Impl::resolve() const {
   const auto w = static_cast<GLint>(options.size.x), h = static_cast<GLint>(options.size.y);
-  glBlitNamedFramebuffer(picture.samples_target.id(), picture.resolved_target.id(), 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT,
+  glBlitNamedFramebuffer(picture->samples_target.id(), picture->resolved_target.id(), 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT,
                          GL_NEAREST);
   glDisable(GL_FRAMEBUFFER_SRGB);
 }
@@ -273,7 +280,21 @@ FrameRenderer::FrameRenderer(const Model& model, const RenderOptions& options) {
 
 FrameRenderer::~FrameRenderer() = default;
 
-void FrameRenderer::set_camera(const CameraDescription& camera) { impl_->upload_camera(camera); }
+void FrameRenderer::set_camera(const CameraDescription& camera) {
+  impl_->options.camera = camera;
+  impl_->upload_camera();
+}
+
+void FrameRenderer::set_fill(Fill fill) { impl_->fill = fill; }
+
+void FrameRenderer::resize(const glm::uvec2& size) {
+  PLIANT_EXPECT(size.x > 0 && size.y > 0);
+  if (size == impl_->options.size) return;
+  impl_->picture.reset();
+  impl_->picture.emplace(size);
+  impl_->options.size = size;
+  impl_->upload_camera();
+}
 
 void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_vertex) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -287,10 +308,17 @@ void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_ver
   glUseProgram(0);  // a program left current would be checked against textures that are bound or deleted later
 }
 
+void FrameRenderer::copy_to_window() const {
+  const auto w = static_cast<GLint>(impl_->options.size.x), h = static_cast<GLint>(impl_->options.size.y);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, w, h);  // where Mesa looks whether the window has been resized
+  glBlitNamedFramebuffer(impl_->picture->resolved_target.id(), 0, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 Image FrameRenderer::read() const {
   const glm::uvec2 size = impl_->options.size;
   Image image{size.x, size.y, std::vector<std::uint8_t>(std::size_t{3} * size.x * size.y)};
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->picture.resolved_target.id());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->picture->resolved_target.id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, static_cast<GLsizei>(size.x), static_cast<GLsizei>(size.y), GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   const std::size_t row = std::size_t{3} * size.x;

@@ -19,6 +19,9 @@ struct RenderOptions {
   std::optional<double> ground_height;  // [m]; empty: no ground
 };
 
+/// How bodies are drawn; their shadows are always those of surfaces.
+enum class Fill { surface, wireframe };
+
 /// The options for a scene: its camera, or one that frames the box, and a ground below it.
 [[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
 
@@ -35,9 +38,14 @@ class FrameRenderer {
   void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex);
   /// Waits for the last draw() and reads its picture.
   [[nodiscard]] Image read() const;
+  /// Copies the last picture, pixel by pixel, to the bottom left of the window whose context is current.
+  void copy_to_window() const;
 
   /// The lights stay where they are.
   void set_camera(const CameraDescription& camera);
+  void set_fill(Fill fill);
+  /// Of the pictures from here on [pixels]. Throws Error (device) when there is no room for them.
+  void resize(const glm::uvec2& size);
 
  private:
   struct Impl;

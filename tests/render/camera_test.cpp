@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 using namespace pliant;
 using namespace pliant::render;
@@ -63,4 +64,41 @@ TEST_CASE("a camera that looks straight down has a picture") {
   const glm::dmat4 to_clip = view_projection({{0, 5, 0}, {0, 0, 0}, 40}, 1.0);
   CHECK(project(to_clip, {1, 0, 0}).x > 0.1);
   CHECK(project(to_clip, {0, 0, -1}).y > 0.1);
+}
+
+TEST_CASE("a box is framed from any side, without turning the camera") {
+  const SceneBox box{{-2, 0, 1}, {3, 1, 7}};
+  for (const glm::dvec3 side : {glm::dvec3(1, 0, 0), glm::dvec3(0.1, -2, 0.3), glm::dvec3(0, 1, 0), glm::dvec3(-1, 1, -1)}) {
+    const glm::dvec3 back = glm::normalize(side);
+    const CameraDescription camera = frame_from(back, box, 1.5, 50);
+    CHECK(glm::distance(axes_of(camera).back, back) < 1e-12);
+    CHECK(camera.field_of_view == 50);
+    const glm::dmat4 to_clip = view_projection(camera, 1.5);
+    for (unsigned i = 0; i < 8; ++i) {
+      const glm::dvec3 p = project(to_clip, {i & 1u ? 3 : -2, i & 2u ? 1 : 0, i & 4u ? 7 : 1});
+      CHECK(std::max(std::abs(p.x), std::abs(p.y)) < 0.95);
+    }
+  }
+}
+
+TEST_CASE("a box around places holds those that are finite, and touches them on every side") {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  const glm::dvec3 places[] = {{1, 5, -3}, {nan, 0, 0}, {-2, 4, 9}, {0, infinity, 0}, {0, 0, -infinity}};
+  const SceneBox box = box_around(places);
+  CHECK(box.low == glm::dvec3(-2, 4, -3));
+  CHECK(box.high == glm::dvec3(1, 5, 9));
+  CHECK(box_around({}).radius() > 0);
+}
+
+TEST_CASE("a camera's axes are those of its picture") {
+  for (const glm::dvec3 eye : {glm::dvec3(0, 2, 6), glm::dvec3(0, 5, 0), glm::dvec3(-3, -1, 0.5)}) {
+    const CameraDescription camera{eye, {0, 0, 0}, 40};
+    const glm::dmat4 to_clip = view_projection(camera, 1.0);
+    const CameraAxes axes = axes_of(camera);
+    CHECK(project(to_clip, axes.right * 0.1).x > 0.01);
+    CHECK(std::abs(project(to_clip, axes.right * 0.1).y) < 1e-12);
+    CHECK(project(to_clip, axes.up * 0.1).y > 0.01);
+    CHECK(std::abs(project(to_clip, axes.up * 0.1).x) < 1e-12);
+    CHECK(project(to_clip, axes.back * 0.1).z < project(to_clip, {0, 0, 0}).z);
+  }
 }

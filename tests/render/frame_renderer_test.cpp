@@ -26,8 +26,8 @@ struct Subject {
   std::vector<glm::vec4> world;  // [m]
 };
 
-Subject sphere(const glm::dvec3& centre, const glm::dvec3& color = {0.8, 0.1, 0.05}) {
-  const TriangleMesh mesh = generate_mesh("icosphere:3");
+Subject sphere(const glm::dvec3& centre, const glm::dvec3& color = {0.8, 0.1, 0.05}, const char* generator = "icosphere:3") {
+  const TriangleMesh mesh = generate_mesh(generator);
   Subject subject;
   ModelBody body;
   body.name = "sphere";
@@ -190,6 +190,46 @@ TEST_CASE("a picture is drawn anew for every draw and camera", "[gl]") {
   renderer.set_camera(front);
   renderer.draw(positions.id(), 0);
   CHECK(renderer.read().pixels == first.pixels);
+}
+
+TEST_CASE("a resized renderer draws what one of that size would, bit for bit", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0.4, 0, 0});
+  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+  positions.write(0, std::as_bytes(std::span(subject.world)));
+  FrameRenderer renderer(subject.model, without_ground());
+  for (const glm::uvec2 size : {glm::uvec2(90, 200), glm::uvec2(1, 1), picture_size}) {
+    RenderOptions options = without_ground();
+    options.size = size;
+    renderer.resize(size);
+    renderer.draw(positions.id(), 0);
+    const Image resized = renderer.read();
+    CHECK(resized.width == size.x);
+    CHECK(resized.height == size.y);
+    CHECK(resized.pixels == draw(subject, options).pixels);
+  }
+}
+
+TEST_CASE("a wireframe lies within the surface's outline, reaches it, and leaves gaps", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0.2, 0, 0}, {0.8, 0.1, 0.05}, "icosphere:1");
+  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+  positions.write(0, std::as_bytes(std::span(subject.world)));
+  FrameRenderer renderer(subject.model, without_ground());
+  renderer.draw(positions.id(), 0);
+  const Image surface = renderer.read();
+  renderer.set_fill(Fill::wireframe);
+  renderer.draw(positions.id(), 0);
+  const Silhouette whole{surface}, wires{renderer.read()};
+  const PixelBox of_whole = box_of(whole), of_wires = box_of(wires);
+  CHECK(of_wires.left == Approx(of_whole.left).margin(1));
+  CHECK(of_wires.right == Approx(of_whole.right).margin(1));
+  CHECK(of_wires.top == Approx(of_whole.top).margin(1));
+  CHECK(of_wires.bottom == Approx(of_whole.bottom).margin(1));
+  CHECK(wires.area() < whole.area() * 9 / 10);
+  renderer.set_fill(Fill::surface);
+  renderer.draw(positions.id(), 0);
+  CHECK(renderer.read().pixels == surface.pixels);
 }
 
 TEST_CASE("a body darkens the ground around it and never brightens it", "[gl]") {
