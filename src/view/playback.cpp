@@ -1,0 +1,44 @@
+#include "view/playback.hpp"
+
+namespace pliant::view {
+
+void Playback::begin(double now, double simulated) {
+  if (began_before_ && !paused_) {
+    goal_ += (now - began_) * pace_.speed;
+    measure(now, simulated);
+  } else {
+    goal_ = simulated;
+    span_ = {now, simulated};
+    began_before_ = !paused_;
+  }
+  began_ = now;
+}
+
+void Playback::end(double simulated, bool reached_goal) {
+  if (reached_goal) return;
+  goal_ = simulated;
+  span_.was_behind = true;
+}
+
+void Playback::pause() {
+  paused_ = true;
+  began_before_ = false;
+}
+
+void Playback::toggle_pause() {
+  if (paused_)
+    paused_ = false;
+  else
+    pause();
+}
+
+void Playback::measure(double now, double simulated) {
+  constexpr double long_enough = 0.5;  // [s]
+  const double seconds = now - span_.began;
+  if (seconds < long_enough) return;
+  slow_factor_.reset();
+  if (span_.was_behind) slow_factor_ = (simulated - span_.simulated) / seconds;
+  span_ = {now, simulated};
+}
+
+}  // namespace pliant::view

@@ -1,0 +1,142 @@
+// Simulated time against real time, both of them numbers.
+#include "view/playback.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace pliant::view;
+
+namespace {
+
+/// A simulation of fixed steps, and a clock that they move.
+struct Show {
+  double time_step = 0.002, cost = 0;  // of a step: simulated and real [s]
+  double now = 100;                    // [s]
+  int steps = 0;
+
+  [[nodiscard]] double simulated() const { return steps * time_step; }
+  [[nodiscard]] bool is_before(double goal) const { return simulated() + time_step <= goal * (1 + 1e-12); }
+
+  void picture(Playback& playback) {
+    playback.begin(now, simulated());
+    while (is_before(playback.goal()) && playback.has_time(now)) {
+      ++steps;
+      now += cost;
+    }
+    playback.end(simulated(), !is_before(playback.goal()));
+  }
+  /// Pictures that begin every `interval` [s], or as soon as the one before is done.
+  void run(Playback& playback, double seconds, double interval) {
+    const double end = now + seconds;
+    while (now < end - 1e-9) {
+      const double next = now + interval;
+      picture(playback);
+      now = std::max(now, next);
+    }
+    picture(playback);
+  }
+};
+
+TEST_CASE("a second of real time makes a second of simulated time, whatever the frame rate and the step") {
+  for (const double rate : {7.0, 30.0, 60.0, 144.0, 1000.0}) {
+    for (const double time_step : {0.0005, 0.002, 0.03, 0.4}) {
+      CAPTURE(rate, time_step);
+      Playback playback({});
+      Show show{.time_step = time_step};
+      show.run(playback, 1, 1 / rate);
+      CHECK(show.simulated() <= 1 + 1e-9);
+      CHECK(show.simulated() > 1 - time_step - 1e-9);
+      CHECK_FALSE(playback.slow_factor());
+    }
+  }
+}
+
+TEST_CASE("a factor makes simulated time faster or slower") {
+  for (const double speed : {0.01, 0.5, 3.0}) {
+    Playback playback({.speed = speed});
+    Show show;
+    show.run(playback, 2, 1.0 / 60);
+    CHECK(show.simulated() == Approx(2 * speed).margin(show.time_step));
+    CHECK_FALSE(playback.slow_factor());
+  }
+}
+
+TEST_CASE("a pause makes no simulated time, and none is made up for afterwards") {
+  Playback playback({});
+  Show show;
+  show.run(playback, 0.5, 1.0 / 60);
+  playback.toggle_pause();
+  const int before = show.steps;
+  show.run(playback, 30, 1.0 / 60);
+  CHECK(show.steps == before);
+  playback.toggle_pause();
+  show.run(playback, 0.5, 1.0 / 60);
+  CHECK(show.simulated() == Approx(1).margin(2 * show.time_step + 1.0 / 60));
+  CHECK(show.simulated() <= 1);
+}
+
+TEST_CASE("a pause that no picture saw makes no simulated time either") {
+  Playback playback({});
+  Show show;
+  show.run(playback, 0.5, 1.0 / 60);
+  const int before = show.steps;
+  playback.toggle_pause();
+  show.now += 1000;
+  playback.toggle_pause();
+  show.picture(playback);
+  CHECK(show.steps == before);
+}
+
+TEST_CASE("a single step in a pause is the only one") {
+  Playback playback({});
+  Show show;
+  playback.pause();
+  show.picture(playback);
+  ++show.steps;
+  show.now += 1;
+  show.picture(playback);
+  CHECK(show.steps == 1);
+}
+
+TEST_CASE("a device that is too slow steps within its budget and is told by how much") {
+  Playback playback({.speed = 1, .budget = 0.012});
+  Show show{.time_step = 0.002, .cost = 0.003};  // 4 steps fit the budget of a picture, 8 were needed
+  const double start = show.now;
+  show.run(playback, 3, 1.0 / 60);
+  CHECK(show.simulated() == Approx(0.008 * 60 * (show.now - start)).epsilon(0.02));
+  REQUIRE(playback.slow_factor());
+  CHECK(*playback.slow_factor() == Approx(0.48).epsilon(0.03));
+}
+
+TEST_CASE("a single step longer than the budget still is made") {
+  Playback playback({});
+  Show show{.time_step = 0.002, .cost = 0.2};
+  show.run(playback, 2, 1.0 / 60);
+  CHECK(show.steps >= 9);
+  CHECK(*playback.slow_factor() == Approx(0.01).epsilon(0.2));
+}
+
+TEST_CASE("time lost is not made up for, and a device that keeps up again is not told of any more") {
+  Playback playback({});
+  Show show{.time_step = 0.002, .cost = 0.02};
+  show.run(playback, 2, 1.0 / 60);
+  CHECK(playback.slow_factor());
+  show.cost = 0;
+  const double before = show.simulated();
+  show.run(playback, 2, 1.0 / 60);
+  CHECK(show.simulated() - before <= 2 + 1.0 / 60 + 0.02 + 1e-9);
+  CHECK(show.simulated() - before == Approx(2).margin(0.05));
+  CHECK_FALSE(playback.slow_factor());
+}
+
+TEST_CASE("a simulation put back goes on from there in step with real time") {
+  Playback playback({});
+  Show show;
+  show.run(playback, 1, 1.0 / 60);
+  show.steps = 0;
+  playback.restart();
+  show.run(playback, 1, 1.0 / 60);
+  CHECK(show.simulated() == Approx(1).margin(show.time_step));
+}
+
+}  // namespace
