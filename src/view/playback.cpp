@@ -1,5 +1,7 @@
 #include "view/playback.hpp"
 
+#include <algorithm>
+
 namespace pliant::view {
 
 void Playback::begin(double now, double simulated) {
@@ -39,6 +41,15 @@ void Playback::measure(double now, double simulated) {
   slow_factor_.reset();
   if (span_.was_behind) slow_factor_ = (simulated - span_.simulated) / seconds;
   span_ = {now, simulated};
+}
+
+void BatchSize::took(double seconds) {
+  constexpr double short_time = 0.001, long_time = 0.003;  // [s]
+  constexpr std::uint64_t most = 32;
+  if (seconds < short_time)
+    steps_ = std::min(2 * steps_, most);
+  else if (seconds > long_time)
+    steps_ = std::max<std::uint64_t>(steps_ / 2, 1);
 }
 
 }  // namespace pliant::view

@@ -1,5 +1,6 @@
 // When the simulation steps, so that its time goes with the clock's. Owns no clock: every time of it is an argument.
 #pragma once
+#include <cstdint>
 #include <optional>
 
 namespace pliant::view {
@@ -48,6 +49,18 @@ class Playback {
   double began_ = 0, goal_ = 0;  // of this picture [s]
   Span span_;
   std::optional<double> slow_factor_;
+};
+
+/// How many steps to make between two looks at the clock: as many as take a sixth of a usual budget, more or less, since each
+/// look waits for the device.
+class BatchSize {
+ public:
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  /// So long they took [s].
+  void took(double seconds);
+
+ private:
+  std::uint64_t steps_ = 1;
 };
 
 }  // namespace pliant::view

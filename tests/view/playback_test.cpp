@@ -139,4 +139,17 @@ TEST_CASE("a simulation put back goes on from there in step with real time") {
   CHECK(show.simulated() == Approx(1).margin(show.time_step));
 }
 
+TEST_CASE("batches of steps settle at a few milliseconds, or at one step where that takes longer") {
+  for (const double cost : {1e-6, 0.0003, 0.002, 0.5}) {
+    CAPTURE(cost);
+    BatchSize batch;
+    for (int k = 0; k < 20; ++k) batch.took(cost * static_cast<double>(batch.steps()));
+    const double seconds = cost * static_cast<double>(batch.steps());
+    CHECK((seconds >= 0.001 || batch.steps() == 32));
+    CHECK((seconds <= 0.003 || batch.steps() == 1));
+    for (int k = 0; k < 20; ++k) batch.took(1);
+    CHECK(batch.steps() == 1);
+  }
+}
+
 }  // namespace

@@ -1,0 +1,192 @@
+// Scenes that go on, back and back to the start, on every device and without a window.
+#include "view/session.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include "gl/context.hpp"
+#include "support/expect_error.hpp"
+#include "support/paths.hpp"
+#include "support/scratch.hpp"
+
+using namespace pliant;
+using namespace pliant::view;
+
+namespace {
+
+// Two small spheres that meet after some 20 steps.
+SceneDescription colliding(const char* timing = "time_step = 0.002\n") {
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "meeting.toml";
+  std::ofstream(file) << "[simulation]\nintegrator = \"dop853\"\n"
+                      << timing
+                      << "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1.1, 0.1, 0]\nvelocity = [4, 0, 0]\nspin = [0, 1, 0]\n"
+                         "[[body]]\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstretch = [0.9, 1, 1]\n";
+  return describe(file);
+}
+
+constexpr const char* by_tolerance = "tolerance = 1e-5\n";
+
+void on_every_device(const std::function<void(Device&)>& check) {
+  check(*make_cpu_device(2, 64));
+  check(*make_cpu_device(2, 32));
+  if (!gl::list_adapters().empty()) check(*make_gpu_device(0));
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+std::vector<double> motion_of(Session& session) { return session.simulation().state().motion; }
+
+TEST_CASE("a session makes the steps that are due at a time, and no others", "[gl]") {
+  on_every_device([](Device& device) {
+    Session session(device, colliding());
+    CHECK_FALSE(session.is_before(0));
+    CHECK_FALSE(session.is_before(0.0019));
+    REQUIRE(session.is_before(0.0201));
+    session.advance_toward(0.0201, 3);
+    CHECK(session.step() == 3);
+    session.advance_toward(0.0201, 100);
+    CHECK(session.step() == 10);
+    CHECK(session.time() == 10 * 0.002);
+    CHECK_FALSE(session.is_before(0.0201));
+    session.advance_toward(0.0201, 100);
+    CHECK(session.step() == 10);
+  });
+}
+
+TEST_CASE("steps that a tolerance governs end at frames, whatever goals a viewer has", "[gl]") {
+  on_every_device([](Device& device) {
+    Session coarse(device, colliding(by_tolerance)), fine(device, colliding(by_tolerance));
+    while (coarse.is_before(0.1)) coarse.advance_toward(0.1, 32);
+    for (double goal = 0; goal < 0.1; goal += 0.0031)
+      while (fine.is_before(goal)) fine.advance_toward(goal, 1);
+    while (fine.is_before(0.1)) fine.advance_toward(0.1, 1);
+    CHECK(coarse.time() == Approx(0.1));
+    CHECK(coarse.step() == fine.step());
+    CHECK(coarse.time() == fine.time());
+    CHECK(same_bits(motion_of(coarse), motion_of(fine)));
+  });
+}
+
+TEST_CASE("going back restores the very bits, in contact too", "[gl]") {
+  for (const char* timing : {"time_step = 0.002\n", by_tolerance}) {
+    on_every_device([&](Device& device) {
+      Session session(device, colliding(timing));
+      std::vector<std::vector<double>> motions{motion_of(session)};
+      std::vector<double> times{session.time()};
+      for (int k = 0; k < 40; ++k) {
+        session.step_once();
+        session.record();
+        motions.push_back(motion_of(session));
+        times.push_back(session.time());
+      }
+      CHECK(session.simulation().report().contact_steps > 0);
+      for (std::size_t step = 40; step-- > 0;) {
+        REQUIRE(session.step_back());
+        CHECK(session.step() == step);
+        CHECK(session.time() == times[step]);
+        CHECK(same_bits(motion_of(session), motions[step]));
+      }
+      CHECK_FALSE(session.step_back());
+    });
+  }
+}
+
+TEST_CASE("where pictures were further apart than steps, going back still goes by one step, to the very bits", "[gl]") {
+  on_every_device([](Device& device) {
+    Session direct(device, colliding()), session(device, colliding());
+    std::vector<std::vector<double>> motions{motion_of(direct)};
+    for (std::uint64_t step = 1; step <= 40; ++step) {
+      direct.step_once();
+      motions.push_back(motion_of(direct));
+      if (step % 8 != 0) continue;
+      session.advance_toward(0.002 * static_cast<double>(step), 100);
+      session.record();
+    }
+    CHECK(direct.simulation().report().contact_steps > 0);
+    for (std::uint64_t step = 40; step-- > 0;) {
+      REQUIRE(session.step_back());
+      CHECK(session.step() == step);
+      CHECK(session.time() == 0.002 * static_cast<double>(step));
+      CHECK(same_bits(motion_of(session), motions[step]));
+    }
+  });
+}
+
+TEST_CASE("a restarted scene plays as it did the first time, bit for bit", "[gl]") {
+  on_every_device([](Device& device) {
+    Session session(device, colliding());
+    session.advance_toward(0.08, 100);
+    const auto first = motion_of(session);
+    session.restart();
+    CHECK(session.step() == 0);
+    CHECK_FALSE(session.step_back());
+    session.advance_toward(0.08, 100);
+    CHECK(same_bits(motion_of(session), first));
+  });
+}
+
+TEST_CASE("a session's history stays within its memory") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, colliding(), 200000);
+  for (int k = 0; k < 200; ++k) {
+    session.step_once();
+    session.record();
+  }
+  CHECK(session.history().bytes() <= 200000);
+  CHECK(session.history().size() > 10);
+  int steps_back = 0;
+  while (session.step_back()) ++steps_back;
+  CHECK(steps_back + 1 == static_cast<int>(session.history().size()));
+}
+
+TEST_CASE("after a step that is not finite nothing is due, and one can go back before it") {
+  const auto device = make_cpu_device(1, 32);
+  SceneDescription scene = colliding();
+  scene.simulation.time_step = 10;
+  Session session(*device, scene);
+  for (int k = 0; k < 1000 && !session.non_finite(); ++k) {
+    session.step_once();
+    session.record();
+  }
+  REQUIRE(session.non_finite());
+  const std::uint64_t broken = session.step();
+  CHECK_FALSE(session.is_before(1e9));
+  session.step_once();
+  CHECK(session.step() == broken);
+  REQUIRE(session.step_back());
+  CHECK(session.step() == broken - 1);
+  CHECK_FALSE(session.non_finite());
+}
+
+TEST_CASE("an OBJ file is a scene of one body at rest") {
+  const SceneDescription scene = describe(source_dir() + "/meshes/teapot.obj");
+  CHECK(scene.title == "teapot");
+  REQUIRE(scene.bodies.size() == 1);
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, scene);
+  CHECK(session.model().triangles.size() > 100);
+  const auto before = motion_of(session);
+  session.step_once();
+  CHECK(session.step() == 1);
+  CHECK(motion_of(session) == before);
+}
+
+TEST_CASE("a file that is no scene is an error that names it") {
+  const test::ScratchFolder folder;
+  const auto bad = folder.path / "bad.obj";
+  std::ofstream(bad) << "this is no mesh\n";
+  const auto device = make_cpu_device(1, 32);
+  const Error no_mesh = error_of([&] { return Session(*device, describe(bad)).step(); });
+  CHECK(no_mesh.kind() == ErrorKind::input);
+  check_says(no_mesh, {"bad.obj"});
+  const Error no_scene = error_of([&] { return describe(folder.path / "missing.toml"); });
+  CHECK(no_scene.kind() == ErrorKind::input);
+  check_says(no_scene, {"missing.toml"});
+}
+
+}  // namespace
