@@ -1,7 +1,7 @@
 #include "app/choose_device.hpp"
 
 #include "core/error.hpp"
-#include "gl/context.hpp"
+#include "device/gpu/gpu_device.hpp"
 
 namespace pliant::app {
 namespace {
@@ -27,6 +27,13 @@ std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   const bool asked = choice.kind == DeviceKind::gpu || choice.gpu_index;
   const bool found = choice.kind == DeviceKind::automatic && choice.precision.value_or(32) == 32 && !asked && has_hardware_gpu();
   if (asked || found) return make_gpu_device(choice.gpu_index.value_or(0));
+  return make_cpu_device(choice.threads, choice.precision.value_or(32));
+}
+
+std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& window) {
+  expect_consistent(choice);
+  const bool fits = choice.kind == DeviceKind::automatic && choice.precision.value_or(32) == 32 && !window.adapter().is_software;
+  if (fits || choice.kind == DeviceKind::gpu) return make_gpu_device(window);
   return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "device/device.hpp"
+#include "gl/context.hpp"
 
 namespace pliant::app {
 
@@ -21,5 +22,7 @@ struct DeviceChoice {
 /// Automatic: a hardware GPU if there is one and precision is 32, else the CPU; software OpenGL only when the GPU is asked for.
 /// Throws Error: command_line for a contradiction, device when there is no such device.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice);
+/// The same, where the only GPU is that of a window.
+[[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& window);
 
 }  // namespace pliant::app

@@ -13,6 +13,7 @@
 #include "app/bench_command.hpp"
 #include "app/info_command.hpp"
 #include "app/run_command.hpp"
+#include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
 #include "mesh/report.hpp"
@@ -69,19 +70,28 @@ void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std
   app.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words));
 }
 
+void add_device(CLI::App& command, app::DeviceChoice& choice) {
+  add_choice<app::DeviceKind>(
+      command, "--device", choice.kind,
+      {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
+      "Where to simulate (default auto: a hardware GPU, else the CPU)");
+  command.add_option("--precision", choice.precision, "Bits of the forces; 64 on the CPU alone")->check(CLI::IsMember({32, 64}));
+  command.add_option("--threads", choice.threads, "Threads of the CPU (default: one a processor)")
+      ->transform(whole_number(1, 4096));
+}
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
 void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
   CLI::Option* scene = run->add_option("scene", options.scene, "Scene file (TOML)");
-  add_choice<app::DeviceKind>(
-      *run, "--device", options.device.kind,
-      {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
-      "Where to simulate (default auto: a hardware GPU, else the CPU)");
+  add_device(*run, options.device);
   run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")
       ->transform(whole_number(0, 1000000));
-  run->add_option("--precision", options.device.precision, "Bits of the forces; 64 on the CPU alone")
-      ->check(CLI::IsMember({32, 64}));
-  run->add_option("--threads", options.device.threads, "Threads of the CPU (default: one a processor)")
-      ->transform(whole_number(1, 4096));
   CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->transform(whole_number(0, 300'000'000));
   run->add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
@@ -92,9 +102,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
       ->excludes(time_step)
       ->excludes(steps);
   run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
-  run->add_option("--set", options.overrides, "Replace a value of the scene: section.key=value or body.NAME.key=value")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_overrides(*run, options.overrides);
   run->add_option("--out", options.out, "Folder to write (default out/SCENE)")->check(not_empty());
   add_choice<FrameFormat>(*run, "--frames", options.frames,
                           {{"none", FrameFormat::none},
@@ -129,6 +137,16 @@ void add_run(CLI::App& program, app::RunOptions& options) {
     if (!interval->empty() && checkpoint->empty() && resume->empty())
       throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
   });
+}
+
+void add_view(CLI::App& program, app::ViewOptions& options) {
+  CLI::App* view = program.add_subcommand("view", "Simulate a scene in a window, live");
+  view->add_option("scene", options.scene, "Scene file (TOML), or a mesh (OBJ)")->required();
+  add_device(*view, options.device);
+  add_overrides(*view, options.overrides);
+  view->add_option("--speed", options.speed, "Simulated time in a second of real time [s] (default 1)")->check(number(1e-6, 1e6));
+  view->add_flag("--paused", options.starts_paused, "Wait at the start for the space bar");
+  view->add_option("--report", options.report, "File for a line of JSON a picture, for tests")->check(not_empty())->group("");
 }
 
 void add_info(CLI::App& program, app::InfoOptions& options) {
@@ -216,10 +234,12 @@ int execute(int count, char** arguments) {
   program.require_subcommand(1);
   program.failure_message(complaint_of);
   app::RunOptions run;
+  app::ViewOptions view;
   app::InfoOptions info;
   app::BenchOptions bench;
   MeshOptions mesh;
   add_run(program, run);
+  add_view(program, view);
   add_info(program, info);
   add_bench(program, bench);
   add_mesh(program, mesh);
@@ -229,6 +249,10 @@ int execute(int count, char** arguments) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::command_line);
   }
   if (program.got_subcommand("run")) return app::run(run);
+  if (program.got_subcommand("view")) {
+    app::view(view);
+    return 0;
+  }
   const CLI::App* suite = program.get_subcommand("bench");
   if (suite->got_subcommand("forces")) return app::bench_forces(bench);
   if (suite->got_subcommand("steps")) return app::bench_steps(bench);

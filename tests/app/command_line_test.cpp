@@ -351,8 +351,8 @@ TEST_CASE("a check validates and estimates without writing") {
 TEST_CASE("a bad command line exits with 2") {
   const ScratchFolder folder;
   const std::string scene = small_scene(folder).string() + " --out " + folder.path.string();
-  check_fails("", 2, {"pliant: ", "run, info, bench, mesh"});
-  check_fails("fly", 2, {"pliant: there is no \"pliant fly\"", "run, info, bench, mesh"});
+  check_fails("", 2, {"pliant: ", "run, view, info, bench, mesh"});
+  check_fails("fly", 2, {"pliant: there is no \"pliant fly\"", "run, view, info, bench, mesh"});
   CHECK(run_program("--fly").output == "pliant: pliant has no option --fly; `pliant --help` says more\n");
   check_fails("run", 2, {"pliant: scene", "`pliant run --help`"});
   check_fails("run " + scene + " --fly", 2, {"pliant: ", "--fly"});

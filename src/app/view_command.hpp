@@ -1,0 +1,24 @@
+// `pliant view`: a scene live in a window.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/choose_device.hpp"
+
+namespace pliant::app {
+
+struct ViewOptions {
+  std::filesystem::path scene;         // or an OBJ file
+  DeviceChoice device;                 // its GPU is the window's
+  std::vector<std::string> overrides;  // section.key=value
+  double speed = 1;                    // simulated time in a second of real time [s]
+  bool starts_paused = false;
+  std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
+};
+
+/// Returns when the window is closed. Throws Error, of kind device where there is no display or this program was built without
+/// the viewer.
+void view(const ViewOptions& options);
+
+}  // namespace pliant::app

@@ -1,0 +1,256 @@
+// `pliant view` in a real window, driven through X by keys and mouse. Nothing here waits for a time: the program reports each
+// picture, and a test reads until what it did shows.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "support/display.hpp"
+#include "support/paths.hpp"
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+
+using namespace pliant;
+using namespace pliant::test;
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* built_without = "built without the viewer";
+
+// Two small spheres, one of them on its way to the other.
+std::filesystem::path small_scene(const ScratchFolder& folder) {
+  const auto file = folder.path / "small.toml";
+  std::ofstream(file)
+      << "title = \"Small\"\n[simulation]\ntime_step = 0.01\n[output]\nsize = [320, 240]\n"
+         "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1.3, 0, 0]\nvelocity = [0.5, 0, 0]\ncolor = [0.8, 0.1, 0.05]\n"
+         "[[body]]\nmesh = \"icosphere:1\"\nposition = [1.3, 0, 0]\ncolor = [0.05, 0.1, 0.8]\n";
+  return file;
+}
+
+glm::dvec3 place(const Json& json) { return {json[0], json[1], json[2]}; }
+glm::dvec3 eye_from_target(const Json& line) { return place(line["camera"]["eye"]) - place(line["camera"]["target"]); }
+
+render::Image load_png(const std::filesystem::path& file) {
+  int width = 0, height = 0, channels = 0;
+  stbi_uc* pixels = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  REQUIRE(pixels != nullptr);
+  render::Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+  image.pixels.assign(pixels, pixels + 3 * width * height);
+  stbi_image_free(pixels);
+  return image;
+}
+
+/// The program in its window. Leaks are not looked for: the driver's libraries leave some when they are unloaded with the window,
+/// after which no suppression knows their names.
+class Viewed {
+ public:
+  Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const std::string& device)
+      : display_(display),
+        folder_(folder.path),
+        program_(
+            {program_path(), "view", small_scene(folder).string(), "--paused", "--device", device, "--report", "/dev/stdout"},
+            {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, folder.path) {
+    await([](const Json&) { return true; });
+    window_ = display.run("xdotool search --sync --onlyvisible --name 'Small - pliant'");
+    window_.erase(window_.find_last_not_of('\n') + 1);
+    do_("windowfocus --sync " + window_);
+  }
+
+  /// xdotool's commands.
+  void do_(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
+  void press(const std::string& key) const { do_("key " + key); }
+  void drag(int button, const glm::ivec2& from, const glm::ivec2& to) const {
+    const auto move = [&](const glm::ivec2& at) {
+      return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
+    };
+    do_(move(from) + "mousedown " + std::to_string(button) + " " + move(to) + "mouseup " + std::to_string(button));
+  }
+  /// Reads reports until one is as wanted.
+  Json await(const std::function<bool(const Json&)>& is_wanted) {
+    for (;;) {
+      const std::string line = program_.read_line();
+      if (!line.starts_with('{')) continue;
+      if (const Json report = Json::parse(line); is_wanted(report)) return report;
+    }
+  }
+  std::string await_text(const std::string& beginning) {
+    for (;;)
+      if (std::string line = program_.read_line(); line.starts_with(beginning)) return line;
+  }
+  /// The picture that the program saves.
+  render::Image saved_picture() {
+    press("F12");
+    const std::string line = await_text("saved ");
+    return load_png(folder_ / line.substr(6));
+  }
+  /// Whether the window shows the picture; it may still be on its way to the display.
+  bool shows(const render::Image& picture) const {
+    for (int look = 0; look < 200; ++look)
+      if (const render::Image seen = display_.picture_of(window_); seen.width == picture.width && seen.pixels == picture.pixels)
+        return true;
+    return false;
+  }
+  const std::string& window() const { return window_; }
+  Child& program() { return program_; }
+
+ private:
+  const VirtualDisplay& display_;
+  std::filesystem::path folder_;
+  Child program_;
+  std::string window_;  // its number
+};
+
+auto step_is(std::uint64_t step) {
+  return [step](const Json& line) { return line["step"] == step; };
+}
+auto size_is(unsigned width, unsigned height) {
+  return [=](const Json& line) { return line["size"] == Json{width, height}; };
+}
+
+// How many pixels are of a body's colour.
+long reddish(const render::Image& image) {
+  long count = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3) count += image.pixels[i] > 2 * image.pixels[i + 2];
+  return count;
+}
+
+void check_playing(Viewed& viewed) {
+  const render::Image first = viewed.saved_picture();
+  CHECK(reddish(first) > 1000);
+  CHECK(viewed.shows(first));
+  for (const std::uint64_t step : {1, 2, 3}) {
+    viewed.press("period");
+    CHECK(viewed.await(step_is(step))["time"] == Approx(0.01 * static_cast<double>(step)));
+  }
+  const render::Image third = viewed.saved_picture();
+  CHECK(third.pixels != first.pixels);
+  viewed.press("comma");
+  viewed.await(step_is(2));
+  viewed.press("period");
+  viewed.await(step_is(3));
+  CHECK(viewed.saved_picture().pixels == third.pixels);
+
+  viewed.press("space");
+  const Json playing = viewed.await([](const Json& line) { return !line["paused"] && line["step"] > 3; });
+  CHECK_THAT(playing["title"].get<std::string>(), Catch::StartsWith("Small - pliant"));
+  viewed.await([&](const Json& line) { return line["step"] > playing["step"]; });
+  viewed.press("space");
+  const Json paused = viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+  CHECK_THAT(paused["title"].get<std::string>(), Catch::Contains("paused"));
+  viewed.press("comma");
+  viewed.await(step_is(paused["step"].get<std::uint64_t>() - 1));
+  viewed.press("r");
+  viewed.await(step_is(0));
+  CHECK(viewed.saved_picture().pixels == first.pixels);
+  CHECK(viewed.shows(first));
+}
+
+void check_camera(Viewed& viewed) {
+  viewed.press("F1");
+  viewed.await_text("drop ");
+  Json before = viewed.await([](const Json&) { return true; });
+  viewed.drag(1, {100, 100}, {180, 100});  // a quarter of the window's width
+  const auto has_turned = [&](const Json& line) {
+    const glm::dvec3 old = eye_from_target(before), turned = eye_from_target(line);
+    const glm::dvec3 quarter(-old.z, old.y, old.x);
+    return glm::distance(turned, quarter) < 1e-6 * glm::length(old);
+  };
+  before = viewed.await(has_turned);
+  viewed.do_("click 4");
+  const auto is_nearer = [&](const Json& line) {
+    return std::abs(glm::length(eye_from_target(line)) - 0.9 * glm::length(eye_from_target(before))) < 1e-9;
+  };
+  before = viewed.await(is_nearer);
+  viewed.drag(3, {100, 100}, {130, 90});
+  const auto has_shifted = [&](const Json& line) {
+    return line["camera"]["target"] != before["camera"]["target"] &&
+           glm::distance(eye_from_target(line), eye_from_target(before)) < 1e-9;
+  };
+  viewed.await(has_shifted);
+  const render::Image surface = viewed.saved_picture();
+  CHECK(viewed.shows(surface));
+  viewed.press("w");
+  viewed.await([](const Json& line) { return line["wireframe"].get<bool>(); });
+  CHECK(viewed.saved_picture().pixels != surface.pixels);
+  viewed.press("w");
+  viewed.await([](const Json& line) { return !line["wireframe"]; });
+  CHECK(viewed.saved_picture().pixels == surface.pixels);
+  viewed.press("f");
+  viewed.await([](const Json& line) { return glm::length(place(line["camera"]["target"])) < 1e-6; });
+}
+
+void check_window(Viewed& viewed) {
+  viewed.do_("windowsize " + viewed.window() + " 402 301");
+  viewed.await(size_is(402, 301));
+  const render::Image resized = viewed.saved_picture();
+  CHECK(resized.width == 402);
+  CHECK(resized.height == 301);
+  CHECK(viewed.shows(resized));
+
+  viewed.press("space");
+  viewed.await([](const Json& line) { return !line["paused"]; });
+  viewed.do_("windowminimize " + viewed.window());
+  const Json minimised = viewed.await(size_is(0, 0));
+  viewed.await([&](const Json& line) { return line["step"] > minimised["step"]; });
+  viewed.do_("windowactivate --sync " + viewed.window());
+  viewed.await(size_is(402, 301));
+  viewed.press("alt+F4");
+  CHECK(viewed.program().wait_for_end() == 0);
+}
+
+/// Why no window can be tested here; empty where it can.
+std::string obstacle() {
+  const ProgramResult result = run_program("view " + shipped_scene("two_spheres"), "env -u DISPLAY -u WAYLAND_DISPLAY ");
+  if (result.output.find(built_without) != std::string::npos) return "this program was built without the viewer";
+  const std::string missing = VirtualDisplay::missing();
+  return missing.empty() ? "" : "there is no " + missing;
+}
+
+bool is_skipped() {
+  const std::string why = obstacle();
+  if (!why.empty()) WARN("skipped: " << why);
+  return !why.empty();
+}
+
+TEST_CASE("without a display the viewer says so, and what to do instead") {
+  const ProgramResult result = run_program("view " + shipped_scene("two_spheres"), "env -u DISPLAY -u WAYLAND_DISPLAY ");
+  CHECK(result.exit_code == 4);
+  CHECK_THAT(result.output, Catch::Contains("no display") || Catch::Contains(built_without));
+  CHECK_THAT(result.output, Catch::Contains("pliant run"));
+}
+
+TEST_CASE("a window plays, steps, goes back, turns, resizes, is minimised and closes, on either device", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  for (const char* device : {"cpu", "gpu"}) {
+    CAPTURE(device);
+    const ScratchFolder folder;
+    Viewed viewed(display, folder, device);
+    check_playing(viewed);
+    check_camera(viewed);
+    check_window(viewed);
+  }
+}
+
+TEST_CASE("the escape key ends the viewer", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  viewed.press("Escape");
+  CHECK(viewed.program().wait_for_end() == 0);
+}
+
+}  // namespace
