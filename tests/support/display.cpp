@@ -14,6 +14,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "support/paths.hpp"
+
 namespace pliant::test {
 namespace {
 
@@ -115,10 +117,18 @@ int Child::wait_for_end() {
 
 std::string VirtualDisplay::missing() {
   std::string names;
-  for (const char* program : {"Xvfb", "openbox", "xdotool", "xwd"})
-    if (std::system(("command -v " + std::string(program) + " > /dev/null").c_str()) != 0)
-      names += (names.empty() ? "" : ", ") + std::string(program);
+  for (const auto& [name, check] : {std::pair{"Xvfb", "command -v Xvfb"},
+                                    {"openbox", "command -v openbox"},
+                                    {"xdotool", "command -v xdotool"},
+                                    {"xwd", "command -v xwd"},
+                                    {"Xlib for Python", "/usr/bin/python3 -c 'import Xlib'"}})
+    if (std::system((std::string(check) + " > /dev/null 2>&1").c_str()) != 0)
+      names += (names.empty() ? "" : ", ") + std::string(name);
   return names;
+}
+
+void VirtualDisplay::drop(const std::filesystem::path& file, const std::string& window) const {
+  (void)run("/usr/bin/python3 " + source_dir() + "/tests/support/drop_file.py " + window + " " + file.string());
 }
 
 VirtualDisplay::VirtualDisplay()

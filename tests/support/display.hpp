@@ -44,6 +44,8 @@ class VirtualDisplay {
   [[nodiscard]] const std::string& name() const { return name_; }  // such as ":1"
   /// Runs a shell command in it, such as xdotool, and gives its output. Throws where it fails.
   [[nodiscard]] std::string run(const std::string& command) const;
+  /// Drops a file on a window, as a file manager would.
+  void drop(const std::filesystem::path& file, const std::string& window) const;
   /// What a window shows.
   [[nodiscard]] render::Image picture_of(const std::string& window) const;
 

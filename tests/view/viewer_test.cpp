@@ -59,24 +59,25 @@ class Viewed {
   Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const std::string& device)
       : display_(display),
         folder_(folder.path),
-        program_(
-            {program_path(), "view", small_scene(folder).string(), "--paused", "--device", device, "--report", "/dev/stdout"},
-            {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, folder.path) {
+        program_({"sh", "-c", "exec \"$0\" \"$@\" 2>&1", program_path(), "view", small_scene(folder).string(), "--paused",
+                  "--device", device, "--report", "/dev/stdout"},
+                 {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, folder.path) {
     await([](const Json&) { return true; });
     window_ = display.run("xdotool search --sync --onlyvisible --name 'Small - pliant'");
     window_.erase(window_.find_last_not_of('\n') + 1);
-    do_("windowfocus --sync " + window_);
+    xdotool("windowfocus --sync " + window_);
   }
 
-  /// xdotool's commands.
-  void do_(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
-  void press(const std::string& key) const { do_("key " + key); }
+  /// Runs commands of it.
+  void xdotool(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
+  void press(const std::string& key) const { xdotool("key " + key); }
   void drag(int button, const glm::ivec2& from, const glm::ivec2& to) const {
     const auto move = [&](const glm::ivec2& at) {
       return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
     };
-    do_(move(from) + "mousedown " + std::to_string(button) + " " + move(to) + "mouseup " + std::to_string(button));
+    xdotool(move(from) + "mousedown " + std::to_string(button) + " " + move(to) + "mouseup " + std::to_string(button));
   }
+  void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted.
   Json await(const std::function<bool(const Json&)>& is_wanted) {
     for (;;) {
@@ -168,7 +169,7 @@ void check_camera(Viewed& viewed) {
     return glm::distance(turned, quarter) < 1e-6 * glm::length(old);
   };
   before = viewed.await(has_turned);
-  viewed.do_("click 4");
+  viewed.xdotool("click 4");
   const auto is_nearer = [&](const Json& line) {
     return std::abs(glm::length(eye_from_target(line)) - 0.9 * glm::length(eye_from_target(before))) < 1e-9;
   };
@@ -192,7 +193,7 @@ void check_camera(Viewed& viewed) {
 }
 
 void check_window(Viewed& viewed) {
-  viewed.do_("windowsize " + viewed.window() + " 402 301");
+  viewed.xdotool("windowsize " + viewed.window() + " 402 301");
   viewed.await(size_is(402, 301));
   const render::Image resized = viewed.saved_picture();
   CHECK(resized.width == 402);
@@ -201,10 +202,10 @@ void check_window(Viewed& viewed) {
 
   viewed.press("space");
   viewed.await([](const Json& line) { return !line["paused"]; });
-  viewed.do_("windowminimize " + viewed.window());
+  viewed.xdotool("windowminimize " + viewed.window());
   const Json minimised = viewed.await(size_is(0, 0));
   viewed.await([&](const Json& line) { return line["step"] > minimised["step"]; });
-  viewed.do_("windowactivate --sync " + viewed.window());
+  viewed.xdotool("windowactivate --sync " + viewed.window());
   viewed.await(size_is(402, 301));
   viewed.press("alt+F4");
   CHECK(viewed.program().wait_for_end() == 0);
@@ -244,7 +245,29 @@ TEST_CASE("a window plays, steps, goes back, turns, resizes, is minimised and cl
   }
 }
 
-TEST_CASE("the escape key ends the viewer", "[gl][long]") {
+TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scene as it is", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  const render::Image before = viewed.saved_picture();
+  const auto bad = folder.path / "bad.obj";
+  std::ofstream(bad) << "no mesh\n";
+  viewed.drop(bad);
+  CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("bad.obj"));
+  const Json kept =
+      viewed.await([](const Json& line) { return line["title"].get<std::string>().find("bad.obj") != std::string::npos; });
+  CHECK_THAT(kept["scene"].get<std::string>(), Catch::EndsWith("small.toml"));
+  CHECK(viewed.saved_picture().pixels == before.pixels);
+
+  viewed.drop(source_dir() + "/meshes/teapot.obj");
+  viewed.await([](const Json& line) { return line["title"].get<std::string>().starts_with("teapot"); });
+  const render::Image teapot = viewed.saved_picture();
+  CHECK(teapot.pixels != before.pixels);
+  CHECK(viewed.shows(teapot));
+}
+
+TEST_CASE("the escape key ends the viewer", "[gl]") {
   if (is_skipped()) return;
   const VirtualDisplay display;
   const ScratchFolder folder;
