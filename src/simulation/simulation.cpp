@@ -139,6 +139,12 @@ StepReport Simulation::advance_to(double time) {
   return last;
 }
 
+void Simulation::pull(const Pull& by, double seconds) {
+  if (!grip_ || grip_->vertex() != by.vertex) grip_.emplace(device_, bodies_, model_, by.vertex);
+  grip_->aim_at(by.target, seconds);
+  device_.run(grip_->passes(half()));
+}
+
 std::uint32_t Simulation::half() {
   const std::uint32_t halted_at = bodies_.control.download().front().non_finite_step;
   return static_cast<std::uint32_t>((halted_at != 0 ? halted_at : queued_steps_) & 1);

@@ -10,6 +10,7 @@
 
 #include "collision/collider.hpp"
 #include "device/device_bodies.hpp"
+#include "dynamics/grip.hpp"
 #include "dynamics/pacer.hpp"
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
@@ -88,6 +89,8 @@ class Simulation {
   void time_passes() { timed_ = true; }
   /// Device time since time_passes() by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
+  /// Between steps: queues a change of velocities, as drawing a body for so long does [s]. See Grip.
+  void pull(const Pull& by, double seconds);
   /// Waits for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
@@ -117,6 +120,7 @@ class Simulation {
   DeviceBodies bodies_;
   Stepper stepper_;
   Collider collider_;
+  std::optional<Grip> grip_;                    // of the latest pull
   std::optional<Pacer> pacer_;                  // where a tolerance governs the steps
   physics::Pace known_pace_{};                  // of the latest report
   double fixed_step_;                           // else their length [s]

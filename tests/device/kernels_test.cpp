@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "dynamics/grip.hpp"
 #include "gl/context.hpp"
 #include "gl/shader_source.hpp"
 #include "support/collision_scene.hpp"
@@ -41,8 +42,10 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step),
-        collider(*device, bodies, start.model, collision, 256) {  // searches cut alike on every device
-    bodies.all_stages_at_once = false;                            // and stages, too
+        collider(*device, bodies, start.model, collision, 256),  // searches cut alike on every device
+        grip(*device, bodies, start.model, 1) {
+    grip.aim_at({0, 2, 0}, 1e-3);
+    bodies.all_stages_at_once = false;  // and stages, too
   }
 
   // Steps of an adaptive length.
@@ -51,15 +54,20 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(*device, bodies, start.model, collision, 256) {
+        collider(*device, bodies, start.model, collision, 256),
+        grip(*device, bodies, start.model, 1) {
+    grip.aim_at({0, 2, 0}, 1e-3);
     bodies.all_stages_at_once = false;
     pacer.emplace(*device, bodies, start.model, stepper, find_integrator(method.integrator), method.law,
                   PaceLimits{.tolerance = tolerance, .first_step = method.time_step, .largest_step = 2 * method.time_step});
     pacer->aim_at(4 * method.time_step);
   }
 
+  // With a pull at its end.
   std::vector<Pass> step(std::uint32_t from_half) {
-    return step_passes(*device, bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
+    std::vector<Pass> passes = step_passes(*device, bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
+    std::ranges::copy(grip.passes(1 - from_half), std::back_inserter(passes));
+    return passes;
   }
 
   template <class T>
@@ -73,6 +81,7 @@ struct Bench {
   DeviceBodies bodies;
   Stepper stepper;
   Collider collider;
+  Grip grip;
   std::optional<Pacer> pacer;
 };
 
@@ -140,6 +149,9 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // by powers of floats
       for (std::size_t k = 0; k < x.size(); ++k)
         CHECK(y[k] == Approx(x[k]).epsilon(cpu_pass.name == "judge_step" && k != allowed ? 1e-12 : 1e-6));
+    } else if (slot.type == "Aim") {
+      const auto x = cpu.read<physics::Aim>(a).front(), y = gpu.read<physics::Aim>(b).front();
+      for (int k = 0; k < 3; ++k) CHECK(std::abs(y.change[k] - x.change[k]) < 1e-6 * x.largest_speed);
     } else if (slot.type == "double") {
       const auto [x, y] = read_both<double>(cpu, gpu, a, b);
       CHECK(largest_difference(y, x) < 1e-6);

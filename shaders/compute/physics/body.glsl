@@ -79,6 +79,13 @@ FN dvec3 rotate(IN(Frame) frame, dvec3 p) {
                row_times(frame.rotation[6], frame.rotation[7], frame.rotation[8], p));
 }
 
+// R transposed times p.
+FN dvec3 rotate_back(IN(Frame) frame, dvec3 p) {
+  return dvec3(row_times(frame.rotation[0], frame.rotation[3], frame.rotation[6], p),
+               row_times(frame.rotation[1], frame.rotation[4], frame.rotation[7], p),
+               row_times(frame.rotation[2], frame.rotation[5], frame.rotation[8], p));
+}
+
 FN dvec3 to_world(IN(Frame) frame, dvec3 p) {
   EXACT dvec3 q = rotate(frame, p) + LOAD3(frame.origin, 0u);
   return q;

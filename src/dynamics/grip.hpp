@@ -1,0 +1,44 @@
+// Holds a body at a part of its surface, and pulls it there between steps, as a mouse does.
+#pragma once
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "device/device_bodies.hpp"
+#include "device/pass.hpp"
+#include "physics/pull.glsl"
+
+namespace pliant {
+
+/// A place in the world that a body is drawn to by one of its vertices.
+struct Pull {
+  std::uint32_t vertex = 0;  // of the model
+  glm::dvec3 target{0.0};    // [m]
+};
+
+/// Pulls change velocities alone, and no faster than the body bears: whatever the targets are, what is finite stays so. A body
+/// without springs can't be pulled.
+class Grip {
+ public:
+  /// Of the vertices around one, less and less with their distance at rest. All references but the model must outlive the grip.
+  Grip(Device& device, const DeviceBodies& bodies, const Model& model, std::uint32_t vertex);
+  Grip(const Grip&) = delete;
+  Grip& operator=(const Grip&) = delete;
+
+  [[nodiscard]] std::uint32_t vertex() const { return vertex_; }
+  /// Queues where the next passes() draw the grip [m], for a time that has gone by since the last ones [s].
+  void aim_at(const glm::dvec3& target, double seconds);
+  /// Between steps, with the state in `half`.
+  [[nodiscard]] std::vector<Pass> passes(std::uint32_t half) const;
+
+ private:
+  Device& device_;
+  const DeviceBodies& bodies_;
+  std::uint32_t vertex_;
+  double largest_acceleration_;  // of a vertex [m/s^2]
+  double largest_change_;        // of a velocity by one pull [m/s]
+  physics::Aim aim_{};
+  DeviceArray<physics::Aim> aims_;       // one
+  DeviceArray<physics::GripVertex> grip_;  // the vertex itself first
+};
+
+}  // namespace pliant
