@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "app/interrupts.hpp"
+#include "simulation/breakdown.hpp"
 
 namespace pliant::app {
 namespace {
@@ -35,17 +36,6 @@ std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
                      report.adaptive->largest_step, report.adaptive->rejected, report.adaptive->rejected_in_contact);
 }
 
-std::string remedy_for_breakdown(const TimePlan& plan) {
-  if (plan.tolerance) return "loosen the tolerance, or lower stiffness, damping or velocities";
-  if (plan.time_step > plan.step_bound) return fmt::format("shorten the time step to {:.4g} s or less", plan.step_bound);
-  return "shorten the time step, or lower stiffness, damping or velocities";
-}
-
-std::string reason_for_breakdown(const NonFinite& where, const TimePlan& plan) {
-  if (where.failed_step == 0) return "the simulation became non-finite";
-  return fmt::format("no step down to {:.3g} s meets the tolerance of {:g}", where.failed_step, *plan.tolerance);
-}
-
 void show_timings(const std::map<std::string_view, double>& pass_seconds, std::uint64_t steps) {
   double all = 0;
   for (const auto& [pass, seconds] : pass_seconds) all += seconds;
@@ -59,11 +49,7 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 
 std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report, times] = status;
-  if (report.non_finite) {
-    const NonFinite& where = *report.non_finite;
-    return fmt::format("{} in step {} at vertex {} of body \"{}\"; {}", reason_for_breakdown(where, run.plan), where.step,
-                       where.vertex, run.start.model.bodies[where.body].name, remedy_for_breakdown(run.plan));
-  }
+  if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
   const double growth = energy_growth(progress, run.start.model);
   if (growth > 2)
     return fmt::format("the energy has grown {:.3g}-fold: {}", growth,

@@ -1,0 +1,26 @@
+#include "simulation/breakdown.hpp"
+
+#include <fmt/format.h>
+
+namespace pliant {
+namespace {
+
+std::string remedy(const TimePlan& plan) {
+  if (plan.tolerance) return "loosen the tolerance, or lower stiffness, damping or velocities";
+  if (plan.time_step > plan.step_bound) return fmt::format("shorten the time step to {:.4g} s or less", plan.step_bound);
+  return "shorten the time step, or lower stiffness, damping or velocities";
+}
+
+std::string reason(const NonFinite& where, const TimePlan& plan) {
+  if (where.failed_step == 0) return "the simulation became non-finite";
+  return fmt::format("no step down to {:.3g} s meets the tolerance of {:g}", where.failed_step, *plan.tolerance);
+}
+
+}  // namespace
+
+std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model) {
+  return fmt::format("{} in step {} at vertex {} of body \"{}\"; {}", reason(where, plan), where.step, where.vertex,
+                     model.bodies[where.body].name, remedy(plan));
+}
+
+}  // namespace pliant
