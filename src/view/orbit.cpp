@@ -23,10 +23,10 @@ CameraDescription orbit(const CameraDescription& camera, const glm::dvec2& from,
   const glm::dvec2 drag = (to - from) / size;
   const glm::dvec3 back = render::axes_of(camera).back;
   const double azimuth = std::atan2(back.x, back.z) - 2 * std::numbers::pi * drag.x;
-  const double elevation = std::asin(std::clamp(back.y, -1.0, 1.0)) + std::numbers::pi * drag.y;
+  const double before = std::asin(std::clamp(back.y, -1.0, 1.0));  // of a camera that looks straight down: let it stay there
+  const double elevation = std::clamp(before + std::numbers::pi * drag.y, std::min(-highest, before), std::max(highest, before));
   CameraDescription turned = camera;
-  turned.eye =
-      camera.target + glm::distance(camera.eye, camera.target) * direction(azimuth, std::clamp(elevation, -highest, highest));
+  turned.eye = camera.target + glm::distance(camera.eye, camera.target) * direction(azimuth, elevation);
   return turned;
 }
 

@@ -64,6 +64,11 @@ TEST_CASE("a camera straight above can be dragged") {
   CHECK(distance_of(turned) == Approx(5));
 }
 
+TEST_CASE("a camera near straight above does not jump when it is touched") {
+  const CameraDescription steep{{0, 5, 0.05}, {0, 0, 0}, 40};
+  CHECK(glm::distance(orbit(steep, {0, 0}, {0, 1e-6}, size).eye, steep.eye) < 1e-6);
+}
+
 TEST_CASE("panning keeps the picked point under the cursor") {
   const glm::dvec3 picked = camera.target + render::axes_of(camera).right * 0.7 + render::axes_of(camera).up * 0.4;
   const glm::dvec2 from = pixel_of(camera, picked), to = from + glm::dvec2(-230, 95);
