@@ -4,7 +4,6 @@
 #include "device/gpu/gpu_device.hpp"
 
 namespace pliant::app {
-namespace {
 
 void expect_consistent(const DeviceChoice& choice) {
   const bool gpu = choice.kind == DeviceKind::gpu || choice.gpu_index;
@@ -14,8 +13,6 @@ void expect_consistent(const DeviceChoice& choice) {
     throw Error(ErrorKind::command_line, "--precision 64", "fp64 forces run on the CPU alone",
                 "add --device cpu or leave --precision out");
 }
-
-}  // namespace
 
 bool has_hardware_gpu() {
   const auto adapters = gl::list_adapters();

@@ -19,6 +19,9 @@ struct DeviceChoice {
 
 [[nodiscard]] bool has_hardware_gpu();
 
+/// Throws Error (command_line) for a contradiction.
+void expect_consistent(const DeviceChoice& choice);
+
 /// Automatic: a hardware GPU if there is one and precision is 32, else the CPU; software OpenGL only when the GPU is asked for.
 /// Throws Error: command_line for a contradiction, device when there is no such device.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice);

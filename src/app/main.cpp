@@ -141,6 +141,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
 
 void add_view(CLI::App& program, app::ViewOptions& options) {
   CLI::App* view = program.add_subcommand("view", "Simulate a scene in a window, live");
+  view->footer(app::view_help());
   view->add_option("scene", options.scene, "Scene file (TOML), or a mesh (OBJ)")->required();
   add_device(*view, options.device);
   add_overrides(*view, options.overrides);

@@ -1,5 +1,9 @@
 #include "app/view_command.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 #include "core/error.hpp"
 #ifdef PLIANT_VIEWER
 #include "view/viewer.hpp"
@@ -9,17 +13,24 @@ namespace pliant::app {
 
 #ifdef PLIANT_VIEWER
 
-// The scene is read first: a mistake in it shall not need a display to be seen.
+// Options and scene are looked at first: a mistake in them shall not need a display to be seen.
 void view(const ViewOptions& options) {
-  const SceneDescription scene = view::describe(options.scene, options.overrides);
-  gl::Window window(scene.output.size, scene.title);
+  expect_consistent(options.device);
+  view::LoadedScene scene = view::load(options.scene, options.overrides);
+  for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+  static_cast<void>(plan_time(scene.description, scene.start.model));
+  gl::Window window(scene.description.output.size, scene.description.title);
   const std::unique_ptr<Device> device = choose_device(options.device, window.context());
-  view::Viewer viewer(window, *device, scene,
+  view::Viewer viewer(window, *device, std::move(scene),
                       {.pace = {.speed = options.speed}, .starts_paused = options.starts_paused, .report = options.report});
   viewer.run();
 }
 
+std::string view_help() { return "In the window:\n" + view::Viewer::help(); }
+
 #else
+
+std::string view_help() { return "This pliant was built without the viewer.\n"; }
 
 void view(const ViewOptions&) {
   throw Error(ErrorKind::device, "", "this pliant was built without the viewer",

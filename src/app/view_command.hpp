@@ -21,4 +21,7 @@ struct ViewOptions {
 /// the viewer.
 void view(const ViewOptions& options);
 
+/// What keys and mouse do, as text.
+[[nodiscard]] std::string view_help();
+
 }  // namespace pliant::app

@@ -4,9 +4,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <array>
+#include <cctype>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -54,29 +53,17 @@ WindowContext context_of(GLFWwindow* window) {
   return {.find = glfwGetProcAddress, .make_current = [window] { glfwMakeContextCurrent(window); }};
 }
 
-std::optional<Key> named_key(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Key>, 5> names = {
-      {{".", Key::period}, {",", Key::comma}, {"f", Key::f}, {"r", Key::r}, {"w", Key::w}}};
-  for (const auto& [known, key] : names)
-    if (name == known) return key;
-  return {};
+// Of keys that write nothing; empty where there is no such name.
+std::string name_of_key(int key) {
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return std::string("F").append(std::to_string(key - GLFW_KEY_F1 + 1));
+  return key == GLFW_KEY_TAB ? "tab" : key == GLFW_KEY_ESCAPE ? "escape" : "";
 }
 
-std::optional<Key> key_of(int key, int scancode) {
-  switch (key) {
-    case GLFW_KEY_SPACE:
-      return Key::space;
-    case GLFW_KEY_ESCAPE:
-      return Key::escape;
-    case GLFW_KEY_F1:
-      return Key::f1;
-    case GLFW_KEY_F12:
-      return Key::f12;
-    default: {
-      const char* name = glfwGetKeyName(key, scancode);
-      return name == nullptr ? std::nullopt : named_key(name);
-    }
-  }
+// Of a key that writes a character: the character, or the letter that stands there on a US keyboard if it is not Latin.
+std::string name_of_character(unsigned character, int key) {
+  if (character == ' ') return "space";
+  if (character > ' ' && character < 0x7f) return {static_cast<char>(std::toupper(static_cast<int>(character)))};
+  return key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? std::string{static_cast<char>(key)} : "";
 }
 
 }  // namespace
@@ -85,6 +72,7 @@ struct Window::Impl {
   Impl(const glm::uvec2& size, const std::string& title) : window(make_window(size, title)), context(context_of(window)) {
     glfwSetWindowUserPointer(window, this);
     glfwSwapInterval(1);
+    measure();
     listen();
   }
   ~Impl() { glfwDestroyWindow(window); }
@@ -93,42 +81,81 @@ struct Window::Impl {
 
   static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
   void listen();
+  void measure();
+  void press_key(int key, int action, int modifiers);
+  void write(unsigned character);
+  void press_mouse(int button, int action, int modifiers);
   void move_cursor(const glm::dvec2& place);
-  [[nodiscard]] bool holds(int button) const { return glfwGetMouseButton(window, button) == GLFW_PRESS; }
 
   Library library;
   GLFWwindow* window;
   Context context;
   std::vector<WindowEvent> events;
-  std::optional<glm::dvec2> cursor;  // where it was last seen [screen units]
+  glm::uvec2 framebuffer_size{0};     // 0 x 0 while minimised
+  glm::dvec2 pixels{1.0};             // in a screen unit
+  int latest_key = GLFW_KEY_UNKNOWN;  // pressed
+  bool is_repeating = false;          // that key
+  std::optional<MouseButton> held;    // pressed last, and not released since
+  std::optional<glm::dvec2> cursor;   // where it was last seen [pixels]
 };
 
 void Window::Impl::listen() {
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int) {
-    const std::optional<Key> known = action == GLFW_RELEASE ? std::nullopt : key_of(key, scancode);
-    if (known) of(w).events.emplace_back(KeyPressed{*known});
-  });
+  glfwSetKeyCallback(window,
+                     [](GLFWwindow* w, int key, int, int action, int modifiers) { of(w).press_key(key, action, modifiers); });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) { of(w).write(character); });
+  glfwSetMouseButtonCallback(
+      window, [](GLFWwindow* w, int button, int action, int modifiers) { of(w).press_mouse(button, action, modifiers); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).move_cursor({x, y}); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { of(w).events.emplace_back(MouseScrolled{y}); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) of(w).events.emplace_back(FilesDropped{{paths, paths + count}});
   });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).events.emplace_back(PictureNeeded{}); });
-  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).events.emplace_back(PictureNeeded{}); });
-  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).events.emplace_back(PictureNeeded{}); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).measure(); });
+  glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).measure(); });
 }
 
-void Window::Impl::move_cursor(const glm::dvec2& place) {
-  const glm::dvec2 before = std::exchange(cursor, place).value_or(place);
+// To ask the display takes a while, so it is asked only when something changes.
+void Window::Impl::measure() {
   int width = 0, height = 0, pixels_across = 0, pixels_down = 0;
   glfwGetWindowSize(window, &width, &height);
   glfwGetFramebufferSize(window, &pixels_across, &pixels_down);
-  if (width <= 0 || height <= 0) return;
-  const glm::dvec2 pixels(static_cast<double>(pixels_across) / width, static_cast<double>(pixels_down) / height);
-  if (holds(GLFW_MOUSE_BUTTON_LEFT))
-    events.emplace_back(MouseDragged{MouseButton::left, before * pixels, place * pixels});
-  else if (holds(GLFW_MOUSE_BUTTON_RIGHT))
-    events.emplace_back(MouseDragged{MouseButton::right, before * pixels, place * pixels});
+  const bool is_shown = !glfwGetWindowAttrib(window, GLFW_ICONIFIED) && pixels_across > 0 && pixels_down > 0;
+  framebuffer_size = is_shown ? glm::uvec2(pixels_across, pixels_down) : glm::uvec2(0);
+  if (width > 0 && height > 0) pixels = glm::dvec2(pixels_across, pixels_down) / glm::dvec2(width, height);
+  events.emplace_back(PictureNeeded{});
+}
+
+// With other modifiers keys mean something to the desktop, if anything. What writes a character is heard of by write().
+void Window::Impl::press_key(int key, int action, int modifiers) {
+  if (action == GLFW_RELEASE) return;
+  latest_key = key;
+  is_repeating = action == GLFW_REPEAT;
+  if ((modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
+  if (std::string name = name_of_key(key); !name.empty()) events.emplace_back(KeyPressed{std::move(name), is_repeating});
+}
+
+void Window::Impl::write(unsigned character) {
+  if (std::string name = name_of_character(character, latest_key); !name.empty())
+    events.emplace_back(KeyPressed{std::move(name), is_repeating});
+}
+
+void Window::Impl::press_mouse(int number, int action, int modifiers) {
+  if (number != GLFW_MOUSE_BUTTON_LEFT && number != GLFW_MOUSE_BUTTON_RIGHT) return;
+  const MouseButton button = number == GLFW_MOUSE_BUTTON_LEFT ? MouseButton::left : MouseButton::right;
+  if (action == GLFW_RELEASE) {
+    if (held == button) held.reset();
+    events.emplace_back(MouseReleased{button});
+    return;
+  }
+  held = button;
+  events.emplace_back(MousePressed{button, cursor.value_or(glm::dvec2(0.0)), (modifiers & GLFW_MOD_CONTROL) != 0});
+}
+
+void Window::Impl::move_cursor(const glm::dvec2& place) {
+  const glm::dvec2 to = place * pixels;
+  events.emplace_back(MouseMoved{cursor.value_or(to), to, held});
+  cursor = to;
 }
 
 Window::Window(const glm::uvec2& size, const std::string& title) : impl_(std::make_unique<Impl>(size, title)) {}
@@ -137,12 +164,7 @@ Window::~Window() = default;
 
 Context& Window::context() { return impl_->context; }
 
-glm::uvec2 Window::framebuffer_size() const {
-  if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return {0, 0};
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(impl_->window, &width, &height);
-  return width > 0 && height > 0 ? glm::uvec2(width, height) : glm::uvec2(0, 0);
-}
+glm::uvec2 Window::framebuffer_size() const { return impl_->framebuffer_size; }
 
 std::vector<WindowEvent> Window::poll_events() {
   glfwPollEvents();

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,15 +12,23 @@
 
 namespace pliant::gl {
 
-enum class Key { space, period, comma, f, r, w, f1, f12, escape };  // letters and signs as the keyboard's layout has them
 enum class MouseButton { left, right };
 
-struct KeyPressed {  // or repeated, while it is held
-  Key key;
+struct KeyPressed {
+  std::string name;        // what the keyboard's layout writes by it, in capitals, or "space", "tab", "escape", "F1" to "F12"
+  bool is_repeat = false;  // it is being held
 };
-struct MouseDragged {  // between two events, the button held; pixels of the framebuffer from the top left
+struct MousePressed {
   MouseButton button;
+  glm::dvec2 place;  // here and below: pixels of the framebuffer from the top left
+  bool with_control = false;
+};
+struct MouseReleased {
+  MouseButton button;
+};
+struct MouseMoved {  // between two events
   glm::dvec2 from, to;
+  std::optional<MouseButton> held;
 };
 struct MouseScrolled {
   double notches;  // away from the user is positive
@@ -29,7 +38,7 @@ struct FilesDropped {
 };
 struct PictureNeeded {};  // the window was resized, uncovered, minimised or restored
 
-using WindowEvent = std::variant<KeyPressed, MouseDragged, MouseScrolled, FilesDropped, PictureNeeded>;
+using WindowEvent = std::variant<KeyPressed, MousePressed, MouseReleased, MouseMoved, MouseScrolled, FilesDropped, PictureNeeded>;
 
 /// One at a time; all of it belongs to the thread that made it.
 class Window {

@@ -56,6 +56,8 @@ struct CameraDescription {
   glm::dvec3 eye{0.0};          // [m]
   glm::dvec3 target{0.0};       // [m]
   double field_of_view = 40.0;  // vertical [degrees]
+
+  bool operator==(const CameraDescription&) const = default;
 };
 
 struct OutputDescription {

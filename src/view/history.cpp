@@ -5,9 +5,7 @@
 
 namespace pliant::view {
 
-std::size_t Snapshot::bytes() const {
-  return sizeof(*this) + state.frames.size() * sizeof(physics::Frame) + state.motion.size() * sizeof(double);
-}
+std::size_t Snapshot::bytes() const { return sizeof(*this) + saved.size(); }
 
 void History::record(Snapshot snapshot) {
   while (!snapshots_.empty() && snapshots_.back().step >= snapshot.step) {

@@ -3,15 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-
-#include "model/model.hpp"
+#include <string>
 
 namespace pliant::view {
 
 struct Snapshot {
   std::uint64_t step = 0;
-  double time = 0;  // [s]
-  State state;
+  std::string saved;  // by Simulation::save
 
   [[nodiscard]] std::size_t bytes() const;
 };

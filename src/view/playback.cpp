@@ -4,19 +4,24 @@
 
 namespace pliant::view {
 
+// Where a picture takes longer to draw than a display to refresh, as much time goes into steps.
 void Playback::begin(double now, double simulated) {
-  if (began_before_ && !paused_) {
+  constexpr double refresh = 1.0 / 60;  // [s]
+  budget_ = pace_.budget;
+  if (in_stretch_ && !paused_) {
+    budget_ = std::max(budget_, now - ended_ - refresh);
     goal_ += (now - began_) * pace_.speed;
     measure(now, simulated);
   } else {
     goal_ = simulated;
     span_ = {now, simulated};
-    began_before_ = !paused_;
+    in_stretch_ = !paused_;
   }
   began_ = now;
 }
 
-void Playback::end(double simulated, bool reached_goal) {
+void Playback::end(double now, double simulated, bool reached_goal) {
+  ended_ = now;
   if (reached_goal) return;
   goal_ = simulated;
   span_.was_behind = true;
@@ -24,7 +29,7 @@ void Playback::end(double simulated, bool reached_goal) {
 
 void Playback::pause() {
   paused_ = true;
-  began_before_ = false;
+  in_stretch_ = false;
 }
 
 void Playback::toggle_pause() {

@@ -7,7 +7,7 @@ namespace pliant::view {
 
 struct Pace {
   double speed = 1;       // simulated time in a second of real time [s]
-  double budget = 0.012;  // for stepping in one picture [s], so that the window stays awake
+  double budget = 0.012;  // for stepping in one picture [s], so that the window stays awake; more where drawing takes longer
 };
 
 /// For each picture: begin(), steps as long as the simulation is before goal() and has_time(), end(). What does not fit the
@@ -21,16 +21,17 @@ class Playback {
   /// The latest time at which the simulation may be in this picture [s].
   [[nodiscard]] double goal() const { return goal_; }
   /// Whether the budget, counted from begin(), leaves time at `now` [s].
-  [[nodiscard]] bool has_time(double now) const { return now - began_ < pace_.budget; }
-  /// Ends the picture with the simulation at `simulated` [s]; `reached_goal`: one more step would go beyond it.
-  void end(double simulated, bool reached_goal);
+  [[nodiscard]] bool has_time(double now) const { return now - began_ < budget_; }
+  /// Ends the steps of a picture at `now`, with the simulation at `simulated` [s]; `reached_goal`: one more step would go beyond
+  /// it.
+  void end(double now, double simulated, bool reached_goal);
 
   /// What happens while paused takes no time.
   void pause();
   void toggle_pause();
   [[nodiscard]] bool is_paused() const { return paused_; }
   /// The simulation has been put to another time: goes on from there.
-  void restart() { began_before_ = false; }
+  void restart() { in_stretch_ = false; }
 
   /// Where the device does not keep up: simulated by real time, over half a second or more. Else empty.
   [[nodiscard]] std::optional<double> slow_factor() const { return slow_factor_; }
@@ -45,8 +46,9 @@ class Playback {
 
   Pace pace_;
   bool paused_ = false;
-  bool began_before_ = false;    // else this picture is the first one of a stretch
-  double began_ = 0, goal_ = 0;  // of this picture [s]
+  bool in_stretch_ = false;                  // else the next picture is the first one since the start or a pause
+  double began_ = 0, ended_ = 0, goal_ = 0;  // of this picture's steps [s]
+  double budget_ = 0;                        // in this picture [s]
   Span span_;
   std::optional<double> slow_factor_;
 };

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
+#include "core/error.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -29,42 +31,54 @@ SceneDescription lone_body(const std::filesystem::path& file) {
 
 }  // namespace
 
-SceneDescription describe(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  SceneDescription scene = is_obj(file) ? lone_body(file) : load_scene(file, overrides);
-  if (scene.title.empty()) scene.title = file.stem().string();
+LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  if (is_obj(file) && !overrides.empty())
+    throw Error(ErrorKind::command_line, "--set", "an OBJ file has no keys to set", "write a scene file that names the mesh");
+  LoadedScene scene{.description = is_obj(file) ? lone_body(file) : load_scene(file, overrides), .start = {}, .warnings = {}};
+  if (scene.description.title.empty()) scene.description.title = file.stem().string();
+  scene.start = build_model(load_bodies(scene.description, &scene.warnings), scene.description.simulation.gravity);
   return scene;
 }
 
-Session::Session(Device& device, SceneDescription scene, std::size_t most_history_bytes)
+Session::Session(Device& device, LoadedScene scene, std::size_t most_history_bytes)
     : device_(device),
       scene_(std::move(scene)),
-      start_(build_model(load_bodies(scene_, &warnings_), scene_.simulation.gravity)),
-      plan_(plan_time(scene_, start_.model)),
+      plan_(plan_time(scene_.description, scene_.start.model)),
       history_(most_history_bytes) {
-  expect_carried(scene_, plan_, device.precision());
-  restart();
+  expect_carried(scene_.description, plan_, device.precision());
+  simulation_ =
+      std::make_unique<Simulation>(device_, scene_.start.model, scene_.start.state, plan_, scene_.description.collision);
+  beginning_ = simulation_->save();
+  report_ = simulation_->report();
+  record();
 }
 
-double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }
+double Session::time() const { return plan_.tolerance ? report_.time : time_of_step(step()); }
 
 std::uint64_t Session::next_frame() const {
   return static_cast<std::uint64_t>(std::floor(time() * plan_.frame_rate + rounding)) + 1;
 }
 
-bool Session::is_before(double time) const {
+bool Session::is_due(double time) const {
   if (report_.non_finite) return false;
   if (plan_.tolerance) return time_of_frame(next_frame()) <= time + rounding / plan_.frame_rate;
   return time_of_step(step() + 1) <= time + rounding * plan_.time_step;
 }
 
 void Session::advance_toward(double time, std::uint64_t most_steps) {
-  if (!is_before(time)) return;
+  if (!is_due(time)) return;
+  const double before = this->time();
+  make_due_steps(time, most_steps);
+  if (pull_) simulation_->pull(*pull_, this->time() - before);
+}
+
+void Session::make_due_steps(double time, std::uint64_t most_steps) {
   if (plan_.tolerance) {
-    report_ = simulation_->advance_toward(time_of_frame(next_frame()) - base_time_, most_steps);
+    report_ = simulation_->advance_toward(time_of_frame(next_frame()), most_steps);
     return;
   }
   const double due = std::floor(time / plan_.time_step + rounding) - static_cast<double>(step());
-  simulation_->advance(std::min(most_steps, static_cast<std::uint64_t>(std::max(due, 1.0))));
+  simulation_->advance(static_cast<std::uint64_t>(std::clamp(due, 1.0, static_cast<double>(most_steps))));
   report_ = simulation_->report();
 }
 
@@ -75,33 +89,32 @@ void Session::step_once() {
 }
 
 void Session::record() {
-  if (!report_.non_finite) history_.record({step(), time(), simulation_->state()});
+  if (!report_.non_finite) history_.record({step(), simulation_->save()});
 }
 
 bool Session::step_back() {
   const Snapshot* found = history_.before(step());
   if (found == nullptr) return false;
-  const std::uint64_t wanted = plan_.tolerance ? found->step : step() - 1;
-  start_from(found->state, found->step, found->time);
+  const std::uint64_t wanted = step() - 1;
+  const std::optional<Pull> pulled = std::exchange(pull_, std::nullopt);
+  go_to(found->saved);
   while (step() < wanted) {
     step_once();
     record();
   }
+  pull_ = pulled;
   return true;
 }
 
 void Session::restart() {
   history_.clear();
-  start_from(start_.state, 0, 0);
+  go_to(beginning_);
   record();
 }
 
-void Session::start_from(const State& state, std::uint64_t step, double time) {
-  simulation_.reset();  // its buffers make room for the same again
-  simulation_ = std::make_unique<Simulation>(device_, start_.model, state, plan_, scene_.collision);
+void Session::go_to(std::string_view saved) {
+  simulation_->restore(saved);
   report_ = simulation_->report();
-  base_step_ = step;
-  base_time_ = time;
 }
 
 }  // namespace pliant::view

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "output/png.hpp"
+#include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
 
 namespace pliant::view {
@@ -37,24 +38,38 @@ std::filesystem::path free_picture_name(const std::string& stem) {
 
 }  // namespace
 
-std::string help() {
-  return fmt::format(
-      "space       pause, or go on\n"
-      ".           one step, and pause\n"
-      ",           one step back, and pause; the latest {} MB of states are kept for it\n"
-      "R           back to the start\n"
-      "F           frame the scene\n"
-      "W           wireframe, or surfaces\n"
-      "F1          this help\n"
-      "F12         save the picture as PNG in the current folder\n"
-      "escape      quit\n"
-      "drag        left: turn the camera; right: shift it\n"
-      "wheel       nearer, farther\n"
-      "drop        a scene or an OBJ file, to open it\n",
-      Session::history_bytes >> 20);
+struct Viewer::Command {
+  std::string_view key;  // as gl::KeyPressed names it
+  std::string_view help;
+  void (Viewer::*execute)();
+  bool repeats = false;  // while the key is held, once a picture
+};
+
+std::span<const Viewer::Command> Viewer::commands() {
+  static constexpr Command list[] = {
+      {"space", "pause, or go on", &Viewer::pause_or_go_on},
+      {".", "one step, and pause", &Viewer::step_once, true},
+      {",", "one step back, and pause", &Viewer::step_back, true},
+      {"R", "back to the start", &Viewer::restart},
+      {"F", "frame the scene", &Viewer::frame_scene},
+      {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
+      {"F1", "this help, on the terminal", &Viewer::print_help},
+      {"F12", "save the picture as PNG in the current folder", &Viewer::save_picture},
+      {"escape", "quit", &Viewer::close},
+  };
+  return list;
 }
 
-Viewer::Viewer(gl::Window& window, Device& device, SceneDescription scene, const ViewerOptions& options)
+std::string Viewer::help() {
+  std::string text;
+  for (const Command& command : commands()) text += fmt::format("{:<12}{}\n", command.key, command.help);
+  return text +
+         "drag        left: turn the camera; right: shift it\n"
+         "wheel       nearer, farther\n"
+         "drop        a scene or an OBJ file, to open it\n";
+}
+
+Viewer::Viewer(gl::Window& window, Device& device, LoadedScene scene, const ViewerOptions& options)
     : window_(window), device_(device), playback_(options.pace) {
   if (options.starts_paused) playback_.pause();
   open(std::move(scene));
@@ -64,24 +79,23 @@ Viewer::Viewer(gl::Window& window, Device& device, SceneDescription scene, const
     throw Error(ErrorKind::command_line, "--report", options.report.string() + " can't be written", "name another file");
 }
 
-Viewer::~Viewer() = default;
-
 void Viewer::run() {
-  report();
+  tell();
   while (!window_.is_closed()) {
     const std::vector<gl::WindowEvent> events = next_events();
     if (events.empty() && playback_.is_paused()) continue;
-    for (const gl::WindowEvent& event : events) std::visit([this](const auto& e) { handle(e); }, event);
+    for (const gl::WindowEvent& event : events)
+      if (!window_.is_closed()) std::visit([this](const auto& e) { handle(e); }, event);
+    if (window_.is_closed()) return;
     play();
     draw();
-    report();
+    tell();
   }
 }
 
-// Whatever fails here, the scene before stays.
-void Viewer::open(SceneDescription scene) {
+// Where anything is missing, the scene before stays.
+void Viewer::open(LoadedScene scene) {
   auto session = std::make_unique<Session>(device_, std::move(scene));
-  for (const std::string& warning : session->warnings()) fmt::print(stderr, "pliant: warning: {}\n", warning);
   render::RenderOptions options =
       render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
   options.size = at_least_a_pixel(window_.framebuffer_size());
@@ -96,7 +110,7 @@ void Viewer::open(SceneDescription scene) {
   renderer_ = std::move(renderer);
   session_ = std::move(session);
   camera_ = options.camera;
-  is_drawn_ = false;
+  drawn_.reset();
   draw();  // the first picture takes a while, since shaders are compiled; no time is to go by
   playback_.restart();
 }
@@ -104,81 +118,77 @@ void Viewer::open(SceneDescription scene) {
 // In a pause there is nothing to draw but what events ask for.
 std::vector<gl::WindowEvent> Viewer::next_events() {
   if (playback_.is_paused()) return window_.wait_for_events(a_while);
-  return window_.framebuffer_size().x == 0 ? window_.wait_for_events(a_picture) : window_.poll_events();
+  return is_up_to_date_ ? window_.wait_for_events(a_picture) : window_.poll_events();
 }
 
 void Viewer::handle(const gl::KeyPressed& event) {
+  const auto command = std::ranges::find(commands(), event.name, &Command::key);
+  if (command == commands().end()) return;
+  if (event.is_repeat && (!command->repeats || std::exchange(has_repeated_, true))) return;
   message_.clear();
-  switch (event.key) {
-    case gl::Key::space:
-      return playback_.toggle_pause();
-    case gl::Key::period:
-      return step_once();
-    case gl::Key::comma:
-      return step_back();
-    case gl::Key::r:
-      return restart();
-    case gl::Key::f:
-      return frame_scene();
-    case gl::Key::w:
-      return toggle_wireframe();
-    case gl::Key::f1:
-      fmt::print("{}", help());
-      std::fflush(stdout);
-      return;
-    case gl::Key::f12:
-      return try_to([this] { save_picture(); });
-    case gl::Key::escape:
-      return window_.close();
-  }
+  try_to([&] { (this->*command->execute)(); });
 }
 
-void Viewer::handle(const gl::MouseDragged& event) {
+void Viewer::handle(const gl::MouseMoved& event) {
+  if (!event.held) return;
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
-  camera_ = (event.button == gl::MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
+  camera_ = (*event.held == gl::MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
 }
 
 void Viewer::handle(const gl::MouseScrolled& event) { camera_ = zoom(camera_, event.notches); }
 
 void Viewer::handle(const gl::FilesDropped& event) {
   message_.clear();
-  try_to([&] { open(describe(event.files.front())); });
+  try_to([&] {
+    LoadedScene scene = load(event.files.front());
+    for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+    open(std::move(scene));
+  });
 }
 
 void Viewer::try_to(const std::function<void()>& wish) {
   try {
     wish();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     message_ = error.what();
     fmt::print(stderr, "pliant: {}\n", message_);
   }
 }
 
+// The clock starts when the GPU has drawn the picture before: waiting for that is no stepping.
 void Viewer::play() {
+  constexpr double record_interval = 0.1;  // [s]
+  device_.finish();
   playback_.begin(now(), session_->time());
   const std::uint64_t before = session_->step();
   double clock = now();
-  while (session_->is_before(playback_.goal()) && playback_.has_time(clock)) {
+  while (session_->is_due(playback_.goal()) && playback_.has_time(clock)) {
     session_->advance_toward(playback_.goal(), batch_.steps());
     const double since = std::exchange(clock, now());
     batch_.took(clock - since);
   }
-  playback_.end(session_->time(), !session_->is_before(playback_.goal()));
-  if (session_->step() != before) session_->record();
-  if (session_->non_finite() && !playback_.is_paused()) tell_of_non_finite();
+  playback_.end(clock, session_->time(), !session_->is_due(playback_.goal()));
+  if (session_->step() != before && clock - recorded_at_ > record_interval) {
+    session_->record();
+    recorded_at_ = clock;
+  }
+  if (!playback_.is_paused()) tell_if_broken();
 }
 
-void Viewer::tell_of_non_finite() {
+void Viewer::tell_if_broken() {
+  if (!session_->non_finite()) return;
   playback_.pause();
-  const NonFinite& broken = *session_->non_finite();
-  message_ = fmt::format("body {} became non-finite in step {}", session_->model().bodies[broken.body].name, session_->step());
-  fmt::print(stderr, "pliant: {}; a shorter time_step may help\n", message_);
+  message_ = describe_breakdown(*session_->non_finite(), session_->plan(), session_->model());
+  fmt::print(stderr, "pliant: {}\n", message_);
 }
+
+void Viewer::pause_or_go_on() { playback_.toggle_pause(); }
 
 void Viewer::step_once() {
   playback_.pause();
   session_->step_once();
   session_->record();
+  tell_if_broken();
 }
 
 void Viewer::step_back() {
@@ -202,8 +212,14 @@ void Viewer::toggle_wireframe() {
   renderer_->set_fill(fill_);
 }
 
+void Viewer::print_help() {
+  fmt::print("{}", help());
+  std::fflush(stdout);
+}
+
 void Viewer::save_picture() {
-  if (!is_drawn_) return;
+  if (!drawn_) draw();
+  if (!drawn_) throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
   const std::filesystem::path name = free_picture_name(session_->scene().file.stem().string());
   write_png(name, renderer_->read());
   message_ = "saved " + name.string();
@@ -211,10 +227,17 @@ void Viewer::save_picture() {
   std::fflush(stdout);
 }
 
+void Viewer::close() { window_.close(); }
+
+Viewer::Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), fill_}; }
+
+// A picture that would be the one before is not drawn.
 void Viewer::draw() {
-  const glm::uvec2 size = window_.framebuffer_size();
-  if (size.x == 0) return;
-  renderer_->resize(size);
+  has_repeated_ = false;
+  const Look wanted = look();
+  is_up_to_date_ = wanted.size.x == 0 || drawn_ == wanted;
+  if (is_up_to_date_) return;
+  renderer_->resize(wanted.size);
   renderer_->set_camera(camera_);
   Simulation& simulation = session_->simulation();
   if (gpu::context_of(device_) != nullptr) {
@@ -226,7 +249,7 @@ void Viewer::draw() {
   }
   renderer_->copy_to_window();
   window_.swap();
-  is_drawn_ = true;
+  drawn_ = wanted;
 }
 
 std::string Viewer::title() const {
@@ -237,10 +260,10 @@ std::string Viewer::title() const {
     state = fmt::format("paused at {:.4g} s", session_->time());
   else if (const double factor = playback_.slow_factor().value_or(playback_.speed()); factor != 1)
     state = fmt::format("{:.2g} x real time", factor);
-  return fmt::format("{} - pliant{}", session_->title(), state.empty() ? "" : fmt::format(" ({})", state));
+  return fmt::format("{} - pliant{}", session_->scene().title, state.empty() ? "" : fmt::format(" ({})", state));
 }
 
-void Viewer::report() {
+void Viewer::tell() {
   if (const std::string wanted = title(); wanted != shown_title_) window_.set_title(shown_title_ = wanted);
   ++picture_;
   if (!report_.is_open()) return;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "device/device.hpp"
@@ -22,38 +23,55 @@ struct ViewerOptions {
   std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
 };
 
-/// What keys and mouse do, as text.
-[[nodiscard]] std::string help();
-
 class Viewer {
  public:
+  /// What keys and mouse do, as text.
+  [[nodiscard]] static std::string help();
+
   /// Window and device must outlive it; a GPU device runs in the window's context. Throws Error.
-  Viewer(gl::Window& window, Device& device, SceneDescription scene, const ViewerOptions& options);
-  ~Viewer();
+  Viewer(gl::Window& window, Device& device, LoadedScene scene, const ViewerOptions& options);
 
   /// Until the window is closed. What a user's wish leads to that can't be is told on standard error and in the title; only a
   /// device that fails throws Error.
   void run();
 
  private:
-  void open(SceneDescription scene);
+  struct Command;
+  /// The one list of keys.
+  [[nodiscard]] static std::span<const Command> commands();
+  /// What a picture depends on.
+  struct Look {
+    std::uint64_t step = 0;
+    CameraDescription camera;
+    glm::uvec2 size{0};
+    render::Fill fill = render::Fill::surface;
+    bool operator==(const Look&) const = default;
+  };
+
+  void open(LoadedScene scene);
   [[nodiscard]] std::vector<gl::WindowEvent> next_events();
   void handle(const gl::KeyPressed& event);
-  void handle(const gl::MouseDragged& event);
+  void handle(const gl::MousePressed&) {}
+  void handle(const gl::MouseReleased&) {}
+  void handle(const gl::MouseMoved& event);
   void handle(const gl::MouseScrolled& event);
   void handle(const gl::FilesDropped& event);
-  void handle(const gl::PictureNeeded&) {}
+  void handle(const gl::PictureNeeded&) { drawn_.reset(); }
   void try_to(const std::function<void()>& wish);
   void play();
-  void tell_of_non_finite();
+  void tell_if_broken();
+  void pause_or_go_on();
   void step_once();
   void step_back();
   void restart();
   void frame_scene();
   void toggle_wireframe();
+  void print_help();
   void save_picture();
+  void close();
+  [[nodiscard]] Look look() const;
   void draw();
-  void report();  // in the title, and in the file if there is one
+  void tell();  // in the title, and in the report if there is one
   [[nodiscard]] std::string title() const;
 
   gl::Window& window_;
@@ -68,7 +86,10 @@ class Viewer {
   std::string message_;  // shown in the title until the next event
   std::string shown_title_;
   std::uint64_t picture_ = 0;
-  bool is_drawn_ = false;  // there is a picture to save
+  double recorded_at_ = 0;      // the latest state to go back to [s]
+  bool has_repeated_ = false;   // a key that is held has done its work since the latest picture
+  bool is_up_to_date_ = false;  // there was nothing to draw anew
+  std::optional<Look> drawn_;   // the latest picture; empty: it is to be drawn again
   std::ofstream report_;
 };
 

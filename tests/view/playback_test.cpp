@@ -23,7 +23,7 @@ struct Show {
       ++steps;
       now += cost;
     }
-    playback.end(simulated(), !is_before(playback.goal()));
+    playback.end(now, simulated(), !is_before(playback.goal()));
   }
   /// Pictures that begin every `interval` [s], or as soon as the one before is done.
   void run(Playback& playback, double seconds, double interval) {
@@ -106,6 +106,17 @@ TEST_CASE("a device that is too slow steps within its budget and is told by how 
   CHECK(show.simulated() == Approx(0.008 * 60 * (show.now - start)).epsilon(0.02));
   REQUIRE(playback.slow_factor());
   CHECK(*playback.slow_factor() == Approx(0.48).epsilon(0.03));
+}
+
+TEST_CASE("where drawing takes long, so may stepping") {
+  Playback playback({.speed = 1, .budget = 0.012});
+  Show show{.time_step = 0.002, .cost = 0.004};
+  const double start = show.now;
+  for (int k = 0; k < 40; ++k) {
+    show.picture(playback);
+    show.now += 0.2;  // for drawing
+  }
+  CHECK(show.steps * show.cost > 0.4 * (show.now - start));
 }
 
 TEST_CASE("a single step longer than the budget still is made") {

@@ -17,14 +17,14 @@ using namespace pliant::view;
 namespace {
 
 // Two small spheres that meet after some 20 steps.
-SceneDescription colliding(const char* timing = "time_step = 0.002\n") {
+LoadedScene colliding(const char* timing = "time_step = 0.002\n") {
   const test::ScratchFolder folder;
   const auto file = folder.path / "meeting.toml";
   std::ofstream(file) << "[simulation]\nintegrator = \"dop853\"\n"
                       << timing
                       << "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1.1, 0.1, 0]\nvelocity = [4, 0, 0]\nspin = [0, 1, 0]\n"
                          "[[body]]\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstretch = [0.9, 1, 1]\n";
-  return describe(file);
+  return load(file);
 }
 
 constexpr const char* by_tolerance = "tolerance = 1e-5\n";
@@ -44,15 +44,15 @@ std::vector<double> motion_of(Session& session) { return session.simulation().st
 TEST_CASE("a session makes the steps that are due at a time, and no others", "[gl]") {
   on_every_device([](Device& device) {
     Session session(device, colliding());
-    CHECK_FALSE(session.is_before(0));
-    CHECK_FALSE(session.is_before(0.0019));
-    REQUIRE(session.is_before(0.0201));
+    CHECK_FALSE(session.is_due(0));
+    CHECK_FALSE(session.is_due(0.0019));
+    REQUIRE(session.is_due(0.0201));
     session.advance_toward(0.0201, 3);
     CHECK(session.step() == 3);
     session.advance_toward(0.0201, 100);
     CHECK(session.step() == 10);
     CHECK(session.time() == 10 * 0.002);
-    CHECK_FALSE(session.is_before(0.0201));
+    CHECK_FALSE(session.is_due(0.0201));
     session.advance_toward(0.0201, 100);
     CHECK(session.step() == 10);
   });
@@ -61,10 +61,10 @@ TEST_CASE("a session makes the steps that are due at a time, and no others", "[g
 TEST_CASE("steps that a tolerance governs end at frames, whatever goals a viewer has", "[gl]") {
   on_every_device([](Device& device) {
     Session coarse(device, colliding(by_tolerance)), fine(device, colliding(by_tolerance));
-    while (coarse.is_before(0.1)) coarse.advance_toward(0.1, 32);
+    while (coarse.is_due(0.1)) coarse.advance_toward(0.1, 32);
     for (double goal = 0; goal < 0.1; goal += 0.0031)
-      while (fine.is_before(goal)) fine.advance_toward(goal, 1);
-    while (fine.is_before(0.1)) fine.advance_toward(0.1, 1);
+      while (fine.is_due(goal)) fine.advance_toward(goal, 1);
+    while (fine.is_due(0.1)) fine.advance_toward(0.1, 1);
     CHECK(coarse.time() == Approx(0.1));
     CHECK(coarse.step() == fine.step());
     CHECK(coarse.time() == fine.time());
@@ -146,8 +146,8 @@ TEST_CASE("a session's history stays within its memory") {
 
 TEST_CASE("after a step that is not finite nothing is due, and one can go back before it") {
   const auto device = make_cpu_device(1, 32);
-  SceneDescription scene = colliding();
-  scene.simulation.time_step = 10;
+  LoadedScene scene = colliding();
+  scene.description.simulation.time_step = 10;
   Session session(*device, scene);
   for (int k = 0; k < 1000 && !session.non_finite(); ++k) {
     session.step_once();
@@ -155,7 +155,7 @@ TEST_CASE("after a step that is not finite nothing is due, and one can go back b
   }
   REQUIRE(session.non_finite());
   const std::uint64_t broken = session.step();
-  CHECK_FALSE(session.is_before(1e9));
+  CHECK_FALSE(session.is_due(1e9));
   session.step_once();
   CHECK(session.step() == broken);
   REQUIRE(session.step_back());
@@ -164,9 +164,9 @@ TEST_CASE("after a step that is not finite nothing is due, and one can go back b
 }
 
 TEST_CASE("an OBJ file is a scene of one body at rest") {
-  const SceneDescription scene = describe(source_dir() + "/meshes/teapot.obj");
-  CHECK(scene.title == "teapot");
-  REQUIRE(scene.bodies.size() == 1);
+  const LoadedScene scene = load(source_dir() + "/meshes/teapot.obj");
+  CHECK(scene.description.title == "teapot");
+  REQUIRE(scene.description.bodies.size() == 1);
   const auto device = make_cpu_device(1, 32);
   Session session(*device, scene);
   CHECK(session.model().triangles.size() > 100);
@@ -181,10 +181,10 @@ TEST_CASE("a file that is no scene is an error that names it") {
   const auto bad = folder.path / "bad.obj";
   std::ofstream(bad) << "this is no mesh\n";
   const auto device = make_cpu_device(1, 32);
-  const Error no_mesh = error_of([&] { return Session(*device, describe(bad)).step(); });
+  const Error no_mesh = error_of([&] { return Session(*device, load(bad)).step(); });
   CHECK(no_mesh.kind() == ErrorKind::input);
   check_says(no_mesh, {"bad.obj"});
-  const Error no_scene = error_of([&] { return describe(folder.path / "missing.toml"); });
+  const Error no_scene = error_of([&] { return load(folder.path / "missing.toml"); });
   CHECK(no_scene.kind() == ErrorKind::input);
   check_says(no_scene, {"missing.toml"});
 }
