@@ -11,17 +11,20 @@ struct Studio {
 #else
 layout(std140, binding = 0) uniform Studio {
 #endif
-  mat4 view_projection;      // world to clip space
-  mat4 from_clip;            // and back
-  mat4 key_projection;       // world to the clip space of the key light's shadow map
-  vec4 eye;                  // xyz [m]
-  vec4 key_direction;        // xyz: unit vector towards the light
-  vec4 centre;               // xyz: of the scene [m]; w: its radius [m]
-  vec4 ground;               // x, z: centre of the ground's light map; y: height; w: half the map's side [m], 0: no ground
+  mat4 view_projection;   // world to clip space
+  mat4 from_clip;         // and back
+  mat4 key_projection;    // world to the clip space of the key light's shadow map
+  mat4 above_projection;  // world to the footprint: the map of the ground from above, depth 0 at the ground, 1 at the ceiling
+  vec4 eye;               // xyz [m]; w: pixels of the picture's height for a slope of 1
+  vec4 key_direction;     // xyz: unit vector towards the light
+  vec4 centre;            // xyz: of the scene [m]; w: its radius [m]
+  vec4 ground;            // x, z: centre of the ground's maps; y: height; w: half the maps' side [m], 0: no ground
 #ifdef __cplusplus
 };
+constexpr int sample_count = 4;  // of a pixel
 }  // namespace pliant::render
 #else
 };
+const int sample_count = 4;  // of a pixel
 #endif
 #endif

@@ -40,11 +40,8 @@ void set_sampling(GLuint texture, const TextureOptions& options) {
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  if (!options.compares_depth) return;
-  constexpr GLfloat far_depth[4] = {1, 1, 1, 1};
-  glTextureParameterfv(texture, GL_TEXTURE_BORDER_COLOR, far_depth);
-  glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  const GLfloat outside[4] = {options.outside, options.outside, options.outside, options.outside};
+  glTextureParameterfv(texture, GL_TEXTURE_BORDER_COLOR, outside);
 }
 
 }  // namespace
@@ -81,9 +78,17 @@ void Framebuffer::bind() const {
   glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
 }
 
-VertexArray::VertexArray(const Buffer* indices) {
+VertexArray::VertexArray(const Buffer& indices) {
   glCreateVertexArrays(1, &id_);
-  if (indices != nullptr) glVertexArrayElementBuffer(id_, indices->id());
+  glVertexArrayElementBuffer(id_, indices.id());
+  glEnableVertexArrayAttrib(id_, 0);
+  glVertexArrayAttribFormat(id_, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(id_, 0, 0);
+}
+
+void VertexArray::take_positions(std::uint32_t buffer, std::uint32_t first_vertex) const {
+  constexpr GLsizei stride = 4 * sizeof(GLfloat);
+  glVertexArrayVertexBuffer(id_, 0, buffer, GLintptr{first_vertex} * stride, stride);
 }
 
 VertexArray::~VertexArray() { glDeleteVertexArrays(1, &id_); }

@@ -12,11 +12,11 @@ struct TextureOptions {
   std::uint32_t format = 0;  // a sized internal format
   glm::uvec2 size{1, 1};     // [pixels]
   int levels = 1;
-  int samples = 1;              // over 1: multisampled, without mipmaps
-  bool compares_depth = false;  // sampled as a shadow map
+  int samples = 1;    // over 1: multisampled, without mipmaps
+  float outside = 0;  // what is sampled there
 };
 
-/// A 2D texture: linear filtering, zero (or the far depth) outside. Throws Error (device) beyond the driver's largest size, and
+/// A 2D texture with linear filtering. Throws Error (device) beyond the driver's largest size, and
 /// when the GPU has no room for it.
 class Texture {
  public:
@@ -48,14 +48,16 @@ class Framebuffer {
   glm::uvec2 size_;
 };
 
-/// A vertex array without attributes: shaders pull what they need from storage buffers.
+/// Triangles over a buffer of positions: attribute 0, a vec3.
 class VertexArray {
  public:
-  /// `indices` may be null and must outlive this.
-  explicit VertexArray(const Buffer* indices);
+  /// `indices` must outlive this.
+  explicit VertexArray(const Buffer& indices);
   ~VertexArray();
   VertexArray(const VertexArray&) = delete;
   VertexArray& operator=(const VertexArray&) = delete;
+  /// `buffer` is a GL buffer of vec4, xyz the positions.
+  void take_positions(std::uint32_t buffer, std::uint32_t first_vertex) const;
   [[nodiscard]] std::uint32_t id() const { return id_; }
 
  private:

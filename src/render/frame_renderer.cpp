@@ -1,37 +1,28 @@
-// The passes of one picture: shadow map, footprints on the ground, the ground's light, backdrop, bodies, resolve.
+// The passes of one picture: smooth normals, shadow map, light on the ground, what each sample sees, occlusion, shading. Graphics
+// hardware only finds out what is seen; all light is computed by compute shaders, once a pixel.
 #include "render/frame_renderer.hpp"
 
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <bit>
-#include <glm/ext/matrix_clip_space.hpp>
-#include <glm/ext/matrix_transform.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <span>
+#include <string>
 
-#include "../../shaders/render/studio.glsl"
-#include "core/error.hpp"
 #include "core/expect.hpp"
 #include "gl/targets.hpp"
+#include "render/studio.hpp"
 #include "render/surface_topology.hpp"
 
 namespace pliant::render {
 namespace {
 
-constexpr std::uint32_t shadow_size = 1024, footprint_size = 512, ground_light_size = 320;  // [texels] a side
-constexpr int sample_count = 4;
+constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a side
+constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // of a work group
+constexpr GLfloat far_depth = 1;
 // Uniform locations in the shaders.
-constexpr GLint first_vertex_location = 0, direction_location = 1, shows_strain_location = 2;
-
-void require_vertex_storage() {
-  GLint blocks = 0;
-  glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
-  if (blocks >= 5) return;
-  throw Error(ErrorKind::device, "", "this OpenGL driver has too few storage buffers in vertex shaders (5 are needed)",
-              "update the driver, choose another --gpu, or leave out --frames png");
-}
+constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1;
 
 template <class T>
 gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
@@ -46,36 +37,56 @@ std::vector<glm::vec4> colors_of(const Model& model) {
   return colors;
 }
 
-/// The model's part that never changes, on the GPU.
+/// The bodies' surfaces on the GPU: what never changes, and smooth normals and strains, made anew for each picture.
 struct Surface {
   explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
   Surface(const Model& model, const IncidentTriangles& around)
-      : indices(upload(model.triangles, "triangle corners")),
+      : vertex_count(model.vertex_count()),
+        index_count(static_cast<GLsizei>(model.triangles.size() * 3)),
+        indices(upload(model.triangles, "triangle corners")),
         rest(upload(model.rest_positions, "rest positions for drawing")),
         first_incident(upload(around.first, "first incident triangle")),
         incident(upload(around.others, "incident triangles")),
         colors(upload(colors_of(model), "body colours")),
-        vertices(&indices),
-        index_count(static_cast<GLsizei>(model.triangles.size() * 3)) {}
+        smooth(vertex_count * sizeof(glm::vec4), "smooth normals and strains"),
+        vertices(indices) {}
 
-  gl::Buffer indices, rest, first_incident, incident, colors;
-  gl::VertexArray vertices;
+  std::uint32_t vertex_count;
   GLsizei index_count;
+  gl::Buffer indices, rest, first_incident, incident, colors, smooth;
+  gl::VertexArray vertices;
 };
 
+/// What a level of detail comes to.
+struct Sampling {
+  std::uint32_t ground_light_size;       // [texels] a side
+  int shadow_blocker_taps, shadow_taps;  // on bodies, each of four texels
+};
+
+Sampling sampling_of(Detail detail) { return detail == Detail::full ? Sampling{256, 12, 16} : Sampling{128, 4, 4}; }
+
+std::vector<gl::Define> defines_of(const Sampling& sampling) {
+  return {{"BLOCKER_TAPS", std::to_string(sampling.shadow_blocker_taps)}, {"SHADOW_TAPS", std::to_string(sampling.shadow_taps)}};
+}
+
 struct Programs {
-  gl::Program shadow = gl::Program::graphics("render/shadow.vert", "render/shadow.frag");
-  gl::Program footprint = gl::Program::graphics("render/footprint.vert", "render/footprint.frag");
-  gl::Program ground_light = gl::Program::graphics("render/fullscreen.vert", "render/ground_light.frag");
-  gl::Program backdrop = gl::Program::graphics("render/fullscreen.vert", "render/backdrop.frag");
-  gl::Program body = gl::Program::graphics("render/body.vert", "render/body.frag");
+  explicit Programs(const Sampling& sampling) : picture(gl::Program::compute("render/picture.comp", defines_of(sampling))) {}
+
+  gl::Program smooth_surface = gl::Program::compute("render/smooth_surface.comp");
+  gl::Program shadow = gl::Program::graphics("render/place.vert", "render/shadow.frag");
+  gl::Program footprint = gl::Program::graphics("render/place.vert", "render/footprint.frag");
+  gl::Program ground_light = gl::Program::compute("render/ground_light.comp");
+  gl::Program seen = gl::Program::graphics("render/place.vert", "render/seen.frag");
+  gl::Program occlusion = gl::Program::compute("render/occlusion.comp");
+  gl::Program mean = gl::Program::compute("render/mean.comp");
+  gl::Program picture;
 };
 
 gl::TextureOptions square(GLenum format, std::uint32_t side) { return {.format = format, .size = {side, side}}; }
 
 gl::TextureOptions shadow_options() {
   gl::TextureOptions options = square(GL_DEPTH_COMPONENT32F, shadow_size);
-  options.compares_depth = true;
+  options.outside = far_depth;
   return options;
 }
 
@@ -87,55 +98,38 @@ gl::TextureOptions footprint_options() {
 
 /// What depends on no size: the maps of light and shadow.
 struct Maps {
+  explicit Maps(const Sampling& sampling)
+      : ground_light(square(GL_RG16, sampling.ground_light_size), "light on the ground"),
+        mean_ground_light(square(GL_RG16, sampling.ground_light_size), "mean light on the ground") {}
+
   gl::Texture shadow{shadow_options(), "shadow map"};
-  gl::Texture key_footprint{footprint_options(), "footprint along the key light"};
-  gl::Texture above_footprint{footprint_options(), "footprint from above"};
-  gl::Texture ground_light{square(GL_RG16F, ground_light_size), "light on the ground"};
+  gl::Texture footprint{footprint_options(), "footprint from above"};
+  gl::Texture ground_light, mean_ground_light;
   gl::Framebuffer shadow_target{nullptr, &shadow, "shadow map"};
-  gl::Framebuffer key_footprint_target{&key_footprint, nullptr, "footprint along the key light"};
-  gl::Framebuffer above_footprint_target{&above_footprint, nullptr, "footprint from above"};
-  gl::Framebuffer ground_light_target{&ground_light, nullptr, "light on the ground"};
+  gl::Framebuffer footprint_target{&footprint, nullptr, "footprint from above"};
 };
 
 struct Picture {
   explicit Picture(const glm::uvec2& size)
-      : color({.format = GL_SRGB8_ALPHA8, .size = size, .samples = sample_count}, "samples"),
-        depth({.format = GL_DEPTH_COMPONENT32F, .size = size, .samples = sample_count}, "depth samples"),
-        resolved({.format = GL_SRGB8_ALPHA8, .size = size}, "picture"),
-        samples_target(&color, &depth, "samples"),
-        resolved_target(&resolved, nullptr, "picture") {}
+      : seen({.format = GL_R32UI, .size = size, .samples = sample_count}, "triangles seen"),
+        depth({.format = GL_DEPTH_COMPONENT32F, .size = size, .samples = sample_count}, "depths"),
+        occlusion({.format = GL_RG16, .size = (size + 1u) / 2u}, "occlusion"),
+        mean_occlusion({.format = GL_RG16, .size = (size + 1u) / 2u}, "mean occlusion"),
+        shaded({.format = GL_RGBA8, .size = size}, "picture"),
+        seen_target(&seen, &depth, "triangles seen"),
+        shaded_target(&shaded, nullptr, "picture") {}
 
-  gl::Texture color, depth, resolved;
-  gl::Framebuffer samples_target, resolved_target;
+  gl::Texture seen, depth, occlusion, mean_occlusion, shaded;
+  gl::Framebuffer seen_target, shaded_target;
 };
 
-/// The light stands behind the camera's left shoulder.
-glm::dvec3 key_direction_for(const CameraDescription& camera) {
-  glm::dvec3 back = camera.eye - camera.target;
-  back.y = 0;
-  back = glm::length(back) > 0 ? glm::normalize(back) : glm::dvec3(0, 0, 1);
-  const glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), back);
-  return glm::normalize(-0.55 * right + glm::dvec3(0, 1.15, 0) + 0.55 * back);
-}
-
-glm::mat4 key_projection_for(const SceneBox& scene, const glm::dvec3& direction) {
-  const double r = 1.15 * scene.radius();
-  const glm::dmat4 view = glm::lookAt(scene.centre() + direction * (2 * r), scene.centre(), glm::dvec3(0, 1, 0));
-  return glm::mat4(glm::ortho(-r, r, -r, r, 0.5 * r, 3.5 * r) * view);
-}
-
-Studio studio_for(const RenderOptions& options) {
-  const SceneBox& scene = options.scene;
-  const glm::dvec3 centre = scene.centre(), key = key_direction_for(options.camera);
-  Studio studio{};
-  studio.key_projection = key_projection_for(scene, key);
-  studio.key_direction = glm::vec4(key, 0.0);
-  studio.centre = glm::vec4(centre, scene.radius());
-  if (!options.ground_height) return studio;
-  // The map of the ground lies under the scene and reaches out to where its shadows fall.
-  const glm::dvec3 away = -key * ((centre.y - *options.ground_height) / key.y);
-  studio.ground = glm::vec4(centre.x + 0.5 * away.x, *options.ground_height, centre.z + 0.5 * away.z, 2.2 * scene.radius());
-  return studio;
+/// One thread a texel; waits for what earlier passes have stored, and lets textures, framebuffers and shaders see the result.
+void fill(const gl::Texture& texture, GLenum format, const gl::Program& program) {
+  const glm::uvec2 groups = (texture.size() + tile - 1u) / tile;
+  glBindImageTexture(0, texture.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
+  glUseProgram(program.id());
+  glDispatchCompute(groups.x, groups.y, 1);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 }  // namespace
@@ -144,120 +138,129 @@ struct FrameRenderer::Impl {
   Impl(const Model& model, const RenderOptions& render_options)
       : options(render_options),
         studio(studio_for(render_options)),
+        programs(sampling_of(render_options.detail)),
         surface(model),
+        maps(sampling_of(render_options.detail)),
         picture(std::in_place, render_options.size) {}
 
   void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
-  void draw_bodies(const gl::Program& program) const;
-  void draw_fullscreen(const gl::Program& program) const;
+  void draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const;
+  void smooth_surface() const;
   void draw_shadow_map() const;
-  void draw_footprint(const gl::Framebuffer& target, const gl::Texture& map, const glm::vec3& direction) const;
-  void draw_ground_light() const;
-  void draw_picture() const;
-  void resolve() const;
+  void draw_footprint() const;
+  void average(const gl::Texture& map, const gl::Texture& mean) const;
+  void light_ground() const;
+  void draw_seen() const;
+  void find_occlusion() const;
+  void shade() const;
 
   RenderOptions options;
   Studio studio;
   gl::Buffer studio_buffer{sizeof(Studio), "studio"};
   Programs programs;
   Surface surface;
-  gl::VertexArray no_vertices{nullptr};
   Maps maps;
   std::optional<Picture> picture;  // empty only while it is replaced
-  Fill fill = Fill::surface;
+  Fill fill_mode = Fill::surface;
 };
 
 void FrameRenderer::Impl::upload_camera() {
-  const CameraDescription& camera = options.camera;
-  const double aspect = static_cast<double>(options.size.x) / options.size.y;
-  const glm::dmat4 to_clip = view_projection(camera, aspect);
-  studio.view_projection = glm::mat4(to_clip);
-  studio.from_clip = glm::mat4(glm::inverse(to_clip));
-  studio.eye = glm::vec4(camera.eye, 1.0);
+  see_from(studio, options);
   studio_buffer.write(0, std::as_bytes(std::span(&studio, 1)));
 }
 
 void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const {
-  const std::uint32_t buffers[] = {positions_buffer, surface.rest.id(), surface.first_incident.id(), surface.incident.id(),
-                                   surface.colors.id()};
-  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 5, buffers);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
-  for (const gl::Program* program : {&programs.shadow, &programs.footprint, &programs.body}) {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+  surface.vertices.take_positions(positions_buffer, first_vertex);
+  for (const gl::Program* program : {&programs.smooth_surface, &programs.occlusion, &programs.picture})
     glProgramUniform1ui(program->id(), first_vertex_location, first_vertex);
-  }
+  const std::uint32_t positions_and_rest[] = {positions_buffer, surface.rest.id()};
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, positions_and_rest);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
 }
 
-void FrameRenderer::Impl::draw_bodies(const gl::Program& program) const {
+void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const {
+  glProgramUniformMatrix4fv(program.id(), to_clip_location, 1, GL_FALSE, glm::value_ptr(to_clip));
   glUseProgram(program.id());
   glBindVertexArray(surface.vertices.id());
+  glEnable(GL_CLIP_DISTANCE0);
   glDrawElements(GL_TRIANGLES, surface.index_count, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_CLIP_DISTANCE0);
 }
 
-void FrameRenderer::Impl::draw_fullscreen(const gl::Program& program) const {
-  glUseProgram(program.id());
-  glBindVertexArray(no_vertices.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+void FrameRenderer::Impl::smooth_surface() const {
+  const std::uint32_t buffers[] = {surface.first_incident.id(), surface.incident.id(), surface.smooth.id()};
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 2, 3, buffers);
+  glProgramUniform1ui(programs.smooth_surface.id(), vertex_count_location, surface.vertex_count);
+  glUseProgram(programs.smooth_surface.id());
+  glDispatchCompute((surface.vertex_count + vertices_of_group - 1) / vertices_of_group, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void FrameRenderer::Impl::draw_shadow_map() const {
-  constexpr GLfloat far_depth = 1;
   maps.shadow_target.bind();
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_DEPTH_CLAMP);  // a body beyond the light's box still casts its shadow
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.5f, 4.0f);
-  draw_bodies(programs.shadow);
+  draw_bodies(programs.shadow, studio.key_projection);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
 }
 
-void FrameRenderer::Impl::draw_footprint(const gl::Framebuffer& target, const gl::Texture& map,
-                                         const glm::vec3& direction) const {
-  constexpr GLfloat empty[4] = {};
-  target.bind();
-  glClearBufferfv(GL_COLOR, 0, empty);
+void FrameRenderer::Impl::draw_footprint() const {
+  constexpr GLfloat nothing[4] = {0, 0, 0, 0};
+  maps.footprint_target.bind();
+  glClearBufferfv(GL_COLOR, 0, nothing);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  glProgramUniform3fv(programs.footprint.id(), direction_location, 1, &direction.x);
-  draw_bodies(programs.footprint);
+  draw_bodies(programs.footprint, studio.above_projection);
   glDisable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glGenerateTextureMipmap(map.id());
+  glGenerateTextureMipmap(maps.footprint.id());
 }
 
-void FrameRenderer::Impl::draw_ground_light() const {
-  draw_footprint(maps.key_footprint_target, maps.key_footprint, glm::vec3(studio.key_direction));
-  draw_footprint(maps.above_footprint_target, maps.above_footprint, {0, 1, 0});
-  maps.ground_light_target.bind();
-  glBindTextureUnit(0, maps.key_footprint.id());
-  glBindTextureUnit(1, maps.above_footprint.id());
-  draw_fullscreen(programs.ground_light);
+void FrameRenderer::Impl::average(const gl::Texture& map, const gl::Texture& mean) const {
+  glBindTextureUnit(0, map.id());
+  fill(mean, GL_RG16, programs.mean);
 }
 
-void FrameRenderer::Impl::draw_picture() const {
-  constexpr GLfloat far_depth = 1;
-  picture->samples_target.bind();
+void FrameRenderer::Impl::light_ground() const {
+  glBindTextureUnit(0, maps.shadow.id());
+  glBindTextureUnit(1, maps.footprint.id());
+  fill(maps.ground_light, GL_RG16, programs.ground_light);
+  average(maps.ground_light, maps.mean_ground_light);
+}
+
+void FrameRenderer::Impl::draw_seen() const {
+  constexpr GLuint nothing[4] = {0, 0, 0, 0};
+  picture->seen_target.bind();
+  glClearBufferuiv(GL_COLOR, 0, nothing);
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  glBindTextureUnit(0, maps.ground_light.id());
-  glBindTextureUnit(1, maps.shadow.id());
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  draw_fullscreen(programs.backdrop);
   glEnable(GL_DEPTH_TEST);
-  if (fill == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-  draw_bodies(programs.body);
+  if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  draw_bodies(programs.seen, studio.view_projection);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);
 }
 
-/// Averages the samples in linear light.
-void FrameRenderer::Impl::resolve() const {
-  const auto w = static_cast<GLint>(options.size.x), h = static_cast<GLint>(options.size.y);
-  glBlitNamedFramebuffer(picture->samples_target.id(), picture->resolved_target.id(), 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT,
-                         GL_NEAREST);
-  glDisable(GL_FRAMEBUFFER_SRGB);
+void FrameRenderer::Impl::find_occlusion() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, surface.indices.id());
+  glBindTextureUnit(2, picture->seen.id());
+  glBindTextureUnit(3, picture->depth.id());
+  fill(picture->occlusion, GL_RG16, programs.occlusion);
+  average(picture->occlusion, picture->mean_occlusion);
+}
+
+void FrameRenderer::Impl::shade() const {
+  const std::uint32_t buffers[] = {surface.colors.id(), surface.smooth.id(), surface.indices.id()};
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 3, 3, buffers);
+  const std::uint32_t textures[] = {maps.shadow.id(), maps.mean_ground_light.id(), picture->seen.id(),
+                                    picture->mean_occlusion.id()};
+  glBindTextures(0, 4, textures);
+  fill(picture->shaded, GL_RGBA8, programs.picture);
 }
 
 RenderOptions options_for(const SceneBox& box, const OutputDescription& output) {
@@ -272,9 +275,8 @@ RenderOptions options_for(const SceneBox& box, const OutputDescription& output) 
 
 FrameRenderer::FrameRenderer(const Model& model, const RenderOptions& options) {
   PLIANT_EXPECT(options.size.x > 0 && options.size.y > 0);
-  require_vertex_storage();
   impl_ = std::make_unique<Impl>(model, options);
-  glProgramUniform1i(impl_->programs.body.id(), shows_strain_location, options.coloring == Coloring::deformation);
+  glProgramUniform1i(impl_->programs.picture.id(), shows_strain_location, options.coloring == Coloring::deformation);
   set_camera(options.camera);
 }
 
@@ -285,7 +287,7 @@ void FrameRenderer::set_camera(const CameraDescription& camera) {
   impl_->upload_camera();
 }
 
-void FrameRenderer::set_fill(Fill fill) { impl_->fill = fill; }
+void FrameRenderer::set_fill(Fill fill) { impl_->fill_mode = fill; }
 
 void FrameRenderer::resize(const glm::uvec2& size) {
   PLIANT_EXPECT(size.x > 0 && size.y > 0);
@@ -296,15 +298,26 @@ void FrameRenderer::resize(const glm::uvec2& size) {
   impl_->upload_camera();
 }
 
-void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_vertex) {
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_vertex, const PassObserver& after_pass) {
+  const auto tell = [&](const char* pass) {
+    if (after_pass) after_pass(pass);
+  };
   impl_->bind_bodies(positions_buffer, first_vertex);
-  glEnable(GL_CLIP_DISTANCE0);
+  impl_->smooth_surface();
+  tell("normals");
   impl_->draw_shadow_map();
-  if (impl_->studio.ground.w > 0) impl_->draw_ground_light();
-  impl_->draw_picture();
-  glDisable(GL_CLIP_DISTANCE0);
-  impl_->resolve();
+  tell("shadow");
+  if (impl_->options.ground_height) {
+    impl_->draw_footprint();
+    impl_->light_ground();
+  }
+  tell("ground");
+  impl_->draw_seen();
+  tell("seen");
+  impl_->find_occlusion();
+  tell("occlusion");
+  impl_->shade();
+  tell("shading");
   glUseProgram(0);  // a program left current would be checked against textures that are bound or deleted later
 }
 
@@ -312,13 +325,13 @@ void FrameRenderer::copy_to_window() const {
   const auto w = static_cast<GLint>(impl_->options.size.x), h = static_cast<GLint>(impl_->options.size.y);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, w, h);  // where Mesa looks whether the window has been resized
-  glBlitNamedFramebuffer(impl_->picture->resolved_target.id(), 0, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer(impl_->picture->shaded_target.id(), 0, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 Image FrameRenderer::read() const {
   const glm::uvec2 size = impl_->options.size;
   Image image{size.x, size.y, std::vector<std::uint8_t>(std::size_t{3} * size.x * size.y)};
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->picture->resolved_target.id());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, impl_->picture->shaded_target.id());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, static_cast<GLsizei>(size.x), static_cast<GLsizei>(size.y), GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   const std::size_t row = std::size_t{3} * size.x;

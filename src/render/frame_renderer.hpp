@@ -1,6 +1,7 @@
 // Draws the bodies from the buffer in which the simulation keeps their world positions, on a studio ground under a key light.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
@@ -11,12 +12,16 @@
 
 namespace pliant::render {
 
+/// How finely light is sampled: `reduced` is for renderers in software.
+enum class Detail { full, reduced };
+
 struct RenderOptions {
   glm::uvec2 size{1280, 720};  // [pixels]
   CameraDescription camera;
   Coloring coloring = Coloring::body;
   SceneBox scene;                       // where the bodies will move; lights and shadows are fitted to it
   std::optional<double> ground_height;  // [m]; empty: no ground
+  Detail detail = Detail::full;
 };
 
 /// How bodies are drawn; their shadows are always those of surfaces.
@@ -25,17 +30,20 @@ enum class Fill { surface, wireframe };
 /// The options for a scene: its camera, or one that frames the box, and a ground below it.
 [[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
 
-/// Needs a current gl::Context while it lives. Positions never visit the CPU: normals and strain are computed in the
-/// vertex shader. A vertex that is not finite takes its triangles out of the picture.
+/// Hears the name of each pass once it is queued, so that its time can be taken.
+using PassObserver = std::function<void(const char* pass)>;
+
+/// Needs a current gl::Context while it lives. Positions never visit the CPU: normals and strains are computed from them on the
+/// GPU. A vertex that is not finite takes its triangles out of the picture.
 class FrameRenderer {
  public:
-  /// Uploads the topology. Throws Error (device) when the driver has no storage buffers in vertex shaders.
+  /// Uploads the topology. Throws Error (device) when the GPU has no room for it.
   FrameRenderer(const Model& model, const RenderOptions& options);
   ~FrameRenderer();
 
   /// Draws into the renderer's own framebuffer. `positions_buffer` is a GL buffer of vec4, xyz the world position [m];
-  /// the model's vertex 0 is its element `first_vertex`.
-  void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex);
+  /// the model's vertex 0 is its element `first_vertex`. Allocates nothing.
+  void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex, const PassObserver& after_pass = {});
   /// Waits for the last draw() and reads its picture.
   [[nodiscard]] Image read() const;
   /// Copies the last picture, pixel by pixel, to the bottom left of the window whose context is current.

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "gl/context.hpp"
 #include "gl/objects.hpp"
@@ -122,6 +124,44 @@ int largest_difference(const Image& a, const Image& b) {
   int largest = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) largest = std::max(largest, std::abs(int{a.pixels[i]} - int{b.pixels[i]}));
   return largest;
+}
+
+double mean_difference(const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+  return sum / static_cast<double>(a.pixels.size());
+}
+
+/// Sum of a pixel's red, green and blue, where the camera `front` sees a place.
+int brightness_at(const Image& image, const glm::dvec3& place) {
+  const PixelBox at = pinhole_box({glm::vec4(place, 1)}, front);
+  const std::size_t first = 3 * (static_cast<std::size_t>(at.top) * image.width + static_cast<std::size_t>(at.left));
+  return image.pixels[first] + image.pixels[first + 1] + image.pixels[first + 2];
+}
+
+Subject together(Subject a, const Subject& b) {
+  const auto first = static_cast<std::uint32_t>(a.world.size());
+  for (const auto& [i, j, k] : b.model.triangles) a.model.triangles.push_back({first + i, first + j, first + k});
+  a.model.rest_positions.insert(a.model.rest_positions.end(), b.model.rest_positions.begin(), b.model.rest_positions.end());
+  a.world.insert(a.world.end(), b.world.begin(), b.world.end());
+  a.model.bodies.front().vertex_count += b.model.bodies.front().vertex_count;
+  a.model.bodies.front().triangle_count += b.model.bodies.front().triangle_count;
+  return a;
+}
+
+/// Of half the width and height: each pixel the mean of four.
+Image halved(const Image& image) {
+  Image half{image.width / 2, image.height / 2, {}};
+  for (std::uint32_t y = 0; y < half.height; ++y) {
+    for (std::uint32_t i = 0; i < 3 * half.width; ++i) {
+      const std::size_t first = std::size_t{3} * (2 * y * image.width + 2 * (i / 3)) + i % 3,
+                        below = first + std::size_t{3} * image.width;
+      const int sum = image.pixels[first] + image.pixels[first + 3] + image.pixels[below] + image.pixels[below + 3];
+      half.pixels.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
+    }
+  }
+  return half;
 }
 
 /// From a published sRGB colour to the linear one that a body's description wants.
@@ -248,6 +288,113 @@ TEST_CASE("a body darkens the ground around it and never brightens it", "[gl]") 
   }
   CHECK(darkest < -40);
   CHECK(brightest <= 1);
+}
+
+TEST_CASE("the ground is darker in a body's shadow than at the shadow's mirror image on the lit side", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  const Image image = draw(sphere({0, 0, 0}), options);  // the light is behind the camera's left shoulder
+  CHECK(brightness_at(image, {1.3, -1.1, -0.5}) < brightness_at(image, {-1.3, -1.1, -0.5}) - 60);
+}
+
+TEST_CASE("a shadow is softer where its caster is higher", "[gl]") {
+  const gl::Context context(0);
+  const auto rim_of_shadow = [](double height) {
+    RenderOptions options = without_ground();
+    options.ground_height = -1.1;
+    options.camera = {{0, 14, 0.01}, {0, 0, 0}, 40};
+    options.scene = {{-2, -2, -2}, {2, 4, 2}};
+    const Image image = draw(sphere({0, height, 0}), options), empty = draw({}, options);
+    const Silhouette shadow{image, options};
+    int steepest = 0;
+    for (std::size_t i = 3; i < image.pixels.size(); ++i) {
+      const int change = image.pixels[i] - empty.pixels[i], before = image.pixels[i - 3] - empty.pixels[i - 3];
+      const int x = static_cast<int>(i / 3 % picture_size.x), y = static_cast<int>(i / 3 / picture_size.x);
+      const double from_body = std::hypot(x - picture_size.x / 2.0, y - picture_size.y / 2.0);
+      if (from_body > 26) steepest = std::max(steepest, std::abs(change - before));
+    }
+    return steepest;
+  };
+  CHECK(rim_of_shadow(2.5) < rim_of_shadow(0.2));
+}
+
+TEST_CASE("a body is darker where another stands between it and the light", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {{-3, -2, -2}, {2, 4, 3}};
+  const Subject lower = sphere({0.5, -0.5, 0});
+  const glm::dvec3 to_light = glm::normalize(glm::dvec3(-0.55, 1.15, 0.55)), lit = glm::dvec3(0.5, -0.5, 0) + to_light;
+  const int alone = brightness_at(draw(lower, options), lit);
+  CHECK(brightness_at(draw(together(lower, sphere(glm::dvec3(0.5, -0.5, 0) + 3.0 * to_light)), options), lit) < alone - 60);
+}
+
+TEST_CASE("a body is darker in the cleft beside another, though the light reaches it", "[gl]") {
+  const gl::Context context(0);
+  const Subject left = sphere({-1, 0, 0});
+  const glm::dvec3 in_cleft(-0.12, 0, 0.475), far_side(-1.9, 0, 0.43);
+  const Image alone = draw(left), beside = draw(together(left, sphere({1, 0, 0})));
+  CHECK(brightness_at(beside, in_cleft) < brightness_at(alone, in_cleft) - 8);
+  CHECK(std::abs(brightness_at(beside, far_side) - brightness_at(alone, far_side)) <= 3);
+}
+
+TEST_CASE("a scene turned together with its camera has the same picture, as the light turns, too", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.6;
+  Subject subject = sphere({0.9, -0.2, 0.4});
+  const Image before = draw(subject, options);
+  for (auto& p : subject.world) p = {p.z, p.y, -p.x, 1};
+  options.camera.eye = {front.eye.z, front.eye.y, -front.eye.x};
+  CHECK(mean_difference(draw(subject, options), before) < 0.5);
+}
+
+TEST_CASE("a picture of twice the size shows the same", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  const Subject subject = together(sphere({-1, 0, 0}), sphere({1, 0.1, 0.3}));
+  const Image once = draw(subject, options);
+  options.size = picture_size * 2u;
+  CHECK(mean_difference(halved(draw(subject, options)), once) < 1);
+}
+
+TEST_CASE("outlines are smoothed: most rows pass through a colour between backdrop and body", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0.2, 0, 0}, {0.0, 0.0, 0.0});
+  const Image image = draw(subject), empty = draw({});
+  int rows = 0, smooth_rows = 0;
+  for (std::size_t y = 0; y < picture_size.y; ++y) {
+    const std::size_t row = 3 * y * picture_size.x;
+    const auto darkened = [&](std::size_t x) { return empty.pixels[row + 3 * x] - image.pixels[row + 3 * x]; };
+    std::size_t x = 0;
+    while (x + 3 < picture_size.x && darkened(x) <= 2) ++x;
+    if (x + 3 == picture_size.x) continue;
+    ++rows;
+    smooth_rows += darkened(x) < darkened(x + 2) * 3 / 4;
+  }
+  REQUIRE(rows > 40);
+  CHECK(smooth_rows > rows / 2);
+}
+
+TEST_CASE("reduced detail shows the same, but for the rims of shadows", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  const Subject subject = together(sphere({-1, 0, 0}), sphere({1, 0.1, 0.3}));
+  const Image full = draw(subject, options);
+  options.detail = Detail::reduced;
+  CHECK(mean_difference(draw(subject, options), full) < 1);
+}
+
+TEST_CASE("an observer hears each pass once, in the order in which they are queued", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0, 0, 0});
+  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+  FrameRenderer renderer(subject.model, without_ground());
+  std::vector<std::string> passes;
+  renderer.draw(positions.id(), 0, [&](const char* pass) { passes.emplace_back(pass); });
+  CHECK(passes == std::vector<std::string>{"normals", "shadow", "ground", "seen", "occlusion", "shading"});
 }
 
 TEST_CASE("with colours of deformation a body at rest has the scale's first colour all over, wherever it is", "[gl]") {

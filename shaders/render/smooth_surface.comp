@@ -1,0 +1,31 @@
+#version 450
+// A vertex's smooth normal, the sum over its triangles weighted by area, and its local strain.
+#include "drawable.glsl"
+#include "surface.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 2) readonly buffer FirstIncident { uint first_incident[]; };  // vertices + 1
+layout(std430, binding = 3) readonly buffer Incident { uvec2 incident[]; };  // a triangle's other two corners, in winding order
+layout(std430, binding = 4) writeonly buffer Smooth { vec4 smooth_surface[]; };  // xyz: normal; w: strain, the mean of
+                                                                                 // |length / rest length - 1| over the edges of the triangles
+layout(location = 1) uniform uint vertex_count;
+
+float edge_strain(uint a, uint b) {
+  float rest_length = distance(rest_positions[a].xyz, rest_positions[b].xyz);
+  return rest_length > 0.0 ? abs(distance(world_position(a), world_position(b)) / rest_length - 1.0) : 0.0;
+}
+
+void main() {
+  uint vertex = gl_GlobalInvocationID.x;
+  if (vertex >= vertex_count) return;
+  vec3 world = world_position(vertex), normal = vec3(0.0);
+  float strains = 0.0;
+  uint begin = first_incident[vertex], end = first_incident[vertex + 1u];
+  for (uint i = begin; i < end; ++i) {
+    uvec2 other = incident[i];
+    vec3 area = cross(world_position(other.x) - world, world_position(other.y) - world);
+    if (!is_drawable(area)) continue;
+    normal += area;
+    strains += edge_strain(vertex, other.x) + edge_strain(vertex, other.y) + edge_strain(other.x, other.y);
+  }
+  smooth_surface[vertex] = vec4(normal / max(length(normal), 1e-30), strains / max(3.0 * float(end - begin), 1.0));
+}

@@ -1,0 +1,61 @@
+// Lights and maps fitted to a scene's box.
+#include "render/studio.hpp"
+
+#include <cmath>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace pliant::render {
+namespace {
+
+glm::dvec3 key_direction_for(const CameraDescription& camera) {
+  glm::dvec3 back = camera.eye - camera.target;
+  back.y = 0;
+  back = glm::length(back) > 0 ? glm::normalize(back) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 right = glm::cross(glm::dvec3(0, 1, 0), back);
+  return glm::normalize(-0.55 * right + glm::dvec3(0, 1.15, 0) + 0.55 * back);
+}
+
+/// A box 2 r wide and 3 r deep (`depth_per_width` in key_light.glsl).
+glm::mat4 key_projection_for(const SceneBox& scene, const glm::dvec3& direction) {
+  const double r = 1.15 * scene.radius();
+  const glm::dmat4 view = glm::lookAt(scene.centre() + direction * (2 * r), scene.centre(), glm::dvec3(0, 1, 0));
+  return glm::mat4(glm::ortho(-r, r, -r, r, 0.5 * r, 3.5 * r) * view);
+}
+
+/// From the ground up to 4 radii (`ceiling` in ground_light.comp); z of the world is y of the map.
+glm::mat4 above_projection_for(const glm::vec4& ground, float radius) {
+  const float side = 1 / ground.w, height = 2 / (4 * radius);
+  return {glm::vec4(side, 0, 0, 0), glm::vec4(0, 0, height, 0), glm::vec4(0, side, 0, 0),
+          glm::vec4(-side * ground.x, -side * ground.z, -height * ground.y - 1, 1)};
+}
+
+}  // namespace
+
+Studio studio_for(const RenderOptions& options) {
+  const SceneBox& scene = options.scene;
+  const glm::dvec3 centre = scene.centre(), key = key_direction_for(options.camera);
+  Studio studio{};
+  studio.key_projection = key_projection_for(scene, key);
+  studio.key_direction = glm::vec4(key, 0.0);
+  studio.centre = glm::vec4(centre, scene.radius());
+  if (!options.ground_height) return studio;
+  // The maps of the ground lie under the scene and reach out to where its shadows fall.
+  const glm::dvec3 away = -key * ((centre.y - *options.ground_height) / key.y);
+  studio.ground = glm::vec4(centre.x + 0.5 * away.x, *options.ground_height, centre.z + 0.5 * away.z, 2.2 * scene.radius());
+  studio.above_projection = above_projection_for(studio.ground, studio.centre.w);
+  return studio;
+}
+
+void see_from(Studio& studio, const RenderOptions& options) {
+  const double width = options.size.x, height = options.size.y;
+  const glm::dmat4 to_clip = view_projection(options.camera, width / height);
+  studio.view_projection = glm::mat4(to_clip);
+  studio.from_clip = glm::mat4(glm::inverse(to_clip));
+  studio.eye = glm::vec4(options.camera.eye, 0.5 * height / std::tan(0.5 * glm::radians(options.camera.field_of_view)));
+}
+
+}  // namespace pliant::render
