@@ -332,6 +332,7 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
     const toml::node& table = (*node.as_array())[i];
     BodyDescription body;
     body.name = name_of(table, i);
+    body.color = default_color(i);
     body.where = place_of(table);
     TableReader::section(table, "body." + body.name, body);
     if (std::ranges::find(bodies, body.name, &BodyDescription::name) != bodies.end())
@@ -465,6 +466,12 @@ toml::table parse_text(const std::string& text, const std::filesystem::path& fil
 }
 
 }  // namespace
+
+glm::dvec3 default_color(std::size_t index) {
+  static constexpr glm::dvec3 colors[] = {{0.791, 0.347, 0.0}, {0.0, 0.168, 0.445},   {0.0, 0.342, 0.171},  {0.604, 0.191, 0.386},
+                                          {0.665, 0.112, 0.0}, {0.093, 0.456, 0.815}, {0.871, 0.776, 0.054}};
+  return colors[index % std::size(colors)];
+}
 
 SceneDescription load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return parse_scene(read_text(file), file, overrides);

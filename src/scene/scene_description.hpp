@@ -1,6 +1,7 @@
 // What a scene file says, checked for form and range, with every default filled in; nothing is loaded or built.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -67,6 +68,9 @@ struct OutputDescription {
   Coloring coloring = Coloring::body;
 };
 
+/// Of the body with this index, linear RGB: seven colours in turn that the colour-blind tell apart, too (Okabe and Ito, 2008).
+[[nodiscard]] glm::dvec3 default_color(std::size_t index);
+
 struct BodyDescription {
   std::string name;
   std::string mesh;                       // "generator:argument", or a path
@@ -84,7 +88,7 @@ struct BodyDescription {
   double vertex_mass = 1.0;               // [kg]
   std::optional<double> total_mass;       // [kg]; m = total / N
   double damping = 1.0;                   // c [kg/s]
-  glm::dvec3 color{0.8, 0.4, 0.2};        // linear RGB, 0 to 1
+  glm::dvec3 color = default_color(0);    // linear RGB, 0 to 1
 };
 
 struct SceneDescription {

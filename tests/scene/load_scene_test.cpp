@@ -68,6 +68,16 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK_THAT(body.where, Catch::EndsWith("scene.toml:1"));
 }
 
+TEST_CASE("bodies without a colour have colours of their own") {
+  std::string bodies;
+  for (int i = 0; i < 7; ++i) bodies += "[[body]]\nmesh = \"icosphere:1\"\n";
+  const SceneDescription scene = load_text(bodies);
+  for (const BodyDescription& a : scene.bodies) {
+    for (int axis = 0; axis < 3; ++axis) CHECK((a.color[axis] >= 0 && a.color[axis] <= 1));
+    CHECK(std::ranges::count(scene.bodies, a.color, &BodyDescription::color) == 1);
+  }
+}
+
 TEST_CASE("every key is read into its place") {
   const SceneDescription scene = load_text(R"(
 title = "All keys"
