@@ -86,4 +86,13 @@ int bench_stability(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_stability);
 }
 
+int bench_draw(const BenchOptions& options) {
+  bench::expect_scenes(options.scenes);
+  const bench::DrawOptions asked{.gpu_index = options.gpu_index.value_or(0),
+                                 .scenes = options.scenes,
+                                 .size = {options.size[0], options.size[1]},
+                                 .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_draw);
+}
+
 }  // namespace pliant::app

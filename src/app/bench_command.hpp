@@ -1,5 +1,7 @@
 // `pliant bench`: measures this machine, as a table and as JSON.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -10,12 +12,13 @@ enum class BenchDevices { automatic, cpu, gpu, all };
 
 struct BenchOptions {
   BenchDevices devices = BenchDevices::automatic;
-  std::optional<int> gpu_index;             // of gl::list_adapters()
-  unsigned threads = 0;                     // most threads of the CPU; 0: one a processor
-  std::filesystem::path json;               // empty: no file
-  bool quick = false;                       // figures of the right size in a few seconds
-  bool all_variants = false;                // forces: every way of summing that a device knows
-  std::filesystem::path scenes = "scenes";  // steps, precision: folder
+  std::optional<int> gpu_index;                   // of gl::list_adapters()
+  unsigned threads = 0;                           // most threads of the CPU; 0: one a processor
+  std::filesystem::path json;                     // empty: no file
+  bool quick = false;                             // figures of the right size in a few seconds
+  bool all_variants = false;                      // forces: every way of summing that a device knows
+  std::filesystem::path scenes = "scenes";        // steps, precision, draw: folder
+  std::array<std::uint32_t, 2> size{1920, 1080};  // draw: of the picture [pixels]
 };
 
 /// Prints the machine and a table, and writes the file; an earlier one stays until then. After Ctrl-C with the rows that are
@@ -24,5 +27,6 @@ int bench_forces(const BenchOptions& options);
 int bench_steps(const BenchOptions& options);
 int bench_precision(const BenchOptions& options);
 int bench_stability(const BenchOptions& options);
+int bench_draw(const BenchOptions& options);
 
 }  // namespace pliant::app

@@ -158,32 +158,47 @@ void add_info(CLI::App& program, app::InfoOptions& options) {
 
 CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* name, const char* help) {
   CLI::App* suite = bench.add_subcommand(name, help);
+  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
+  suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
+  suite->add_flag("--quick", options.quick,
+                  "A rough measurement: seconds for forces, steps and draw, about a minute for precision and stability");
+  return suite;
+}
+
+CLI::App* add_device_suite(CLI::App& bench, app::BenchOptions& options, const char* name, const char* help) {
+  CLI::App* suite = add_suite(bench, options, name, help);
   add_choice<app::BenchDevices>(*suite, "--device", options.devices,
                                 {{"auto", app::BenchDevices::automatic},
                                  {"cpu", app::BenchDevices::cpu},
                                  {"gpu", app::BenchDevices::gpu},
                                  {"all", app::BenchDevices::all}},
                                 "What to measure on (default auto: the CPU, and a hardware GPU if there is one)");
-  suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
       ->transform(whole_number(1, 4096));
-  suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
-  suite->add_flag("--quick", options.quick,
-                  "A rough measurement: seconds for forces and steps, about a minute for precision and stability");
   return suite;
+}
+
+void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
+  CLI::App* draw = add_suite(bench, options, "draw", "GPU time of a picture and its passes, for each scene");
+  draw->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
+  draw->add_option("--size", options.size, "Width and height of the picture [pixels] (default 1920 1080)")
+      ->transform(whole_number(1, 16384));
 }
 
 void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* bench =
-      program.add_subcommand("bench", "Measure how fast this machine is; suites are forces, steps, precision, stability");
+      program.add_subcommand("bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, draw");
   bench->require_subcommand(1);
-  CLI::App* forces = add_suite(*bench, options, "forces", "Spring forces by size of the body, beside what the hardware allows");
+  CLI::App* forces =
+      add_device_suite(*bench, options, "forces", "Spring forces by size of the body, beside what the hardware allows");
   forces->add_flag("--all-variants", options.all_variants, "Every way of summing forces, instead of the GPU's best one");
-  CLI::App* steps = add_suite(*bench, options, "steps", "Whole steps of scenes, and of ever denser bodies in contact");
+  CLI::App* steps = add_device_suite(*bench, options, "steps", "Whole steps of scenes, and of ever denser bodies in contact");
   steps->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
-  CLI::App* precision = add_suite(*bench, options, "precision", "Run time against error, beside other libraries' integrators");
+  CLI::App* precision =
+      add_device_suite(*bench, options, "precision", "Run time against error, beside other libraries' integrators");
   precision->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny (default scenes)");
-  add_suite(*bench, options, "stability", "Steps at which methods blow up, drift of energy, and errors of fp32");
+  add_device_suite(*bench, options, "stability", "Steps at which methods blow up, drift of energy, and errors of fp32");
+  add_draw_suite(*bench, options);
 }
 
 struct MeshOptions {
@@ -259,6 +274,7 @@ int execute(int count, char** arguments) {
   if (suite->got_subcommand("steps")) return app::bench_steps(bench);
   if (suite->got_subcommand("precision")) return app::bench_precision(bench);
   if (suite->got_subcommand("stability")) return app::bench_stability(bench);
+  if (suite->got_subcommand("draw")) return app::bench_draw(bench);
   if (program.got_subcommand("info"))
     app::show_info(info);
   else

@@ -47,6 +47,20 @@ Json row_json(const StepsRow& row) {
           {"runs", row.runs}};
 }
 
+Json row_json(const DrawRow& row) {
+  Json json = {{"scene", row.scene},
+               {"device", "gpu"},
+               {"vertices", row.vertices},
+               {"triangles", row.triangles},
+               {"bodies", row.bodies},
+               {"width", row.width},
+               {"height", row.height},
+               {"milliseconds_per_frame", row.milliseconds_per_frame},
+               {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame}};
+  for (const auto& [pass, milliseconds] : row.milliseconds) json[pass + "_milliseconds"] = milliseconds;
+  return json;
+}
+
 Json crossover_json(const FamilyCrossover& crossover) {
   return {{"family", crossover.family},
           {"threads", crossover.threads},
@@ -55,6 +69,7 @@ Json crossover_json(const FamilyCrossover& crossover) {
 }
 
 std::vector<std::string> notes_of(const StepsResult& result) { return result.notes; }
+std::vector<std::string> notes_of(const DrawResult& result) { return result.notes; }
 
 // A sum can't be faster than its bound, unless the bound was measured in a worse moment.
 std::vector<std::string> notes_of(const ForcesResult& result) {
@@ -114,6 +129,21 @@ std::string to_table(const StepsResult& result) {
   return table;
 }
 
+std::string to_table(const DrawResult& result) {
+  const std::size_t width = width_of(result.rows, &DrawRow::scene);
+  std::string table = fmt::format("{:<{}} {:>9} {:>11} {:>9}", "scene", width, "triangles", "pixels", "ms/frame");
+  if (!result.rows.empty())
+    for (const auto& [pass, milliseconds] : result.rows.front().milliseconds) table += fmt::format(" {:>9}", pass);
+  for (const DrawRow& row : result.rows) {
+    table += fmt::format("\n{:<{}} {:>9} {:>11} {:>9.4g}", row.scene, width, row.triangles,
+                         fmt::format("{} x {}", row.width, row.height), row.milliseconds_per_frame);
+    for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
+  }
+  table += '\n';
+  for (const std::string& note : result.notes) table += note + '\n';
+  return table;
+}
+
 std::string to_text(const FamilyCrossover& crossover) {
   const std::string opponent =
       fmt::format("{}: against {} CPU thread{}", crossover.family, crossover.threads, crossover.threads == 1 ? "" : "s");
@@ -142,6 +172,15 @@ std::string to_json(const Machine& machine, const StepsOptions& options, const S
   Json file = file_json("steps", machine, asked, result);
   file["crossovers"] = list_of(result.crossovers, crossover_json);
   return text_of(file);
+}
+
+std::string to_json(const Machine& machine, const DrawOptions& options, const DrawResult& result) {
+  const Json asked = {{"gpu_index", options.gpu_index},
+                      {"scenes", options.scenes.string()},
+                      {"width", options.size.x},
+                      {"height", options.size.y},
+                      {"quick", options.quick}};
+  return text_of(file_json("draw", machine, asked, result));
 }
 
 }  // namespace pliant::bench

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/draw.hpp"
 #include "bench/forces.hpp"
 #include "bench/machine.hpp"
 #include "bench/steps.hpp"
@@ -13,6 +14,7 @@ namespace pliant::bench {
 [[nodiscard]] std::string to_text(const Machine& machine);
 [[nodiscard]] std::string to_table(const ForcesResult& result);
 [[nodiscard]] std::string to_table(const StepsResult& result);
+[[nodiscard]] std::string to_table(const DrawResult& result);
 /// A sentence.
 [[nodiscard]] std::string to_text(const FamilyCrossover& crossover);
 
@@ -20,5 +22,6 @@ namespace pliant::bench {
 /// steps also {crossovers[...]}.
 [[nodiscard]] std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result);
 [[nodiscard]] std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result);
+[[nodiscard]] std::string to_json(const Machine& machine, const DrawOptions& options, const DrawResult& result);
 
 }  // namespace pliant::bench

@@ -188,6 +188,31 @@ TEST_CASE("steps are measured on one thread and all, and every row is told") {
   CHECK(result.crossovers.empty());  // without a GPU
 }
 
+TEST_CASE("drawing is timed for every scene, frame and pass", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const test::ScratchFolder folder;
+  std::filesystem::copy(source_dir() + "/scenes/two_spheres.toml", folder.path);
+  Told told;
+  const DrawOptions options{.gpu_index = 0, .scenes = folder.path, .size = {64, 48}, .quick = true};
+  const DrawResult result = bench_draw(options, told.progress());
+  const std::string table = to_table(result), json = to_json({}, options, result);
+  REQUIRE(result.rows.size() == 3);  // the scene, and two sizes of its family
+  for (const DrawRow& row : result.rows) {
+    CAPTURE(row.scene);
+    CHECK((row.width == 64 && row.height == 48 && row.bodies == 2));
+    CHECK(row.milliseconds_per_frame >= row.fastest_milliseconds_per_frame);
+    CHECK(row.fastest_milliseconds_per_frame > 0);
+    CHECK(row.milliseconds.size() >= 5);
+    for (const auto& [pass, milliseconds] : row.milliseconds) {
+      CHECK(milliseconds >= 0);
+      CHECK_THAT(table, Catch::Contains(pass));
+      CHECK_THAT(json, Catch::Contains("\"" + pass + "_milliseconds\": ") || Catch::Contains("\"" + pass + "_milliseconds\":"));
+    }
+    CHECK(mentions(table, {row.scene, std::to_string(row.triangles), "64 x 48"}));
+  }
+  CHECK(told.done.back() == 1);
+}
+
 TEST_CASE("a scene without a step is left out, and a note says so") {
   const test::ScratchFolder folder;
   std::ofstream(folder.path / "still.toml") << "[simulation]\ntime_step = 0.01\nduration = 0\n[[body]]\nmesh = \"icosphere:1\"\n";
