@@ -23,7 +23,7 @@ Tap tap_at(vec3 place, vec2 slope, vec2 offset) {
   return Tap(vec4(lessThan(depths, vec4(min(place.z + dot(slope, offset), 0.99999)))), depths);
 }
 
-/// Bilinear between the four; the order is that of textureGather. GPUs choose texels by 8 bits of fraction, rounding half a step up.
+/// Bilinear between the four, in textureGather's order. GPUs choose texels by 8 bits of fraction, hence half a step more.
 float share_blocked(Tap tap, vec2 at) {
   vec2 part = fract(at * vec2(textureSize(shadow_map, 0)) - 0.5 + 1.0 / 512.0);
   vec2 rows = mix(tap.blocks.wx, tap.blocks.zy, part.x);

@@ -65,7 +65,8 @@ float mirrored_share(float facing) {
 vec3 shade(Hit hit, vec3 view, float open) {
   vec3 light = key_direction.xyz, normal = hit.normal;
   vec3 below = ground_shade(light_on_ground(hit.world.xz));
-  float lit = max(dot(normal, light), 0.0) * key_visibility(hit.world, normal, Search(vec2(1.0, 0.0), 0.02, BLOCKER_TAPS, SHADOW_TAPS));
+  Search taps = Search(vec2(1.0, 0.0), 0.02, BLOCKER_TAPS, SHADOW_TAPS);
+  float lit = max(dot(normal, light), 0.0) * key_visibility(hit.world, normal, taps);
   vec3 fill = fill_color * max(dot(normal, normalize(vec3(-light.x, 0.35 * light.y, light.z))) * 0.7 + 0.3, 0.0);
   vec3 around = mix(below * 0.6, sky_color, 0.5 + 0.5 * normal.y);
   vec3 mirrored = reflect(-view, normal);

@@ -5,8 +5,9 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) readonly buffer FirstIncident { uint first_incident[]; };  // vertices + 1
 layout(std430, binding = 3) readonly buffer Incident { uvec2 incident[]; };  // a triangle's other two corners, in winding order
-layout(std430, binding = 4) writeonly buffer Smooth { vec4 smooth_surface[]; };  // xyz: normal; w: strain, the mean of
-                                                                                 // |length / rest length - 1| over the edges of the triangles
+layout(std430, binding = 4) writeonly buffer Smooth {
+  vec4 smooth_surface[];  // xyz: normal; w: strain, the mean of |length / rest length - 1| over the edges of the triangles
+};
 layout(location = 1) uniform uint vertex_count;
 
 float edge_strain(uint a, uint b) {

@@ -8,6 +8,7 @@
 
 #include "bench/step_cases.hpp"
 #include "bench/timing.hpp"
+#include "device/gpu/gpu_device.hpp"
 #include "gl/objects.hpp"
 #include "render/frame_renderer.hpp"
 
@@ -16,22 +17,29 @@ namespace {
 
 constexpr int marked_frames = 21, quick_marked_frames = 3;
 
-render::RenderOptions options_for(std::span<const glm::dvec3> world, const glm::uvec2& size) {
+struct Look {
+  glm::uvec2 size;  // [pixels]
+  render::Detail detail;
+};
+
+render::RenderOptions options_for(std::span<const glm::dvec3> world, const Look& look) {
   OutputDescription output;
-  output.size = size;
-  return render::options_for(render::box_around(world), output);
+  output.size = look.size;
+  render::RenderOptions options = render::options_for(render::box_around(world), output);
+  options.detail = look.detail;
+  return options;
 }
 
 // A scene at its start, ready to be drawn.
 class Drawing {
  public:
-  Drawing(const ModelAndState& start, const glm::uvec2& size) : Drawing(start, size, start.state.world_positions(start.model)) {}
+  Drawing(const ModelAndState& start, const Look& look) : Drawing(start, look, start.state.world_positions(start.model)) {}
 
   void draw(const render::PassObserver& after_pass = {}) { renderer_.draw(positions_.id(), 0, after_pass); }
 
  private:
-  Drawing(const ModelAndState& start, const glm::uvec2& size, const std::vector<glm::dvec3>& world)
-      : positions_(world.size() * sizeof(glm::vec4), "drawn positions"), renderer_(start.model, options_for(world, size)) {
+  Drawing(const ModelAndState& start, const Look& look, const std::vector<glm::dvec3>& world)
+      : positions_(world.size() * sizeof(glm::vec4), "drawn positions"), renderer_(start.model, options_for(world, look)) {
     std::vector<glm::vec4> rounded;
     for (const glm::dvec3& place : world) rounded.emplace_back(glm::vec3(place), 1.0f);
     positions_.write(0, std::as_bytes(std::span(rounded)));
@@ -70,12 +78,14 @@ PassTimes median_passes(Device& device, Drawing& drawing, int frames) {
 
 DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
   const Model& model = what.start.model;
-  Drawing drawing(what.start, options.size);
+  const bool software = gpu::context_of(device)->adapter().is_software;
+  Drawing drawing(what.start, {options.size, software ? render::Detail::reduced : render::Detail::full});
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   return {.scene = what.name,
           .vertices = model.vertex_count(),
           .triangles = static_cast<std::uint32_t>(model.triangles.size()),
           .bodies = static_cast<std::uint32_t>(model.bodies.size()),
+          .detail = software ? "reduced" : "full",
           .width = options.size.x,
           .height = options.size.y,
           .milliseconds_per_frame = 1e3 * frame.median,

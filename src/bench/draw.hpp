@@ -1,4 +1,4 @@
-// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts.
+// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts, drawn as the viewer would.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +24,7 @@ struct DrawRow {
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t triangles = 0;
   std::uint32_t bodies = 0;
+  std::string detail = "full";                               // or "reduced", where software draws
   std::uint32_t width = 0, height = 0;                       // [pixels]
   double milliseconds_per_frame = 0;                         // the median over batches, by the GPU's clock
   double fastest_milliseconds_per_frame = 0;                 // the fastest batch

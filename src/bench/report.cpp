@@ -53,6 +53,7 @@ Json row_json(const DrawRow& row) {
                {"vertices", row.vertices},
                {"triangles", row.triangles},
                {"bodies", row.bodies},
+               {"detail", row.detail},
                {"width", row.width},
                {"height", row.height},
                {"milliseconds_per_frame", row.milliseconds_per_frame},
