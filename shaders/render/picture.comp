@@ -17,7 +17,7 @@ const float pi = 3.14159265;
 const float full_strain = 0.3;  // the end of the colour scale
 const float roughness = 0.42;
 
-// BLOCKER_TAPS and SHADOW_TAPS come from Detail (frame_renderer.hpp).
+// BLOCKER_TAPS, SHADOW_TAPS and INNER_OUTLINES come from Detail (frame_renderer.hpp).
 
 /// Viridis (van der Walt and Smith), as Matt Zucker's polynomial of degree six, to linear RGB.
 vec3 viridis(float t) {
@@ -87,20 +87,23 @@ vec3 color_of(uint seen, vec3 ray, vec2 place) {
   return shade(hit_of(seen, ray), -direction, openness_at(place));
 }
 
-/// Which of the pixel's samples see this triangle, a bit each.
-int samples_seeing(uint seen, ivec2 pixel) {
+/// Whether samples that see these are shaded together: of one triangle, or of bodies at all.
+bool are_alike(uint a, uint b) { return a == b || (!INNER_OUTLINES && a != 0u && b != 0u); }
+
+/// Which of the pixel's samples are like one that sees this triangle, a bit each.
+int samples_like(uint seen, ivec2 pixel) {
   int samples = 0;
-  for (int i = 0; i < sample_count; ++i) samples |= int(texelFetch(triangles_seen, pixel, i).x == seen) << i;
+  for (int i = 0; i < sample_count; ++i) samples |= int(are_alike(seen, texelFetch(triangles_seen, pixel, i).x)) << i;
   return samples;
 }
 
-/// Samples that see one triangle are shaded together, and averaged as they will be shown.
+/// Averaged as they will be shown.
 vec3 average_color(ivec2 pixel, vec3 ray, vec2 place) {
   vec3 sum = vec3(0.0);
   int left = (1 << sample_count) - 1;
   do {
     uint seen = texelFetch(triangles_seen, pixel, findLSB(left)).x;
-    int samples = samples_seeing(seen, pixel);
+    int samples = samples_like(seen, pixel);
     sum += float(bitCount(samples)) * tone_map(color_of(seen, ray, place));
     left &= ~samples;
   } while (left != 0);

@@ -61,12 +61,15 @@ struct Surface {
 struct Sampling {
   std::uint32_t ground_light_size;       // [texels] a side
   int shadow_blocker_taps, shadow_taps;  // on bodies, each of four texels
+  bool inner_outlines;                   // smoothed, too, not those before the backdrop alone
 };
 
-Sampling sampling_of(Detail detail) { return detail == Detail::full ? Sampling{256, 12, 16} : Sampling{128, 4, 4}; }
+Sampling sampling_of(Detail detail) { return detail == Detail::full ? Sampling{256, 12, 16, true} : Sampling{128, 4, 4, false}; }
 
 std::vector<gl::Define> defines_of(const Sampling& sampling) {
-  return {{"BLOCKER_TAPS", std::to_string(sampling.shadow_blocker_taps)}, {"SHADOW_TAPS", std::to_string(sampling.shadow_taps)}};
+  return {{"BLOCKER_TAPS", std::to_string(sampling.shadow_blocker_taps)},
+          {"SHADOW_TAPS", std::to_string(sampling.shadow_taps)},
+          {"INNER_OUTLINES", sampling.inner_outlines ? "true" : "false"}};
 }
 
 struct Programs {

@@ -377,7 +377,7 @@ TEST_CASE("outlines are smoothed: most rows pass through a colour between backdr
   CHECK(smooth_rows > rows / 2);
 }
 
-TEST_CASE("reduced detail shows the same, but for the rims of shadows", "[gl]") {
+TEST_CASE("reduced detail shows the same, but for rims of shadows and inner outlines", "[gl]") {
   const gl::Context context(0);
   RenderOptions options = without_ground();
   options.ground_height = -1.1;
