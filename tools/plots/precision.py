@@ -20,7 +20,7 @@ CONTENDERS = (
 COSTS = {"time": ("seconds", "milliseconds", 1e3), "evaluations": ("evaluations", "force evaluations", 1)}
 ROW_KEYS = {"time": "fastest_seconds", "evaluations": "evaluations"}
 TITLES = {"time": "run time", "evaluations": "force evaluations"}
-REMARKS_ALONE = ("collision, through contact",)  # no method is better than some percent there: no picture of methods
+REMARKS_ALONE = ("collision, through contact",)  # no method converges there: no picture of methods
 
 
 def key_of(row):
