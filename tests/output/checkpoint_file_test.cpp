@@ -76,8 +76,10 @@ TEST_CASE("a checkpoint takes the place of none or of a checkpoint, and of no ot
   write_checkpoint(path, content);
   CHECK_NOTHROW(expect_place_for_checkpoint(path));
   put(path, "[[body]]\n");
+  put(path.string() + ".tmp", "of another program");
   CHECK(error_of([&] { expect_place_for_checkpoint(path); }).kind() == ErrorKind::command_line);
   CHECK(read_text(path) == "[[body]]\n");
+  CHECK(read_text(path.string() + ".tmp") == "of another program");
   CHECK(error_of([&] { expect_place_for_checkpoint(folder.path); }).kind() == ErrorKind::command_line);
 }
 
