@@ -86,6 +86,20 @@ void expect_device(const RunOptions& given, const Checkpoint& checkpoint, Prepar
   run.warnings.push_back(fmt::format("the run was on {}, and goes on on {}: its bits differ from here on", before, now));
 }
 
+// One file by two names, too, whether or not there is one yet.
+bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code failure;
+  return std::filesystem::weakly_canonical(a, failure) == std::filesystem::weakly_canonical(b, failure) ||
+         std::filesystem::equivalent(a, b, failure);
+}
+
+void expect_no_output(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  for (const char* name : {"history.csv", "final_state.csv", "summary.json"})
+    if (is_same_place(file, folder / name))
+      throw Error(ErrorKind::command_line, "--checkpoint " + file.string(), fmt::format("is where the run writes {}", name),
+                  "name another place");
+}
+
 void warn_of_version(const Checkpoint& checkpoint, PreparedRun& run) {
   if (checkpoint.version != PLIANT_VERSION)
     run.warnings.push_back(fmt::format("the run was begun by pliant {}, and this is pliant {}: its bits may differ from here on",
@@ -184,7 +198,9 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 
 CheckpointKeeper::CheckpointKeeper(const RunOptions& options)
     : file_(options.checkpoint), interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
-  if (is_wanted()) expect_place_for_checkpoint(file_);
+  if (!is_wanted()) return;
+  expect_no_output(file_, folder_of(options));
+  expect_place_for_checkpoint(file_);
 }
 
 void CheckpointKeeper::write(const Checkpoint& checkpoint) {

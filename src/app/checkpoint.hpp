@@ -56,7 +56,8 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 /// When a checkpoint is due, and how it is written.
 class CheckpointKeeper {
  public:
-  /// Does nothing unless the options name a file. Throws Error (command_line) when it can't be written.
+  /// Does nothing unless the options name a file. Throws Error (command_line) when it can't be written, or is an
+  /// output of the run.
   explicit CheckpointKeeper(const RunOptions& options);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }

@@ -213,6 +213,19 @@ TEST_CASE("options that a resumed run can't follow, or that lack their counterpa
   CHECK_FALSE(std::filesystem::exists(begun.folder.path / "summary.json"));
 }
 
+TEST_CASE("a checkpoint in the place of one of the run's outputs exits with 2, by whatever name, and changes no file") {
+  const ScratchFolder folder;
+  const std::string scene = scene_in(folder, verlet).string(), out = (folder.path / "out").string();
+  for (const std::string name : {"history.csv", "final_state.csv", "./summary.json"}) {
+    const ProgramResult result =
+        run_program("run " + scene + " --device cpu --quiet --duration 0.1 --out " + out + " --checkpoint " + out + "/" + name);
+    CAPTURE(name, result.output);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.output, Catch::Contains("is where the run writes"));
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+}
+
 TEST_CASE("a checkpoint that can't be written costs no run") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
