@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <system_error>
 
 #include "core/bytes.hpp"
 #include "core/error.hpp"
@@ -111,7 +112,7 @@ void warn_of_version(const Checkpoint& checkpoint, PreparedRun& run) {
 Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress, const std::string& history) {
   Checkpoint checkpoint{.version = PLIANT_VERSION,
                         .options = options,
-                        .working_folder = std::filesystem::current_path(),
+                        .working_folder = run.working_folder,
                         .device_name = run.device->info().name,
                         .scene_text = run.scene_text,
                         .mesh_checksums = run.mesh_checksums,
@@ -170,7 +171,8 @@ RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint
   options.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint;
   if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
   options.out = folder_of(options);
-  if (std::filesystem::current_path() != checkpoint.working_folder) {
+  std::error_code gone;
+  if (std::filesystem::current_path(gone) != checkpoint.working_folder) {
     options.scene = checkpoint.working_folder / options.scene;
     options.out = checkpoint.working_folder / options.out;
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/read_text.hpp"
@@ -78,6 +80,8 @@ void warn_of_overlap(PreparedRun& run) {
 std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   auto prepared = std::make_unique<PreparedRun>();
   PreparedRun& run = *prepared;
+  std::error_code gone;
+  run.working_folder = std::filesystem::current_path(gone);
   run.load_time.start();
   run.scene_text = options.scene_text ? *options.scene_text : read_text(options.scene);
   run.scene = describe_scene(run.scene_text, options);

@@ -1,6 +1,7 @@
 // A scene made ready to run: loaded, built and planned, with the command line's changes applied.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 namespace pliant::app {
 
 struct PreparedRun {
+  std::filesystem::path working_folder;  // at the start; empty if it had gone by then
   std::string scene_text;
   SceneDescription scene;
   std::vector<std::uint64_t> mesh_checksums;  // of each body's vertices and triangles

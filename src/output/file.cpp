@@ -86,7 +86,7 @@ void WholeFile::close_on_disk() {
   write_out();
   sync_to_disk(written_);
   move();
-  sync_to_disk(std::filesystem::absolute(place_).parent_path());  // the place's new name
+  sync_to_disk(place_.has_parent_path() ? place_.parent_path() : ".");  // the place's new name
 }
 
 void WholeFile::write_out() const {

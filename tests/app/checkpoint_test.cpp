@@ -236,5 +236,20 @@ TEST_CASE("a checkpoint that can't be written costs no run") {
   CHECK(std::filesystem::exists(folder.path / "summary.json"));
 }
 
+TEST_CASE("a run whose working folder goes writes checkpoints and is resumed from them all the same") {
+  const ScratchFolder folder;
+  const std::string scene = scene_in(folder, verlet).string(), gone = (folder.path / "gone").string();
+  const auto out = folder.path / "out", checkpoint = folder.path / "run.checkpoint";
+  for (const std::string& command : {"run " + scene + " --device cpu --duration 0.2 --quiet --checkpoint-every 0 --checkpoint " +
+                                         checkpoint.string() + " --out " + out.string(),
+                                     "run --quiet --resume " + checkpoint.string()}) {
+    std::filesystem::create_directory(gone);
+    const ProgramResult result = run_program(command, "cd " + gone + " && rmdir " + gone + " && ");
+    CAPTURE(command, result.output);
+    CHECK(result.exit_code == 0);
+    CHECK(std::filesystem::exists(checkpoint));
+  }
+}
+
 }  // namespace
 }  // namespace pliant
