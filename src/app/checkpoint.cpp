@@ -180,6 +180,7 @@ RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint
   if (given.device.kind != DeviceKind::automatic || given.device.gpu_index) {
     options.device.kind = given.device.kind;
     options.device.gpu_index = given.device.gpu_index;
+    if (given.device.kind != DeviceKind::cpu) options.device.precision.reset();  // a GPU has one of its own
   }
   if (given.device.precision) options.device.precision = given.device.precision;
   if (given.device.threads != 0) options.device.threads = given.device.threads;

@@ -112,10 +112,11 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
 struct Begun {
   ScratchFolder folder;
   std::string checkpoint = (folder.path / "run.checkpoint").string();
-  explicit Begun(const std::string& mesh = "icosphere:1") {
+  explicit Begun(const std::string& mesh = "icosphere:1", const std::string& options = "") {
     const std::string scene = scene_in(folder, verlet + "\n", mesh).string();
-    const ProgramResult result = run_program("run " + scene + " --device cpu --duration 0.2 --quiet --checkpoint-every 0" +
-                                             " --checkpoint " + checkpoint + " --out " + (folder.path / "out").string());
+    const ProgramResult result =
+        run_program("run " + scene + " --device cpu --duration 0.2 --quiet --checkpoint-every 0" + " --checkpoint " + checkpoint +
+                    " --out " + (folder.path / "out").string() + options);
     CAPTURE(result.output);
     REQUIRE(result.exit_code == 0);
   }
@@ -177,6 +178,14 @@ TEST_CASE("a run goes on on another device or at another precision only if told 
   const ProgramResult whole = Begun().resume(" --precision 64");
   CHECK(whole.exit_code == 0);
   CHECK_THAT(whole.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+}
+
+TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const ProgramResult result = Begun("icosphere:1", " --precision 64").resume(" --device gpu");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("at precision 64, and goes on on") && Catch::Contains("at precision 32"));
 }
 
 TEST_CASE("a run begun by another pliant goes on with a warning") {
