@@ -37,8 +37,9 @@ vec3 surroundings(vec3 direction) {
   vec3 result = backdrop(direction);
   float t = (ground.y - eye.y) / min(direction.y, -1e-4);
   if (ground.w <= 0.0 || direction.y >= 0.0 || t <= 0.0) return result;
-  float haze = smoothstep(4.0, 16.0, t * length(direction.xz) / centre.w);
-  return mix(ground_color(eye.xyz + t * direction), result, haze);
+  vec3 hit = eye.xyz + t * direction;
+  float haze = smoothstep(1.5, 12.0, distance(hit.xz, centre.xz) / centre.w);
+  return mix(ground_color(hit), result, haze);
 }
 
 /// Khronos' neutral curve: keeps hues, and bends only what is brighter than 0.76 towards 1.

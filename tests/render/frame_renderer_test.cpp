@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <limits>
 #include <string>
 #include <vector>
@@ -296,6 +297,27 @@ TEST_CASE("the ground is darker in a body's shadow than at the shadow's mirror i
   options.ground_height = -1.1;
   const Image image = draw(sphere({0, 0, 0}), options);  // the light is behind the camera's left shoulder
   CHECK(brightness_at(image, {1.3, -1.1, -0.5}) < brightness_at(image, {-1.3, -1.1, -0.5}) - 60);
+}
+
+TEST_CASE("a camera from far away with a narrow view sees the shadow as one nearby does", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  const auto contrast = [&](double times) {
+    const double slope = std::tan(glm::radians(front.field_of_view) / 2) / times;
+    options.camera = {front.eye * times, front.target, 2 * glm::degrees(std::atan(slope))};
+    RenderOptions floating = options;
+    floating.ground_height.reset();
+    const Image empty = draw({}, options), image = draw(sphere({0, 0, 0}), options);
+    const Silhouette body{draw(sphere({0, 0, 0}), floating), floating};
+    int darkest = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      if (body.near(static_cast<int>(i / 3 % picture_size.x), static_cast<int>(i / 3 / picture_size.x))) continue;
+      darkest = std::max(darkest, empty.pixels[i] - image.pixels[i]);
+    }
+    return darkest;
+  };
+  CHECK(contrast(20) > contrast(1) / 2);
 }
 
 TEST_CASE("a shadow is softer where its caster is higher", "[gl]") {
