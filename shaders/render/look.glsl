@@ -9,7 +9,7 @@ const vec3 pool_color = vec3(0.80, 0.81, 0.82);  // the ground under the lights
 #include "taps.glsl"
 layout(binding = 1) uniform sampler2D ground_light;  // x: key, y: sky
 
-/// Light on the ground at a world place, 0 to 1: key, sky. All of it beyond the map.
+/// Light on the ground at a place, 0 to 1: key, sky. All of it beyond the map.
 vec2 light_on_ground(vec2 xz) {
   if (ground.w <= 0.0) return vec2(1.0);
   vec2 at = (xz - ground.xz) / ground.w;
@@ -27,7 +27,7 @@ vec3 ground_shade(vec2 light) {
 }
 
 vec3 ground_color(vec3 hit) {
-  float distance_to_centre = length(hit.xz - centre.xz) / centre.w;
+  float distance_to_centre = length(hit.xz) / centre.w;
   vec3 shade = ground_shade(light_on_ground(hit.xz));
   return mix(shade, shade * horizon_color / pool_color, smoothstep(0.5, 6.0, distance_to_centre));
 }
@@ -38,7 +38,7 @@ vec3 surroundings(vec3 direction) {
   float t = (ground.y - eye.y) / min(direction.y, -1e-4);
   if (ground.w <= 0.0 || direction.y >= 0.0 || t <= 0.0) return result;
   vec3 hit = eye.xyz + t * direction;
-  float haze = smoothstep(1.5, 12.0, distance(hit.xz, centre.xz) / centre.w);
+  float haze = smoothstep(1.5, 12.0, length(hit.xz) / centre.w);
   return mix(ground_color(hit), result, haze);
 }
 

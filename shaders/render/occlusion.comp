@@ -19,13 +19,13 @@ vec3 point_at(ivec2 pixel, float depth) {
   return point.xyz / point.w;
 }
 
-float openness(ivec2 pixel, vec3 world, vec3 normal, vec2 start) {
-  float most = reach * centre.w, in_pixels = eye.w * most / distance(eye.xyz, world), hidden = 0.0;
+float openness(ivec2 pixel, vec3 where, vec3 normal, vec2 start) {
+  float most = reach * centre.w, in_pixels = eye.w * most / distance(eye.xyz, where), hidden = 0.0;
   vec2 side = start * in_pixels / float(taps);
   for (int i = 0; i < taps; ++i) {
     ivec2 at = clamp(pixel + ivec2((float(i) + 0.5) * side), ivec2(0), textureSize(depths) - 1);
     float depth = texelFetch(depths, at, 0).x;
-    vec3 to = point_at(at, depth) - world;
+    vec3 to = point_at(at, depth) - where;
     float squared = dot(to, to), near = max(1.0 - squared / (most * most), 0.0);
     hidden += near * near * near * max(dot(to, normal) - 0.02 * most, 0.0) * most / (squared + 1e-3 * most * most);
     side = golden_turn * side;
@@ -40,8 +40,8 @@ void main() {
   vec2 result = vec2(0.0);
   if (seen != 0u) {
     Corners at = corners_of(seen);
-    vec3 world = point_at(pixel, texelFetch(depths, pixel, 0).x), normal = side_seen(at) * normalize(face_normal(at));
-    result = vec2(openness(pixel, world, normal, start_of(texel)), 1.0);
+    vec3 where = point_at(pixel, texelFetch(depths, pixel, 0).x), normal = side_seen(at) * normalize(face_normal(at));
+    result = vec2(openness(pixel, where, normal, start_of(texel)), 1.0);
   }
   imageStore(occlusion, texel, vec4(result, 0.0, 0.0));
 }

@@ -33,7 +33,7 @@ vec3 viridis(float t) {
 
 /// Where a ray meets a body.
 struct Hit {
-  vec3 world, normal;  // the normal towards the eye
+  vec3 where, normal;  // the normal towards the eye
   vec3 albedo;
 };
 
@@ -64,9 +64,9 @@ float mirrored_share(float facing) {
 
 vec3 shade(Hit hit, vec3 view, float open) {
   vec3 light = key_direction.xyz, normal = hit.normal;
-  vec3 below = ground_shade(light_on_ground(hit.world.xz));
+  vec3 below = ground_shade(light_on_ground(hit.where.xz));
   Search taps = Search(vec2(1.0, 0.0), 0.02, BLOCKER_TAPS, SHADOW_TAPS);
-  float lit = max(dot(normal, light), 0.0) * key_visibility(hit.world, normal, taps);
+  float lit = max(dot(normal, light), 0.0) * key_visibility(hit.where, normal, taps);
   vec3 fill = fill_color * max(dot(normal, normalize(vec3(-light.x, 0.35 * light.y, light.z))) * 0.7 + 0.3, 0.0);
   vec3 around = mix(below * 0.6, sky_color, 0.5 + 0.5 * normal.y);
   vec3 mirrored = reflect(-view, normal);

@@ -10,7 +10,7 @@ struct Corners {
 Corners corners_of(uint seen) {
   uint first = 3u * (seen - 1u);
   uint vertices[3] = uint[3](corners[first], corners[first + 1u], corners[first + 2u]);
-  return Corners(vertices, world_position(vertices[0]), world_position(vertices[1]), world_position(vertices[2]));
+  return Corners(vertices, place_of(vertices[0]), place_of(vertices[1]), place_of(vertices[2]));
 }
 
 /// By the winding, not of unit length.

@@ -1,6 +1,7 @@
 #version 450
 // A vertex's smooth normal, the sum over its triangles weighted by area, and its local strain.
 #include "drawable.glsl"
+#include "studio.glsl"
 #include "surface.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 2) readonly buffer FirstIncident { uint first_incident[]; };  // vertices + 1
@@ -12,18 +13,18 @@ layout(location = 1) uniform uint vertex_count;
 
 float edge_strain(uint a, uint b) {
   float rest_length = distance(rest_positions[a].xyz, rest_positions[b].xyz);
-  return rest_length > 0.0 ? abs(distance(world_position(a), world_position(b)) / rest_length - 1.0) : 0.0;
+  return rest_length > 0.0 ? abs(distance(place_of(a), place_of(b)) / rest_length - 1.0) : 0.0;
 }
 
 void main() {
   uint vertex = gl_GlobalInvocationID.x;
   if (vertex >= vertex_count) return;
-  vec3 world = world_position(vertex), normal = vec3(0.0);
+  vec3 place = place_of(vertex), normal = vec3(0.0);
   float strains = 0.0;
   uint begin = first_incident[vertex], end = first_incident[vertex + 1u];
   for (uint i = begin; i < end; ++i) {
     uvec2 other = incident[i];
-    vec3 area = cross(world_position(other.x) - world, world_position(other.y) - world);
+    vec3 area = cross(place_of(other.x) - place, place_of(other.y) - place);
     if (!is_drawable(area)) continue;
     normal += area;
     strains += edge_strain(vertex, other.x) + edge_strain(vertex, other.y) + edge_strain(other.x, other.y);

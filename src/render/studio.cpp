@@ -20,9 +20,9 @@ glm::dvec3 key_direction_for(const CameraDescription& camera) {
 }
 
 /// A box 2 r wide and 3 r deep (`depth_per_width` in key_light.glsl).
-glm::mat4 key_projection_for(const SceneBox& scene, const glm::dvec3& direction) {
-  const double r = 1.15 * scene.radius();
-  const glm::dmat4 view = glm::lookAt(scene.centre() + direction * (2 * r), scene.centre(), glm::dvec3(0, 1, 0));
+glm::mat4 key_projection_for(double radius, const glm::dvec3& direction) {
+  const double r = 1.15 * radius;
+  const glm::dmat4 view = glm::lookAt(direction * (2 * r), glm::dvec3(0), glm::dvec3(0, 1, 0));
   return glm::mat4(glm::ortho(-r, r, -r, r, 0.5 * r, 3.5 * r) * view);
 }
 
@@ -37,25 +37,29 @@ glm::mat4 above_projection_for(const glm::vec4& ground, float radius) {
 
 Studio studio_for(const RenderOptions& options) {
   const SceneBox& scene = options.scene;
-  const glm::dvec3 centre = scene.centre(), key = key_direction_for(options.camera);
+  const glm::dvec3 key = key_direction_for(options.camera);
   Studio studio{};
-  studio.key_projection = key_projection_for(scene, key);
+  studio.key_projection = key_projection_for(scene.radius(), key);
   studio.key_direction = glm::vec4(key, 0.0);
-  studio.centre = glm::vec4(centre, scene.radius());
+  studio.centre = glm::vec4(scene.centre(), scene.radius());
   if (!options.ground_height) return studio;
   // The maps of the ground lie under the scene and reach out to where its shadows fall.
-  const glm::dvec3 away = -key * ((centre.y - *options.ground_height) / key.y);
-  studio.ground = glm::vec4(centre.x + 0.5 * away.x, *options.ground_height, centre.z + 0.5 * away.z, 2.2 * scene.radius());
+  const double height = *options.ground_height - double{studio.centre.y};
+  const glm::dvec3 away = key * (height / key.y);
+  studio.ground = glm::vec4(0.5 * away.x, height, 0.5 * away.z, 2.2 * scene.radius());
   studio.above_projection = above_projection_for(studio.ground, studio.centre.w);
   return studio;
 }
 
 void see_from(Studio& studio, const RenderOptions& options) {
   const double width = options.size.x, height = options.size.y;
-  const glm::dmat4 to_clip = view_projection(options.camera, width / height);
+  CameraDescription camera = options.camera;
+  camera.eye -= glm::dvec3(studio.centre);
+  camera.target -= glm::dvec3(studio.centre);
+  const glm::dmat4 to_clip = view_projection(camera, width / height);
   studio.view_projection = glm::mat4(to_clip);
   studio.from_clip = glm::mat4(glm::inverse(to_clip));
-  studio.eye = glm::vec4(options.camera.eye, 0.5 * height / std::tan(0.5 * glm::radians(options.camera.field_of_view)));
+  studio.eye = glm::vec4(camera.eye, 0.5 * height / std::tan(0.5 * glm::radians(camera.field_of_view)));
 }
 
 }  // namespace pliant::render

@@ -371,6 +371,23 @@ TEST_CASE("a scene turned together with its camera has the same picture, as the 
   CHECK(mean_difference(draw(subject, options), before) < 0.5);
 }
 
+TEST_CASE("a scene far from the origin has the same picture", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  Subject subject = sphere({0.3, 0, 0});
+  const float finest = 1.0f / 512;  // what floats hold at 10 km, too
+  for (auto& p : subject.world) p = glm::round(p / finest) * finest;
+  const Image near_origin = draw(subject, options);
+  const glm::dvec3 far_away(8192, -4096, 8192);
+  for (auto& p : subject.world) p += glm::vec4(far_away, 0);
+  options.camera.eye += far_away;
+  options.camera.target += far_away;
+  options.scene = {options.scene.low + far_away, options.scene.high + far_away};
+  *options.ground_height += far_away.y;
+  CHECK(largest_difference(draw(subject, options), near_origin) <= 2);
+}
+
 TEST_CASE("a picture of twice the size shows the same", "[gl]") {
   const gl::Context context(0);
   RenderOptions options = without_ground();
