@@ -126,11 +126,12 @@ struct Picture {
   gl::Framebuffer seen_target, shaded_target;
 };
 
-/// One thread a texel; waits for what earlier passes have stored, and lets textures, framebuffers and shaders see the result.
+/// One thread a texel; waits for those who read what it overwrites, and lets textures and framebuffers see the result.
 void fill(const gl::Texture& texture, GLenum format, const gl::Program& program) {
   const glm::uvec2 groups = (texture.size() + tile - 1u) / tile;
   glBindImageTexture(0, texture.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
   glUseProgram(program.id());
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   glDispatchCompute(groups.x, groups.y, 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }

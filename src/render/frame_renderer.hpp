@@ -19,7 +19,7 @@ struct RenderOptions {
   glm::uvec2 size{1280, 720};  // [pixels]
   CameraDescription camera;
   Coloring coloring = Coloring::body;
-  SceneBox scene;                       // where the bodies will move; lights and shadows are fitted to it
+  SceneBox scene;                       // lights and shadows are fitted to it; options_for takes where the bodies start
   std::optional<double> ground_height;  // [m]; empty: no ground
   Detail detail = Detail::full;
 };
