@@ -70,7 +70,8 @@ vec3 shade(Hit hit, vec3 view, float open) {
   vec3 fill = fill_color * max(dot(normal, normalize(vec3(-light.x, 0.35 * light.y, light.z))) * 0.7 + 0.3, 0.0);
   vec3 around = mix(below * 0.6, sky_color, 0.5 + 0.5 * normal.y);
   vec3 mirrored = reflect(-view, normal);
-  mirrored = mix(below, backdrop(mirrored), smoothstep(-0.4, 0.4, mirrored.y));
+  vec2 met = hit.where.xz + mirrored.xz * ((ground.y - hit.where.y) / min(mirrored.y, -0.1));  // where it meets the ground
+  mirrored = mix(ground_shade(light_on_ground(met)), backdrop(mirrored), smoothstep(-0.4, 0.4, mirrored.y));
   vec3 gloss = key_color * pi * highlight(normal, view, light) * min(lit * 8.0, 1.0) +
                mirrored * open * mirrored_share(max(dot(normal, view), 0.0));
   return hit.albedo * 0.40 * (key_color * lit + open * (fill + around)) + gloss;
