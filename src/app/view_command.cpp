@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "device/gpu/gpu_device.hpp"
 #ifdef PLIANT_VIEWER
 #include "view/viewer.hpp"
 #endif
@@ -20,9 +21,15 @@ void view(const ViewOptions& options) {
   for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   static_cast<void>(plan_time(scene.description, scene.start.model));
   gl::Window window(scene.description.output.size, scene.description.title);
-  const std::unique_ptr<Device> device = choose_device(options.device, window.context());
-  view::Viewer viewer(window, *device, std::move(scene),
-                      {.pace = {.speed = options.speed}, .starts_paused = options.starts_paused, .report = options.report});
+  std::unique_ptr<Device> device = choose_device(options.device, window.context());
+  const auto make_device = [&](std::string_view kind) {
+    return kind == "gpu" ? make_gpu_device(window.context()) : make_cpu_device(options.device.threads, 32);
+  };
+  view::Viewer viewer(window, std::move(device), std::move(scene),
+                      {.pace = {.speed = options.speed},
+                       .make_device = make_device,
+                       .starts_paused = options.starts_paused,
+                       .report = options.report});
   viewer.run();
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/expect.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -41,13 +42,12 @@ LoadedScene load(const std::filesystem::path& file, std::span<const std::string>
 }
 
 Session::Session(Device& device, LoadedScene scene, std::size_t most_history_bytes)
-    : device_(device),
+    : device_(&device),
       scene_(std::move(scene)),
       plan_(plan_time(scene_.description, scene_.start.model)),
       history_(most_history_bytes) {
   expect_carried(scene_.description, plan_, device.precision());
-  simulation_ =
-      std::make_unique<Simulation>(device_, scene_.start.model, scene_.start.state, plan_, scene_.description.collision);
+  simulation_ = simulation_on(device);
   beginning_ = simulation_->save();
   report_ = simulation_->report();
   record();
@@ -110,6 +110,18 @@ void Session::restart() {
   history_.clear();
   go_to(beginning_);
   record();
+}
+
+void Session::move_to(Device& device) {
+  PLIANT_EXPECT(device.precision() == device_->precision());
+  std::unique_ptr<Simulation> moved = simulation_on(device);
+  moved->restore(simulation_->save());
+  simulation_ = std::move(moved);
+  device_ = &device;
+}
+
+std::unique_ptr<Simulation> Session::simulation_on(Device& device) const {
+  return std::make_unique<Simulation>(device, scene_.start.model, scene_.start.state, plan_, scene_.description.collision);
 }
 
 void Session::go_to(std::string_view saved) {

@@ -55,15 +55,18 @@ class Session {
   bool step_back();
   /// Back to the start.
   void restart();
+  /// Goes on on another device of the same precision, with the very state, and so do all ways back. `device` must outlive it.
+  void move_to(Device& device);
 
  private:
   [[nodiscard]] double time_of_step(std::uint64_t step) const { return static_cast<double>(step) * plan_.time_step; }
   [[nodiscard]] std::uint64_t next_frame() const;
   [[nodiscard]] double time_of_frame(std::uint64_t frame) const { return static_cast<double>(frame) / plan_.frame_rate; }
   void make_due_steps(double time, std::uint64_t most_steps);
+  [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device) const;
   void go_to(std::string_view saved);
 
-  Device& device_;
+  Device* device_;
   LoadedScene scene_;
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;

@@ -52,6 +52,7 @@ std::span<const Viewer::Command> Viewer::commands() {
       {",", "one step back, and pause", &Viewer::step_back, true},
       {"R", "back to the start", &Viewer::restart},
       {"F", "frame the scene", &Viewer::frame_scene},
+      {"D", "go on on the other device, CPU or GPU", &Viewer::switch_device},
       {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
       {"F1", "this help, on the terminal", &Viewer::print_help},
       {"F12", "save the picture as PNG in the current folder", &Viewer::save_picture},
@@ -65,12 +66,13 @@ std::string Viewer::help() {
   for (const Command& command : commands()) text += fmt::format("{:<12}{}\n", command.key, command.help);
   return text +
          "drag        left: turn the camera; right: shift it\n"
+         "Ctrl+drag   pull a body by the vertex under the mouse\n"
          "wheel       nearer, farther\n"
          "drop        a scene or an OBJ file, to open it\n";
 }
 
-Viewer::Viewer(gl::Window& window, Device& device, LoadedScene scene, const ViewerOptions& options)
-    : window_(window), device_(device), playback_(options.pace) {
+Viewer::Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options)
+    : window_(window), device_(std::move(device)), make_device_(options.make_device), playback_(options.pace) {
   if (options.starts_paused) playback_.pause();
   open(std::move(scene));
   if (options.report.empty()) return;
@@ -95,7 +97,7 @@ void Viewer::run() {
 
 // Where anything is missing, the scene before stays.
 void Viewer::open(LoadedScene scene) {
-  auto session = std::make_unique<Session>(device_, std::move(scene));
+  auto session = std::make_unique<Session>(*device_, std::move(scene));
   render::RenderOptions options =
       render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
   options.size = at_least_a_pixel(window_.framebuffer_size());
@@ -104,16 +106,20 @@ void Viewer::open(LoadedScene scene) {
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
   renderer->set_fill(fill_);
-  gl::Buffer positions;
-  if (gpu::context_of(device_) == nullptr)
-    positions = gl::Buffer(session->model().rest_positions.size() * sizeof(glm::vec4), "drawn positions");
-  copied_positions_ = std::move(positions);
   renderer_ = std::move(renderer);
   session_ = std::move(session);
+  pull_.reset();
+  make_room_for_positions();
   camera_ = options.camera;
   drawn_.reset();
   draw();  // the first picture takes a while, since shaders are compiled; no time is to go by
   playback_.restart();
+}
+
+void Viewer::make_room_for_positions() {
+  const bool is_drawn_in_place = gpu::context_of(*device_) != nullptr;
+  const std::size_t bytes = session_->model().rest_positions.size() * sizeof(glm::vec4);
+  copied_positions_ = is_drawn_in_place ? gl::Buffer() : gl::Buffer(bytes, "drawn positions");
 }
 
 // In a pause there is nothing to draw but what events ask for.
@@ -130,9 +136,30 @@ void Viewer::handle(const gl::KeyPressed& event) {
   try_to([&] { (this->*command->execute)(); });
 }
 
+// The body is pulled in the plane of the picture in which the vertex was picked. Positions visit the CPU for that one time.
+void Viewer::handle(const gl::MousePressed& event) {
+  if (event.button != gl::MouseButton::left || !event.with_control) return;
+  const std::vector<glm::vec4> positions = session_->simulation().world_positions();
+  const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
+  const std::optional<std::uint32_t> vertex = pick_vertex(session_->model(), positions, ray_through(camera_, event.place, size));
+  if (!vertex) return;
+  pulled_from_ = glm::dvec3(glm::vec3(positions[*vertex]));
+  session_->pull(pull_ = Pull{.vertex = *vertex, .target = pulled_from_});
+}
+
+void Viewer::handle(const gl::MouseReleased& event) {
+  if (event.button != gl::MouseButton::left) return;
+  pull_.reset();
+  session_->pull(pull_);
+}
+
 void Viewer::handle(const gl::MouseMoved& event) {
   if (!event.held) return;
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
+  if (pull_) {
+    pull_->target = meet_plane(ray_through(camera_, event.to, size), pulled_from_, render::axes_of(camera_).back);
+    return session_->pull(pull_);
+  }
   camera_ = (*event.held == gl::MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
 }
 
@@ -159,7 +186,7 @@ void Viewer::try_to(const std::function<void()>& wish) {
 // The clock starts when the GPU has drawn the picture before: waiting for that is no stepping.
 void Viewer::play() {
   constexpr double record_interval = 0.1;  // [s]
-  device_.finish();
+  device_->finish();
   playback_.begin(now(), session_->time());
   const std::uint64_t before = session_->step();
   double clock = now();
@@ -202,6 +229,17 @@ void Viewer::restart() {
   playback_.restart();
 }
 
+// Pictures are drawn from the device's own positions, which are the same on the other.
+void Viewer::switch_device() {
+  if (device_->precision() != 32) throw Error(ErrorKind::command_line, "", "fp64 forces run on the CPU alone", "");
+  std::unique_ptr<Device> other = make_device_(device_->info().kind == "gpu" ? "cpu" : "gpu");
+  session_->move_to(*other);
+  device_ = std::move(other);
+  make_room_for_positions();
+  playback_.restart();
+  message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);
+}
+
 // As it is, not as it was at the start: the state visits the CPU for that.
 void Viewer::frame_scene() {
   const auto positions = session_->simulation().state().world_positions(session_->model());
@@ -241,8 +279,8 @@ void Viewer::draw() {
   renderer_->resize(wanted.size);
   renderer_->set_camera(camera_);
   Simulation& simulation = session_->simulation();
-  if (gpu::context_of(device_) != nullptr) {
-    renderer_->draw(gpu::gl_buffer_of(device_, simulation.position_buffer()), simulation.first_position());
+  if (gpu::context_of(*device_) != nullptr) {
+    renderer_->draw(gpu::gl_buffer_of(*device_, simulation.position_buffer()), simulation.first_position());
   } else {
     const std::vector<glm::vec4> positions = simulation.world_positions();
     copied_positions_.write(0, std::as_bytes(std::span(positions)));
@@ -274,6 +312,8 @@ void Viewer::tell() {
                                        {"step", session_->step()},
                                        {"time", session_->time()},
                                        {"paused", playback_.is_paused()},
+                                       {"device", device_->info().kind},
+                                       {"pulls", pull_.has_value()},
                                        {"wireframe", fill_ == render::Fill::wireframe},
                                        {"size", {size.x, size.y}},
                                        {"camera", described(camera_)},

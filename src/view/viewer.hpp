@@ -12,6 +12,7 @@
 #include "gl/objects.hpp"
 #include "gl/window.hpp"
 #include "render/frame_renderer.hpp"
+#include "view/pick.hpp"
 #include "view/playback.hpp"
 #include "view/session.hpp"
 
@@ -19,6 +20,7 @@ namespace pliant::view {
 
 struct ViewerOptions {
   Pace pace;
+  std::function<std::unique_ptr<Device>(std::string_view kind)> make_device;  // "cpu" or "gpu", of the same precision
   bool starts_paused = false;
   std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
 };
@@ -28,8 +30,8 @@ class Viewer {
   /// What keys and mouse do, as text.
   [[nodiscard]] static std::string help();
 
-  /// Window and device must outlive it; a GPU device runs in the window's context. Throws Error.
-  Viewer(gl::Window& window, Device& device, LoadedScene scene, const ViewerOptions& options);
+  /// The window must outlive it; a GPU device runs in its context. Throws Error.
+  Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options);
 
   /// Until the window is closed. What a user's wish leads to that can't be is told on standard error and in the title; only a
   /// device that fails throws Error.
@@ -49,10 +51,11 @@ class Viewer {
   };
 
   void open(LoadedScene scene);
+  void make_room_for_positions();
   [[nodiscard]] std::vector<gl::WindowEvent> next_events();
   void handle(const gl::KeyPressed& event);
-  void handle(const gl::MousePressed&) {}
-  void handle(const gl::MouseReleased&) {}
+  void handle(const gl::MousePressed& event);
+  void handle(const gl::MouseReleased& event);
   void handle(const gl::MouseMoved& event);
   void handle(const gl::MouseScrolled& event);
   void handle(const gl::FilesDropped& event);
@@ -64,6 +67,7 @@ class Viewer {
   void step_once();
   void step_back();
   void restart();
+  void switch_device();
   void frame_scene();
   void toggle_wireframe();
   void print_help();
@@ -75,7 +79,8 @@ class Viewer {
   [[nodiscard]] std::string title() const;
 
   gl::Window& window_;
-  Device& device_;
+  std::unique_ptr<Device> device_;
+  std::function<std::unique_ptr<Device>(std::string_view)> make_device_;
   Playback playback_;
   BatchSize batch_;
   std::unique_ptr<Session> session_;
@@ -83,7 +88,9 @@ class Viewer {
   gl::Buffer copied_positions_;  // of a device that is not the window's
   CameraDescription camera_;
   render::Fill fill_ = render::Fill::surface;
-  std::string message_;  // shown in the title until the next event
+  std::optional<Pull> pull_;
+  glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
+  std::string message_;          // shown in the title until the next event
   std::string shown_title_;
   std::uint64_t picture_ = 0;
   double recorded_at_ = 0;      // the latest state to go back to [s]

@@ -130,6 +130,55 @@ TEST_CASE("a restarted scene plays as it did the first time, bit for bit", "[gl]
   });
 }
 
+TEST_CASE("a session that moves to another device keeps its state and its way back, to the bit", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  for (const char* timing : {"time_step = 0.002\n", by_tolerance}) {
+    const auto cpu = make_cpu_device(2, 32), gpu = make_gpu_device(0);
+    Session session(*cpu, colliding(timing)), stays(*cpu, colliding(timing));
+    std::vector<std::vector<double>> motions;
+    for (int k = 0; k < 30; ++k) {
+      motions.push_back(motion_of(session));
+      session.step_once();
+      session.record();
+      stays.step_once();
+    }
+    const StepReport before = session.simulation().report();
+    const auto motion = motion_of(session);
+    session.move_to(*gpu);
+    CHECK(session.simulation().report() == before);
+    CHECK(same_bits(motion_of(session), motion));
+    session.step_once();
+    CHECK(session.step() == 31);
+    REQUIRE(session.step_back());
+    session.move_to(*cpu);
+    CHECK(same_bits(motion_of(session), motion));
+    session.step_once();
+    stays.step_once();
+    CHECK(same_bits(motion_of(session), motion_of(stays)));
+    session.move_to(*gpu);
+    for (std::size_t step = 31; step-- > 0;) {
+      REQUIRE(session.step_back());
+      if (step < 30) CHECK(same_bits(motion_of(session), motions[step]));
+    }
+    session.restart();
+    CHECK(same_bits(motion_of(session), motions[0]));
+  }
+}
+
+TEST_CASE("a session draws a body while it is pulled, and not when it is let go", "[gl]") {
+  on_every_device([](Device& device) {
+    Session pulled(device, colliding()), free(device, colliding());
+    pulled.pull(Pull{.vertex = 50, .target = {1, 9, 0}});
+    pulled.advance_toward(0.008, 4);
+    pulled.pull({});
+    pulled.advance_toward(0.016, 4);
+    free.advance_toward(0.016, 100);
+    const auto end = pulled.simulation().state().world_positions(pulled.model());
+    CHECK(end[50].y > free.simulation().state().world_positions(free.model())[50].y + 1e-4);
+    REQUIRE(pulled.step() == 8);
+  });
+}
+
 TEST_CASE("a session's history stays within its memory") {
   const auto device = make_cpu_device(1, 32);
   Session session(*device, colliding(), 200000);

@@ -81,12 +81,12 @@ class Viewed {
 
   /// Runs commands of it.
   void xdotool(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
+  [[nodiscard]] std::string move_to(const glm::ivec2& at) const {
+    return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
+  }
   void press(const std::string& key) const { xdotool("key " + key); }
   void drag(int button, const glm::ivec2& from, const glm::ivec2& to) const {
-    const auto move = [&](const glm::ivec2& at) {
-      return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
-    };
-    xdotool(move(from) + "mousedown " + std::to_string(button) + " " + move(to) + "mouseup " + std::to_string(button));
+    xdotool(move_to(from) + "mousedown " + std::to_string(button) + " " + move_to(to) + "mouseup " + std::to_string(button));
   }
   void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted, for two minutes at most.
@@ -133,16 +133,23 @@ auto size_is(unsigned width, unsigned height) {
   return [=](const Json& line) { return line["size"] == Json{width, height}; };
 }
 
-// How many pixels are of a body's colour.
-long reddish(const render::Image& image) {
+// The pixels of the red body: how many there are, and where they are on average.
+struct Reddish {
+  explicit Reddish(const render::Image& image) {
+    for (std::size_t i = 0; i < image.pixels.size() / 3; ++i) {
+      if (image.pixels[3 * i] <= 2 * image.pixels[3 * i + 2]) continue;
+      ++count;
+      sum += glm::dvec2(i % image.width, i / image.width);
+    }
+  }
+  [[nodiscard]] glm::ivec2 centre() const { return sum / static_cast<double>(count); }
   long count = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 3) count += image.pixels[i] > 2 * image.pixels[i + 2];
-  return count;
-}
+  glm::dvec2 sum{0.0};
+};
 
 void check_playing(Viewed& viewed) {
   const render::Image first = viewed.saved_picture();
-  CHECK(reddish(first) > 1000);
+  CHECK(Reddish(first).count > 1000);
   CHECK(viewed.shows(first));
   for (const std::uint64_t step : {1, 2, 3}) {
     viewed.press("period");
@@ -278,6 +285,37 @@ TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scen
   const render::Image teapot = viewed.saved_picture();
   CHECK(teapot.pixels != before.pixels);
   CHECK(viewed.shows(teapot));
+}
+
+TEST_CASE("Ctrl and the mouse pull a body, and D moves the scene to the other device and back", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  for (const std::string device : {"cpu", "gpu"}) {
+    CAPTURE(device);
+    const ScratchFolder folder;
+    Viewed viewed(display, folder, device);
+    const glm::ivec2 before = Reddish(viewed.saved_picture()).centre();
+    viewed.press("space");
+    viewed.xdotool("keydown ctrl " + viewed.move_to(before) + "mousedown 1 " + viewed.move_to(before - glm::ivec2(0, 40)) +
+                   "keyup ctrl");
+    const Json pulled = viewed.await([](const Json& line) { return line["pulls"].get<bool>(); });
+    viewed.await([&](const Json& line) { return line["time"] > pulled["time"].get<double>() + 0.5; });
+    CHECK(Reddish(viewed.saved_picture()).centre().y < before.y - 10);
+    viewed.xdotool("mouseup 1");
+    const Json released = viewed.await([](const Json& line) { return !line["pulls"]; });
+    CHECK(released["camera"] == pulled["camera"]);
+
+    viewed.press("space");
+    viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+    const render::Image here = viewed.saved_picture();
+    viewed.press("d");
+    const Json moved = viewed.await([&](const Json& line) { return line["device"] != device; });
+    CHECK(viewed.saved_picture().pixels == here.pixels);
+    viewed.press("period");
+    viewed.await(step_is(moved["step"].get<std::uint64_t>() + 1));
+    viewed.press("d");
+    viewed.await([&](const Json& line) { return line["device"] == device; });
+  }
 }
 
 TEST_CASE("a key that is held ends its work when it is let go, and only steps repeat", "[gl][long]") {
