@@ -85,8 +85,8 @@ class Simulation {
   StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);
   /// Goes on until report().time is `time` [s], or a step was non-finite.
   StepReport advance_to(double time);
-  /// From here on the device waits after each pass, and notes what each kind of pass takes. Slower: see run_timed.
-  void time_passes() { timed_ = true; }
+  /// From here on the device waits after each pass, and notes what each kind of pass takes; or no more. Slower: see run_timed.
+  void time_passes(bool timed = true) { timed_ = timed; }
   /// Device time since time_passes() by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
   /// Between steps: queues a change of velocities, as drawing a body for so long does [s]. See Grip.

@@ -47,13 +47,10 @@ Session::Session(Device& device, LoadedScene scene, std::size_t most_history_byt
       plan_(plan_time(scene_.description, scene_.start.model)),
       history_(most_history_bytes) {
   expect_carried(scene_.description, plan_, device.precision());
-  simulation_ = simulation_on(device);
-  beginning_ = simulation_->save();
-  report_ = simulation_->report();
-  record();
+  restart();
 }
 
-double Session::time() const { return plan_.tolerance ? report_.time : time_of_step(step()); }
+double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }
 
 std::uint64_t Session::next_frame() const {
   return static_cast<std::uint64_t>(std::floor(time() * plan_.frame_rate + rounding)) + 1;
@@ -74,10 +71,10 @@ void Session::advance_toward(double time, std::uint64_t most_steps) {
 
 void Session::make_due_steps(double time, std::uint64_t most_steps) {
   if (plan_.tolerance) {
-    report_ = simulation_->advance_toward(time_of_frame(next_frame()), most_steps);
+    report_ = simulation_->advance_toward(time_of_frame(next_frame()) - base_time_, most_steps);
     return;
   }
-  const double due = std::floor(time / plan_.time_step + rounding) - static_cast<double>(step());
+  const double due = std::floor((time - base_time_) / plan_.time_step + rounding) - static_cast<double>(report_.steps);
   simulation_->advance(static_cast<std::uint64_t>(std::clamp(due, 1.0, static_cast<double>(most_steps))));
   report_ = simulation_->report();
 }
@@ -108,20 +105,77 @@ bool Session::step_back() {
 
 void Session::restart() {
   history_.clear();
-  go_to(beginning_);
+  if (beginning_.empty()) {
+    begin_with(simulation_on(*device_, scene_.start.state), 0, 0);
+    beginning_ = simulation_->save();
+  } else {
+    go_to(beginning_);
+  }
   record();
+}
+
+Settings Session::settings() const {
+  const SimulationDescription& of = scene_.description.simulation;
+  Settings settings{of.integrator.value, of.time_step, of.damping_law, scene_.description.collision.elasticity, {}};
+  for (const ModelBody& body : scene_.start.model.bodies)
+    settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
+  return settings;
+}
+
+void Session::change(const Settings& wanted) {
+  const Settings before = settings();
+  const double at_time = time();
+  adopt(wanted);
+  try {
+    const TimePlan plan = plan_time(scene_.description, scene_.start.model);
+    expect_carried(scene_.description, plan, device_->precision());
+    plan_ = plan;
+  } catch (const Error&) {
+    adopt(before);
+    throw;
+  }
+  history_.clear();
+  beginning_.clear();
+  if (report_.non_finite) return restart();
+  begin_with(simulation_on(*device_, simulation_->state()), step(), at_time);
+  record();
+}
+
+void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ = timed); }
+
+void Session::adopt(const Settings& wanted) {
+  SimulationDescription& simulation = scene_.description.simulation;
+  simulation.integrator.value = wanted.integrator;
+  simulation.time_step = wanted.time_step;
+  simulation.damping_law = wanted.damping_law;
+  scene_.description.collision.elasticity = wanted.elasticity;
+  for (std::size_t b = 0; b < wanted.materials.size(); ++b) {
+    ModelBody& body = scene_.start.model.bodies[b];
+    body.stiffness = wanted.materials[b].stiffness;
+    body.vertex_mass = wanted.materials[b].vertex_mass;
+    body.damping = wanted.materials[b].damping;
+  }
 }
 
 void Session::move_to(Device& device) {
   PLIANT_EXPECT(device.precision() == device_->precision());
-  std::unique_ptr<Simulation> moved = simulation_on(device);
+  std::unique_ptr<Simulation> moved = simulation_on(device, scene_.start.state);
   moved->restore(simulation_->save());
   simulation_ = std::move(moved);
+  simulation_->time_passes(times_passes_);
   device_ = &device;
 }
 
-std::unique_ptr<Simulation> Session::simulation_on(Device& device) const {
-  return std::make_unique<Simulation>(device, scene_.start.model, scene_.start.state, plan_, scene_.description.collision);
+std::unique_ptr<Simulation> Session::simulation_on(Device& device, const State& from) const {
+  return std::make_unique<Simulation>(device, scene_.start.model, from, plan_, scene_.description.collision);
+}
+
+void Session::begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time) {
+  simulation_ = std::move(simulation);
+  simulation_->time_passes(times_passes_);
+  report_ = simulation_->report();
+  base_step_ = step;
+  base_time_ = time;
 }
 
 void Session::go_to(std::string_view saved) {

@@ -19,6 +19,21 @@ struct LoadedScene {
 /// A scene file, or an OBJ file as a lone body with every default, which takes no overrides. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+struct Material {
+  double stiffness = 0, vertex_mass = 1, damping = 0;  // as in a BodyDescription [N/m], [kg], [kg/s]
+  bool operator==(const Material&) const = default;
+};
+
+/// What of a scene can be changed while it plays.
+struct Settings {
+  std::string integrator;
+  std::optional<double> time_step;  // [s]; empty: automatic, or by the scene's tolerance
+  DampingLaw damping_law = DampingLaw::none;
+  double elasticity = 0;
+  std::vector<Material> materials;  // of the bodies
+  bool operator==(const Settings&) const = default;
+};
+
 /// Goes on beyond the scene's duration. Every call waits until the device has done it.
 class Session {
  public:
@@ -34,8 +49,9 @@ class Session {
   [[nodiscard]] const State& start() const { return scene_.start.state; }
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const History& history() const { return history_; }
-  [[nodiscard]] std::uint64_t step() const { return report_.steps; }
-  [[nodiscard]] double time() const;  // of the state [s]
+  [[nodiscard]] std::uint64_t step() const { return base_step_ + report_.steps; }
+  [[nodiscard]] const StepReport& report() const { return report_; }  // since the latest start, or change of settings
+  [[nodiscard]] double time() const;                                  // of the state [s]
   [[nodiscard]] const TimePlan& plan() const { return plan_; }
   [[nodiscard]] const std::optional<NonFinite>& non_finite() const { return report_.non_finite; }
 
@@ -55,25 +71,38 @@ class Session {
   bool step_back();
   /// Back to the start.
   void restart();
+  [[nodiscard]] Settings settings() const;
+  /// Goes on from the state as it stands, or from the start if it is not finite; the ways back before are forgotten. Throws
+  /// Error, with all as it was, where there is no plan for the scene's steps.
+  void change(const Settings& wanted);
+  /// Whether the device's time is taken for each pass, which slows it down.
+  void time_passes(bool timed);
   /// Goes on on another device of the same precision, with the very state, and so do all ways back. `device` must outlive it.
   void move_to(Device& device);
 
  private:
-  [[nodiscard]] double time_of_step(std::uint64_t step) const { return static_cast<double>(step) * plan_.time_step; }
+  [[nodiscard]] double time_of_step(std::uint64_t step) const {
+    return base_time_ + static_cast<double>(step - base_step_) * plan_.time_step;
+  }
   [[nodiscard]] std::uint64_t next_frame() const;
   [[nodiscard]] double time_of_frame(std::uint64_t frame) const { return static_cast<double>(frame) / plan_.frame_rate; }
   void make_due_steps(double time, std::uint64_t most_steps);
-  [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device) const;
+  [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device, const State& from) const;
+  void begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time);
+  void adopt(const Settings& wanted);
   void go_to(std::string_view saved);
 
   Device* device_;
   LoadedScene scene_;
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;
-  std::string beginning_;  // its state, saved
-  StepReport report_;
+  std::string beginning_;  // its state at the start, saved; empty: settings have been changed since
+  StepReport report_;      // of the simulation, which began at:
+  std::uint64_t base_step_ = 0;
+  double base_time_ = 0;  // [s]
   History history_;
   std::optional<Pull> pull_;
+  bool times_passes_ = false;
 };
 
 }  // namespace pliant::view

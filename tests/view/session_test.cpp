@@ -165,6 +165,64 @@ TEST_CASE("a session that moves to another device keeps its state and its way ba
   }
 }
 
+TEST_CASE("settings change while a scene plays, from the state as it stands", "[gl]") {
+  for (const char* timing : {"time_step = 0.002\n", by_tolerance}) {
+    on_every_device([&](Device& device) {
+      Session session(device, colliding(timing));
+      while (session.is_due(0.02)) session.advance_toward(0.02, 10);
+      const std::uint64_t step = session.step();
+      const double time = session.time();
+      const auto motion = motion_of(session);
+      Settings settings = session.settings();
+      settings.elasticity = 0.5;
+      settings.materials[1] = {.stiffness = 400, .vertex_mass = 2, .damping = 0.25};
+      session.change(settings);
+      CHECK(session.settings() == settings);
+      CHECK(session.step() == step);
+      CHECK(session.time() == time);
+      CHECK(same_bits(motion_of(session), motion));
+      session.step_once();
+      CHECK(session.step() == step + 1);
+      CHECK(session.time() > time);
+      REQUIRE(session.step_back());
+      CHECK(session.time() == Approx(time));
+      CHECK_FALSE(session.step_back());
+      session.restart();
+      CHECK(session.time() == 0);
+      CHECK(session.step() == 0);
+      CHECK(session.settings() == settings);
+    });
+  }
+}
+
+TEST_CASE("changed settings are those of a scene that has them from the start") {
+  const auto device = make_cpu_device(2, 32);
+  LoadedScene stiff = colliding();
+  for (ModelBody& body : stiff.start.model.bodies) body.stiffness = 90;
+  Session from_start(*device, stiff), changed(*device, colliding());
+  Settings settings = changed.settings();
+  for (Material& material : settings.materials) material.stiffness = 90;
+  changed.change(settings);
+  changed.restart();
+  for (Session* session : {&from_start, &changed}) session->advance_toward(0.08, 100);
+  CHECK(same_bits(motion_of(from_start), motion_of(changed)));
+}
+
+TEST_CASE("settings without a plan leave a session as it was") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, colliding());
+  session.step_once();
+  const Settings before = session.settings();
+  Settings bad = before;
+  bad.integrator = "srkn11b";  // bears no damping
+  const auto motion = motion_of(session);
+  CHECK_THROWS_AS(session.change(bad), Error);
+  CHECK(session.settings() == before);
+  CHECK(same_bits(motion_of(session), motion));
+  session.step_once();
+  CHECK(session.step() == 2);
+}
+
 TEST_CASE("a session draws a body while it is pulled, and not when it is let go", "[gl]") {
   on_every_device([](Device& device) {
     Session pulled(device, colliding()), free(device, colliding());
