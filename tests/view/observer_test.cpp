@@ -1,0 +1,67 @@
+// What is told of a simulation while it plays.
+#include "view/observer.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/collision_scene.hpp"
+
+using namespace pliant;
+using namespace pliant::view;
+
+namespace {
+
+LoadedScene colliding() {
+  LoadedScene scene;
+  scene.description.simulation.time_step = 0.01;
+  scene.description.simulation.damping_law = DampingLaw::none;
+  scene.start = build_model(colliding_spheres(), {0, 0, 0});
+  return scene;
+}
+
+TEST_CASE("an observer samples energy and contacts ten times a second") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, colliding());
+  Observer observer;
+  double touching = 0;
+  for (int k = 0; k < 60; ++k) {
+    session.step_once();
+    observer.look(session, 1000 + 0.02 * k);
+  }
+  const Observation& seen = observer.observation();
+  CHECK(seen.energy.values().size() >= 8);
+  CHECK(seen.energy.values().size() <= 12);
+  CHECK(seen.energy.values().front() ==
+        Approx(measure(session.model(), session.start(), {0, 0, 0}, *std::make_unique<ThreadPool>(1)).energy()).epsilon(1e-3));
+  for (const float value : seen.touching.values()) touching += value;
+  CHECK(touching > 0);
+  CHECK(touching <= static_cast<double>(session.report().reverted_vertices));
+  CHECK(seen.passes.empty());
+}
+
+TEST_CASE("passes are told while they are timed, the slowest first") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, colliding());
+  Observer observer;
+  session.time_passes(true);
+  for (int k = 0; k < 3; ++k) {
+    session.step_once();
+    observer.look(session, k);
+  }
+  const std::vector<PassTime>& passes = observer.observation().passes;
+  REQUIRE(passes.size() > 3);
+  for (std::size_t k = 1; k < passes.size(); ++k) CHECK(passes[k].milliseconds <= passes[k - 1].milliseconds);
+  session.time_passes(false);
+  session.step_once();
+  observer.look(session, 10);
+  CHECK(observer.observation().passes.empty());
+}
+
+TEST_CASE("a series keeps the latest numbers, as many as a plot shows") {
+  Series series;
+  for (int k = 0; k < 1000; ++k) series.add(k);
+  CHECK(series.values().size() == Series::most);
+  CHECK(series.values().back() == 999);
+}
+
+}  // namespace
