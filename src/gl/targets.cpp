@@ -78,6 +78,8 @@ void Framebuffer::bind() const {
   glViewport(0, 0, static_cast<GLsizei>(size_.x), static_cast<GLsizei>(size_.y));
 }
 
+VertexArray::VertexArray() { glCreateVertexArrays(1, &id_); }
+
 VertexArray::VertexArray(const Buffer& indices) {
   glCreateVertexArrays(1, &id_);
   glVertexArrayElementBuffer(id_, indices.id());

@@ -51,6 +51,8 @@ class Framebuffer {
 /// Triangles over a buffer of positions: attribute 0, a vec3.
 class VertexArray {
  public:
+  /// Without indices and positions: shaders take what they need from storage buffers.
+  VertexArray();
   /// `indices` must outlive this.
   explicit VertexArray(const Buffer& indices);
   ~VertexArray();

@@ -280,7 +280,7 @@ RenderOptions options_for(const SceneBox& box, const OutputDescription& output) 
 FrameRenderer::FrameRenderer(const Model& model, const RenderOptions& options) {
   PLIANT_EXPECT(options.size.x > 0 && options.size.y > 0);
   impl_ = std::make_unique<Impl>(model, options);
-  glProgramUniform1i(impl_->programs.picture.id(), shows_strain_location, options.coloring == Coloring::deformation);
+  set_coloring(options.coloring);
   set_camera(options.camera);
 }
 
@@ -289,6 +289,10 @@ FrameRenderer::~FrameRenderer() = default;
 void FrameRenderer::set_camera(const CameraDescription& camera) {
   impl_->options.camera = camera;
   impl_->upload_camera();
+}
+
+void FrameRenderer::set_coloring(Coloring coloring) {
+  glProgramUniform1i(impl_->programs.picture.id(), shows_strain_location, coloring == Coloring::deformation);
 }
 
 void FrameRenderer::set_fill(Fill fill) { impl_->fill_mode = fill; }

@@ -52,6 +52,7 @@ class FrameRenderer {
   /// The lights stay where they are.
   void set_camera(const CameraDescription& camera);
   void set_fill(Fill fill);
+  void set_coloring(Coloring coloring);
   /// Of the pictures from here on [pixels]. Throws Error (device) when there is no room for them.
   void resize(const glm::uvec2& size);
 

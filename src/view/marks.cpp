@@ -1,0 +1,65 @@
+#include "view/marks.hpp"
+
+#include "render/camera.hpp"
+
+namespace pliant::view {
+namespace {
+
+constexpr glm::vec4 box_color(1.0f, 0.85f, 0.3f, 0.7f), velocity_color(0.35f, 0.9f, 0.55f, 0.8f),
+    contact_color(1.0f, 0.2f, 0.3f, 1.0f);
+
+void add_line(Lines& lines, const glm::dvec3& from, const glm::dvec3& to, const glm::vec4& color) {
+  lines.push_back({glm::vec4(from, 1.0), color});
+  lines.push_back({glm::vec4(to, 1.0), color});
+}
+
+void add_box(Lines& lines, const render::SceneBox& box) {
+  for (unsigned corner = 0; corner < 8; ++corner)
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((corner & (1u << axis)) != 0) continue;
+      glm::dvec3 from;
+      for (unsigned k = 0; k < 3; ++k)
+        from[static_cast<int>(k)] = (corner & (1u << k)) != 0 ? box.high[static_cast<int>(k)] : box.low[static_cast<int>(k)];
+      glm::dvec3 to = from;
+      to[static_cast<int>(axis)] = box.high[static_cast<int>(axis)];
+      add_line(lines, from, to, box_color);
+    }
+}
+
+render::SceneBox box_of(const Forest& forest, const glm::uvec4& node, std::span<const glm::dvec3> positions) {
+  std::vector<glm::dvec3> corners;
+  for (std::uint32_t t = node.z; t < node.w; ++t)
+    for (const std::uint32_t vertex : forest.triangles[t]) corners.push_back(positions[vertex]);
+  return render::box_around(corners);
+}
+
+}  // namespace
+
+void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> positions, unsigned level) {
+  std::vector<unsigned> depth(forest.nodes.size(), 0);  // parents stand before their children
+  for (std::size_t n = 0; n < forest.nodes.size(); ++n) {
+    const glm::uvec4& node = forest.nodes[n];
+    if (node.y != no_node) depth[n] = depth[node.y] + 1;
+    const bool is_leaf = node.x == 0;
+    if (depth[n] == level || (is_leaf && depth[n] < level)) add_box(lines, box_of(forest, node, positions));
+  }
+}
+
+void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities) {
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    add_line(lines, positions[i], positions[i] + 0.1 * velocities[i], velocity_color);
+}
+
+void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> marks,
+                  std::uint64_t step) {
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == 0 || marks[i] != step) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 arm(0.0);
+      arm[axis] = 0.05 * model.body_of(i).radius;
+      add_line(lines, positions[i] - arm, positions[i] + arm, contact_color);
+    }
+  }
+}
+
+}  // namespace pliant::view
