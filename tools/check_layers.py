@@ -12,6 +12,7 @@ LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device"
           "simulation", "render", "output", "view", "bench", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
 WINDOW_FILE = "src/gl/window.cpp"  # the only one that sees GLFW
+PANEL_FILE = "src/view/panel.cpp"  # the only one that sees Dear ImGui
 SUFFIXES = {".hpp", ".cpp", ".inc", ".glsl", ".comp", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
@@ -39,6 +40,8 @@ def problem_of(path, name, root):
     module = module_of(path, root)
     if name.startswith("GLFW/"):
         return None if path == root / WINDOW_FILE else f"GLFW's headers belong in {WINDOW_FILE} alone"
+    if name.startswith(("imgui", "backends/imgui")):
+        return None if path == root / PANEL_FILE else f"Dear ImGui's headers belong in {PANEL_FILE} alone"
     if name.startswith(("glad/", "GL/", "EGL/")):
         inside = any(path.is_relative_to(root / "src" / allowed) for allowed in GL_MODULES)
         return None if inside else f"OpenGL's headers belong in {', '.join(GL_MODULES)} alone"

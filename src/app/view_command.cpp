@@ -41,7 +41,8 @@ std::string view_help() { return "This pliant was built without the viewer.\n"; 
 
 void view(const ViewOptions&) {
   throw Error(ErrorKind::device, "", "this pliant was built without the viewer",
-              "build it where GLFW is installed (Debian: libglfw3-dev), or draw by `pliant run SCENE --frames png`");
+              "build it where GLFW and Dear ImGui are installed (Debian: libglfw3-dev, libimgui-dev), or draw by `pliant run "
+              "SCENE --frames png`");
 }
 
 #endif

@@ -208,6 +208,15 @@ void Simulation::restore(std::string_view saved) {
   if (pacer_) known_pace_ = pacer_->pace();
 }
 
+std::vector<std::uint32_t> Simulation::touching_vertices() {
+  const std::uint32_t latest = bodies_.control.download().front().step - 1;
+  const std::vector<std::uint32_t> marks = collider_.marks();
+  std::vector<std::uint32_t> touching;
+  for (std::uint32_t i = 0; i < marks.size(); ++i)
+    if (latest > 0 && marks[i] == latest) touching.push_back(i);
+  return touching;
+}
+
 Intersections Simulation::intersections() {
   const Control saved = bodies_.control.download().front();
   Control probe = saved;

@@ -100,6 +100,8 @@ class Simulation {
   /// What save() gave of a simulation of the same bodies, plan and kind of collisions: goes on from there, bit for bit if on the
   /// same device. Throws Error (input), without a place, where the bytes do not fit; the simulation is then of no use.
   void restore(std::string_view saved);
+  /// The vertices that touched another body when the latest queued step was looked at. Waits for it.
+  [[nodiscard]] std::vector<std::uint32_t> touching_vertices();
   /// Tests the world positions as they stand, by the scene's own search and triangle test.
   [[nodiscard]] Intersections intersections();
 

@@ -13,17 +13,16 @@ void add_line(Lines& lines, const glm::dvec3& from, const glm::dvec3& to, const 
   lines.push_back({glm::vec4(to, 1.0), color});
 }
 
+/// The corner with each coordinate from above where its bit is set.
+glm::dvec3 corner_of(const render::SceneBox& box, unsigned bits) {
+  return {(bits & 1u) != 0 ? box.high.x : box.low.x, (bits & 2u) != 0 ? box.high.y : box.low.y,
+          (bits & 4u) != 0 ? box.high.z : box.low.z};
+}
+
 void add_box(Lines& lines, const render::SceneBox& box) {
   for (unsigned corner = 0; corner < 8; ++corner)
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      if ((corner & (1u << axis)) != 0) continue;
-      glm::dvec3 from;
-      for (unsigned k = 0; k < 3; ++k)
-        from[static_cast<int>(k)] = (corner & (1u << k)) != 0 ? box.high[static_cast<int>(k)] : box.low[static_cast<int>(k)];
-      glm::dvec3 to = from;
-      to[static_cast<int>(axis)] = box.high[static_cast<int>(axis)];
-      add_line(lines, from, to, box_color);
-    }
+    for (const unsigned axis : {1u, 2u, 4u})
+      if ((corner & axis) == 0) add_line(lines, corner_of(box, corner), corner_of(box, corner | axis), box_color);
 }
 
 render::SceneBox box_of(const Forest& forest, const glm::uvec4& node, std::span<const glm::dvec3> positions) {
@@ -50,16 +49,14 @@ void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::sp
     add_line(lines, positions[i], positions[i] + 0.1 * velocities[i], velocity_color);
 }
 
-void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> marks,
-                  std::uint64_t step) {
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (marks[i] == 0 || marks[i] != step) continue;
+void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions,
+                  std::span<const std::uint32_t> touching) {
+  for (const std::uint32_t vertex : touching)
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 arm(0.0);
-      arm[axis] = 0.05 * model.body_of(i).radius;
-      add_line(lines, positions[i] - arm, positions[i] + arm, contact_color);
+      arm[axis] = 0.05 * model.body_of(vertex).radius;
+      add_line(lines, positions[vertex] - arm, positions[vertex] + arm, contact_color);
     }
-  }
 }
 
 }  // namespace pliant::view

@@ -17,8 +17,8 @@ void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> p
 /// A tenth of a second's way of each vertex.
 void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
 
-/// A cross, so large as a tenth of the body, at each vertex that touched another body in `step` by its mark.
-void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> marks,
-                  std::uint64_t step);
+/// A cross, a tenth of the body's radius wide, at each of the vertices.
+void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions,
+                  std::span<const std::uint32_t> touching);
 
 }  // namespace pliant::view

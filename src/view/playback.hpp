@@ -36,6 +36,7 @@ class Playback {
   /// Where the device does not keep up: simulated by real time, over half a second or more. Else empty.
   [[nodiscard]] std::optional<double> slow_factor() const { return slow_factor_; }
   [[nodiscard]] double speed() const { return pace_.speed; }
+  void set_speed(double speed) { pace_.speed = speed; }
 
  private:
   struct Span {                       // over which the factor is measured

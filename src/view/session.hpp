@@ -71,6 +71,7 @@ class Session {
   bool step_back();
   /// Back to the start.
   void restart();
+  [[nodiscard]] unsigned deepest_level() const { return simulation_->collider().forest().depth; }  // of the trees
   [[nodiscard]] Settings settings() const;
   /// Goes on from the state as it stands, or from the start if it is not finite; the ways back before are forgotten. Throws
   /// Error, with all as it was, where there is no plan for the scene's steps.

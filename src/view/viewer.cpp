@@ -18,6 +18,7 @@ namespace pliant::view {
 namespace {
 
 constexpr double a_picture = 1.0 / 60, a_while = 60;  // to wait for events where nothing is shown, or nothing moves [s]
+constexpr int pictures_after_an_event = 3;  // ImGui's widgets follow a press, a release and what they have led to one by one
 
 /// From any origin [s].
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -28,6 +29,16 @@ nlohmann::ordered_json described(const CameraDescription& camera) {
 }
 
 glm::uvec2 at_least_a_pixel(const glm::uvec2& size) { return glm::max(size, glm::uvec2(1)); }
+
+std::vector<std::filesystem::path> scenes_beside(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> scenes;
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (const auto& entry :
+       std::filesystem::directory_iterator(folder, std::filesystem::directory_options::skip_permission_denied))
+    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
+  std::ranges::sort(scenes);
+  return scenes;
+}
 
 std::filesystem::path free_picture_name(const std::string& stem) {
   for (int number = 0;; ++number) {
@@ -54,7 +65,8 @@ std::span<const Viewer::Command> Viewer::commands() {
       {"F", "frame the scene", &Viewer::frame_scene},
       {"D", "go on on the other device, CPU or GPU", &Viewer::switch_device},
       {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
-      {"F1", "this help, on the terminal", &Viewer::print_help},
+      {"tab", "the panel, or none", &Viewer::toggle_panel},
+      {"F1", "this help, or none", &Viewer::toggle_help},
       {"F12", "save the picture as PNG in the current folder", &Viewer::save_picture},
       {"escape", "quit", &Viewer::close},
   };
@@ -85,10 +97,12 @@ void Viewer::run() {
   tell();
   while (!window_.is_closed()) {
     const std::vector<gl::WindowEvent> events = next_events();
-    if (events.empty() && playback_.is_paused()) continue;
+    if (events.empty() && playback_.is_paused() && owed_pictures_ == 0) continue;
     for (const gl::WindowEvent& event : events)
-      if (!window_.is_closed()) std::visit([this](const auto& e) { handle(e); }, event);
+      if (!window_.is_closed() && !(shows_panel_ && panel_->takes(event)))
+        std::visit([this](const auto& e) { handle(e); }, event);
     if (window_.is_closed()) return;
+    owed_pictures_ = !events.empty() && is_overlaid() ? pictures_after_an_event : std::max(owed_pictures_ - 1, 0);
     play();
     draw();
     tell();
@@ -105,10 +119,13 @@ void Viewer::open(LoadedScene scene) {
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
-  renderer->set_fill(fill_);
+  shows_.coloring = session->scene().output.coloring;
   renderer_ = std::move(renderer);
   session_ = std::move(session);
   pull_.reset();
+  observer_.forget();
+  scenes_ = scenes_beside(session_->scene().file);
+  session_->time_passes(times_passes_);
   make_room_for_positions();
   camera_ = options.camera;
   drawn_.reset();
@@ -124,7 +141,7 @@ void Viewer::make_room_for_positions() {
 
 // In a pause there is nothing to draw but what events ask for.
 std::vector<gl::WindowEvent> Viewer::next_events() {
-  if (playback_.is_paused()) return window_.wait_for_events(a_while);
+  if (playback_.is_paused()) return window_.wait_for_events(owed_pictures_ > 0 ? a_picture : a_while);
   return is_up_to_date_ ? window_.wait_for_events(a_picture) : window_.poll_events();
 }
 
@@ -167,11 +184,13 @@ void Viewer::handle(const gl::MouseScrolled& event) { camera_ = zoom(camera_, ev
 
 void Viewer::handle(const gl::FilesDropped& event) {
   message_.clear();
-  try_to([&] {
-    LoadedScene scene = load(event.files.front());
-    for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
-    open(std::move(scene));
-  });
+  try_to([&] { open_file(event.files.front()); });
+}
+
+void Viewer::open_file(const std::filesystem::path& file) {
+  LoadedScene scene = load(file);
+  for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+  open(std::move(scene));
 }
 
 void Viewer::try_to(const std::function<void()>& wish) {
@@ -189,13 +208,15 @@ void Viewer::play() {
   device_->finish();
   playback_.begin(now(), session_->time());
   const std::uint64_t before = session_->step();
-  double clock = now();
+  const double began = now();
+  double clock = began;
   while (session_->is_due(playback_.goal()) && playback_.has_time(clock)) {
     session_->advance_toward(playback_.goal(), batch_.steps());
     const double since = std::exchange(clock, now());
     batch_.took(clock - since);
   }
   playback_.end(clock, session_->time(), !session_->is_due(playback_.goal()));
+  observer_.add_stepping(clock - began);
   if (session_->step() != before && clock - recorded_at_ > record_interval) {
     session_->record();
     recorded_at_ = clock;
@@ -226,6 +247,7 @@ void Viewer::step_back() {
 
 void Viewer::restart() {
   session_->restart();
+  observer_.forget();
   playback_.restart();
 }
 
@@ -246,14 +268,18 @@ void Viewer::frame_scene() {
   camera_ = frame(camera_, render::box_around(positions), at_least_a_pixel(window_.framebuffer_size()));
 }
 
-void Viewer::toggle_wireframe() {
-  fill_ = fill_ == render::Fill::surface ? render::Fill::wireframe : render::Fill::surface;
-  renderer_->set_fill(fill_);
+void Viewer::toggle_wireframe() { shows_.wireframe = !shows_.wireframe; }
+
+void Viewer::toggle_panel() {
+  if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
+  shows_panel_ = !shows_panel_;
+  drawn_.reset();
 }
 
-void Viewer::print_help() {
-  fmt::print("{}", help());
-  std::fflush(stdout);
+void Viewer::toggle_help() {
+  if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
+  shows_help_ = !shows_help_;
+  drawn_.reset();
 }
 
 void Viewer::save_picture() {
@@ -268,16 +294,22 @@ void Viewer::save_picture() {
 
 void Viewer::close() { window_.close(); }
 
-Viewer::Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), fill_}; }
+Viewer::Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
 
 // A picture that would be the one before is not drawn.
 void Viewer::draw() {
   has_repeated_ = false;
   const Look wanted = look();
   is_up_to_date_ = wanted.size.x == 0 || drawn_ == wanted;
-  if (is_up_to_date_) return;
+  if (!is_up_to_date_) draw_bodies(wanted);
+  if (wanted.size.x != 0 && (!is_up_to_date_ || is_overlaid())) present();
+}
+
+void Viewer::draw_bodies(const Look& wanted) {
   renderer_->resize(wanted.size);
   renderer_->set_camera(camera_);
+  renderer_->set_fill(shows_.wireframe ? render::Fill::wireframe : render::Fill::surface);
+  renderer_->set_coloring(shows_.coloring);
   Simulation& simulation = session_->simulation();
   if (gpu::context_of(*device_) != nullptr) {
     renderer_->draw(gpu::gl_buffer_of(*device_, simulation.position_buffer()), simulation.first_position());
@@ -286,9 +318,88 @@ void Viewer::draw() {
     copied_positions_.write(0, std::as_bytes(std::span(positions)));
     renderer_->draw(copied_positions_.id(), 0);
   }
-  renderer_->copy_to_window();
-  window_.swap();
+  collect_lines();
   drawn_ = wanted;
+}
+
+// The state visits the CPU for these, if they are wanted.
+void Viewer::collect_lines() {
+  lines_.clear();
+  if (!shows_.velocities && !shows_.contacts && !shows_.tree_level) return;
+  Simulation& simulation = session_->simulation();
+  const State state = simulation.state();
+  const std::vector<glm::dvec3> positions = state.world_positions(session_->model());
+  if (shows_.tree_level) add_boxes(lines_, simulation.collider().forest(), positions, *shows_.tree_level);
+  if (shows_.velocities) add_velocities(lines_, positions, state.world_velocities(session_->model()));
+  if (shows_.contacts) add_contacts(lines_, session_->model(), positions, simulation.touching_vertices());
+}
+
+void Viewer::present() {
+  const double at = now(), seconds = at - std::exchange(presented_at_, at);
+  picture_seconds_ += 0.1 * (std::min(seconds, 1.0) - picture_seconds_);
+  renderer_->copy_to_window();
+  if (!lines_.empty()) {
+    if (!overlay_) overlay_.emplace();
+    overlay_->draw(lines_, camera_, drawn_->size);
+  }
+  if (shows_panel_)
+    draw_panel(seconds);
+  else if (shows_help_)
+    panel_->draw_help(drawn_->size, seconds, help());
+  window_.swap();
+}
+
+void Viewer::draw_panel(double seconds) {
+  observer_.look(*session_, now());
+  Wishes wanted = wishes();
+  panel_->draw(drawn_->size, seconds, facts(), wanted, shows_help_ ? help() : "");
+  fulfil(wanted);
+}
+
+Facts Viewer::facts() const {
+  const StepReport& report = session_->report();
+  Facts facts{.title = session_->scene().title,
+              .device = device_->info().name,
+              .message = message_,
+              .scenes = scenes_,
+              .scene = session_->scene().file,
+              .bodies = {},
+              .step = session_->step(),
+              .vertices = session_->model().vertex_count(),
+              .time = session_->time(),
+              .time_step = session_->plan().time_step,
+              .pictures_per_second = picture_seconds_ > 0 ? 1 / picture_seconds_ : 0,
+              .tolerance = session_->plan().tolerance,
+              .slow_factor = playback_.slow_factor(),
+              .deepest_level = session_->deepest_level(),
+              .report = report,
+              .observation = &observer_.observation()};
+  for (const ModelBody& body : session_->model().bodies) facts.bodies.push_back(body.name);
+  return facts;
+}
+
+Wishes Viewer::wishes() const {
+  return {.is_paused = playback_.is_paused(),
+          .times_passes = times_passes_,
+          .is_on_gpu = device_->info().kind == "gpu",
+          .speed = playback_.speed(),
+          .settings = session_->settings(),
+          .shows = shows_,
+          .scene = {}};
+}
+
+void Viewer::fulfil(const Wishes& wanted) {
+  const Wishes before = wishes();
+  shows_ = wanted.shows;
+  playback_.set_speed(wanted.speed);
+  if (wanted.times_passes != before.times_passes) session_->time_passes(times_passes_ = wanted.times_passes);
+  if (wanted.is_paused != before.is_paused) pause_or_go_on();
+  if (wanted.is_on_gpu != before.is_on_gpu) try_to([this] { switch_device(); });
+  if (!(wanted.settings == before.settings)) try_to([&] { session_->change(wanted.settings); });
+  if (wanted.restarts) restart();
+  if (wanted.steps) step_once();
+  if (wanted.steps_back) step_back();
+  if (wanted.scene) try_to([&] { open_file(*wanted.scene); });
 }
 
 std::string Viewer::title() const {
@@ -314,7 +425,9 @@ void Viewer::tell() {
                                        {"paused", playback_.is_paused()},
                                        {"device", device_->info().kind},
                                        {"pulls", pull_.has_value()},
-                                       {"wireframe", fill_ == render::Fill::wireframe},
+                                       {"wireframe", shows_.wireframe},
+                                       {"panel", shows_panel_},
+                                       {"help", shows_help_},
                                        {"size", {size.x, size.y}},
                                        {"camera", described(camera_)},
                                        {"title", shown_title_}};

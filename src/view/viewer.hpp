@@ -12,6 +12,9 @@
 #include "gl/objects.hpp"
 #include "gl/window.hpp"
 #include "render/frame_renderer.hpp"
+#include "view/marks.hpp"
+#include "view/observer.hpp"
+#include "view/panel.hpp"
 #include "view/pick.hpp"
 #include "view/playback.hpp"
 #include "view/session.hpp"
@@ -46,7 +49,7 @@ class Viewer {
     std::uint64_t step = 0;
     CameraDescription camera;
     glm::uvec2 size{0};
-    render::Fill fill = render::Fill::surface;
+    Shows shows;
     bool operator==(const Look&) const = default;
   };
 
@@ -70,11 +73,21 @@ class Viewer {
   void switch_device();
   void frame_scene();
   void toggle_wireframe();
-  void print_help();
+  void toggle_panel();
+  void toggle_help();
   void save_picture();
   void close();
+  void open_file(const std::filesystem::path& file);
+  [[nodiscard]] bool is_overlaid() const { return shows_panel_ || shows_help_; }
   [[nodiscard]] Look look() const;
   void draw();
+  void draw_bodies(const Look& wanted);
+  void collect_lines();
+  void present();
+  void draw_panel(double seconds);
+  [[nodiscard]] Facts facts() const;
+  [[nodiscard]] Wishes wishes() const;  // that are fulfilled
+  void fulfil(const Wishes& wanted);
   void tell();  // in the title, and in the report if there is one
   [[nodiscard]] std::string title() const;
 
@@ -87,16 +100,25 @@ class Viewer {
   std::unique_ptr<render::FrameRenderer> renderer_;
   gl::Buffer copied_positions_;  // of a device that is not the window's
   CameraDescription camera_;
-  render::Fill fill_ = render::Fill::surface;
+  Shows shows_;
+  Lines lines_;  // over the latest picture
+  std::optional<render::LineOverlay> overlay_;
+  std::unique_ptr<Panel> panel_;  // once it has been asked for
+  bool shows_panel_ = false, shows_help_ = false;
+  Observer observer_;
+  std::vector<std::filesystem::path> scenes_;  // beside the one that is shown
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
   std::string message_;          // shown in the title until the next event
   std::string shown_title_;
   std::uint64_t picture_ = 0;
-  double recorded_at_ = 0;      // the latest state to go back to [s]
-  bool has_repeated_ = false;   // a key that is held has done its work since the latest picture
-  bool is_up_to_date_ = false;  // there was nothing to draw anew
-  std::optional<Look> drawn_;   // the latest picture; empty: it is to be drawn again
+  double recorded_at_ = 0;                         // the latest state to go back to [s]
+  bool has_repeated_ = false;                      // a key that is held has done its work since the latest picture
+  bool is_up_to_date_ = false;                     // there was nothing to draw anew
+  std::optional<Look> drawn_;                      // the latest picture; empty: it is to be drawn again
+  double presented_at_ = 0, picture_seconds_ = 0;  // between pictures, on average [s]
+  int owed_pictures_ = 0;                          // for the panel to follow what it was done to
+  bool times_passes_ = false;
   std::ofstream report_;
 };
 

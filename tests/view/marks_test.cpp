@@ -2,6 +2,7 @@
 #include "view/marks.hpp"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include "support/collision_scene.hpp"
 
@@ -47,22 +48,17 @@ TEST_CASE("boxes at deeper levels are more and smaller, down to the leaves") {
   CHECK(before == 24 * scene.forest.leaves.size());
 }
 
-TEST_CASE("velocities are lines from the vertices, and contacts crosses at the marked ones") {
+TEST_CASE("velocities are lines from the vertices, and contacts crosses at the touching ones") {
   const Scene scene;
   Lines lines;
   add_velocities(lines, scene.positions, scene.start.state.world_velocities(scene.start.model));
   CHECK(lines.size() == 2 * scene.positions.size());
   CHECK(lines[1].place.x - lines[0].place.x > 0);  // the left body moves to the right
-  std::vector<std::uint32_t> marks(scene.positions.size(), 0);
-  marks[3] = 7;
-  marks[4] = 6;
   lines.clear();
-  add_contacts(lines, scene.start.model, scene.positions, marks, 7);
+  add_contacts(lines, scene.start.model, scene.positions, std::vector<std::uint32_t>{3});
   REQUIRE(lines.size() == 6);
-  CHECK(glm::dvec3((lines[0].place + lines[1].place) * 0.5f).y == Approx(scene.positions[3].y).margin(1e-6));
-  lines.clear();
-  add_contacts(lines, scene.start.model, scene.positions, marks, 8);
-  CHECK(lines.empty());
+  for (std::size_t k = 0; k < 6; k += 2)
+    CHECK(glm::distance(glm::dvec3(lines[k].place + lines[k + 1].place) * 0.5, scene.positions[3]) < 1e-6);
 }
 
 }  // namespace

@@ -165,6 +165,22 @@ TEST_CASE("a session that moves to another device keeps its state and its way ba
   }
 }
 
+TEST_CASE("touching vertices are those that the latest step held back", "[gl]") {
+  on_every_device([](Device& device) {
+    Session session(device, colliding());
+    std::uint64_t reverted = 0;
+    bool have_touched = false;
+    for (int k = 0; k < 40; ++k) {
+      session.step_once();
+      const auto touching = session.simulation().touching_vertices();
+      CHECK(touching.size() == session.report().reverted_vertices - reverted);
+      have_touched = have_touched || !touching.empty();
+      reverted = session.report().reverted_vertices;
+    }
+    CHECK(have_touched);
+  });
+}
+
 TEST_CASE("settings change while a scene plays, from the state as it stands", "[gl]") {
   for (const char* timing : {"time_step = 0.002\n", by_tolerance}) {
     on_every_device([&](Device& device) {

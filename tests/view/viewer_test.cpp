@@ -116,6 +116,11 @@ class Viewed {
         return true;
     return false;
   }
+  bool shows_another(const render::Image& picture) const {
+    for (int look = 0; look < 200; ++look)
+      if (display_.picture_of(window_).pixels != picture.pixels) return true;
+    return false;
+  }
   const std::string& window() const { return window_; }
   Child& program() { return program_; }
 
@@ -178,8 +183,6 @@ void check_playing(Viewed& viewed) {
 }
 
 void check_camera(Viewed& viewed) {
-  viewed.press("F1");
-  viewed.await_text("drop ");
   Json before = viewed.await([](const Json&) { return true; });
   viewed.drag(1, {100, 100}, {180, 100});  // a quarter of the window's width
   const auto has_turned = [&](const Json& line) {
@@ -315,6 +318,34 @@ TEST_CASE("Ctrl and the mouse pull a body, and D moves the scene to the other de
     viewed.await(step_is(moved["step"].get<std::uint64_t>() + 1));
     viewed.press("d");
     viewed.await([&](const Json& line) { return line["device"] == device; });
+  }
+}
+
+TEST_CASE("the panel and the help come and go, and what happens over them leaves the scene alone", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  for (const char* device : {"cpu", "gpu"}) {
+    CAPTURE(device);
+    const ScratchFolder folder;
+    Viewed viewed(display, folder, device);
+    const render::Image alone = viewed.saved_picture();
+    viewed.press("Tab");
+    const Json with_panel = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+    CHECK(viewed.shows_another(alone));
+    viewed.drag(1, {60, 100}, {150, 120});
+    viewed.xdotool("click 5");
+    viewed.press("period");
+    const Json after = viewed.await(step_is(1));
+    CHECK(after["camera"] == with_panel["camera"]);
+    viewed.press("comma");
+    viewed.await(step_is(0));
+    viewed.press("Tab");
+    viewed.press("F1");
+    viewed.await([](const Json& line) { return !line["panel"] && line["help"]; });
+    viewed.press("F1");
+    viewed.await([](const Json& line) { return !line["help"]; });
+    CHECK(viewed.shows(alone));
+    CHECK((viewed.saved_picture().pixels == alone.pixels));
   }
 }
 

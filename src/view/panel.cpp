@@ -1,0 +1,284 @@
+// In Dear ImGui, which nothing else here includes, with its own drawing through OpenGL. Window events are handed on by hand, so
+// that only gl/window.cpp knows of GLFW.
+#include "view/panel.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "dynamics/integrator.hpp"
+
+namespace pliant::view {
+namespace {
+
+constexpr float margin = 10, width = 330, plot_height = 56;  // [pixels at usual density]
+
+template <class... T>
+void say(fmt::format_string<T...> format, T&&... values) {
+  const std::string text = fmt::format(format, std::forward<T>(values)...);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+}
+
+void say_muted(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+/// Digits can't be typed, since keys are the viewer's.
+constexpr ImGuiSliderFlags by_mouse = ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp;
+
+bool slide(const char* label, double& value, double low, double high, const char* format, bool logarithmic = true) {
+  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
+                             by_mouse | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+}
+
+void choose_scene(const Facts& facts, Wishes& wishes) {
+  if (!ImGui::BeginCombo("scene", facts.scene.filename().c_str())) return;
+  for (const std::filesystem::path& scene : facts.scenes)
+    if (ImGui::Selectable(scene.filename().c_str(), scene == facts.scene)) wishes.scene = scene;
+  ImGui::EndCombo();
+}
+
+void choose_device(Wishes& wishes) {
+  int device = wishes.is_on_gpu ? 1 : 0;
+  ImGui::RadioButton("CPU", &device, 0);
+  ImGui::SameLine();
+  ImGui::RadioButton("GPU", &device, 1);
+  wishes.is_on_gpu = device == 1;
+}
+
+void play(const Facts& facts, Wishes& wishes) {
+  if (ImGui::Button(wishes.is_paused ? "play" : "pause", {60, 0})) wishes.is_paused = !wishes.is_paused;
+  ImGui::SameLine();
+  wishes.steps_back = ImGui::Button("<");
+  ImGui::SameLine();
+  wishes.steps = ImGui::Button(">");
+  ImGui::SameLine();
+  wishes.restarts = ImGui::Button("reset");
+  ImGui::SameLine();
+  choose_device(wishes);
+  slide("speed", wishes.speed, 0.001, 10, "%.3g x");
+  say("{:.4f} s   step {}   {} vertices", facts.time, facts.step, facts.vertices);
+  say("{:.0f} pictures a second, {}", facts.pictures_per_second,
+      facts.slow_factor ? fmt::format("{:.2g} x real time", *facts.slow_factor) : "in step with real time");
+  say_muted(facts.device);
+  if (!facts.message.empty()) say_muted(facts.message);
+}
+
+void edit_body(const std::string& name, Material& material) {
+  if (!ImGui::TreeNode(name.c_str())) return;
+  slide("stiffness", material.stiffness, 0.01, 1e5, "%.4g N/m");
+  slide("mass", material.vertex_mass, 1e-3, 1e3, "%.4g kg");
+  slide("damping", material.damping, 0, 100, "%.4g kg/s");
+  ImGui::TreePop();
+}
+
+void edit_bodies(const Facts& facts, Wishes& wishes) {
+  if (!ImGui::CollapsingHeader("Bodies", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  for (std::size_t b = 0; b < facts.bodies.size(); ++b) {
+    ImGui::PushID(static_cast<int>(b));
+    edit_body(facts.bodies[b], wishes.settings.materials[b]);
+    ImGui::PopID();
+  }
+  slide("elasticity", wishes.settings.elasticity, 0, 1, "%.2f", false);
+}
+
+void choose_integrator(std::string& chosen) {
+  if (!ImGui::BeginCombo("integrator", chosen.c_str())) return;
+  for (const Integrator& integrator : integrators())
+    if (ImGui::Selectable(std::string(integrator.name).c_str(), integrator.name == chosen)) chosen = integrator.name;
+  ImGui::EndCombo();
+}
+
+void choose_step(const Facts& facts, Settings& settings) {
+  if (facts.tolerance) return say("steps by a tolerance of {:g}", *facts.tolerance);
+  bool is_automatic = !settings.time_step;
+  double step = settings.time_step.value_or(facts.time_step);
+  slide("time step", step, 1e-5, 0.1, "%.6f s");
+  if (step != settings.time_step.value_or(facts.time_step)) settings.time_step = step;
+  if (ImGui::Checkbox("automatic step", &is_automatic))
+    settings.time_step = is_automatic ? std::nullopt : std::optional(facts.time_step);
+}
+
+void choose_damping(DampingLaw& law) {
+  constexpr std::array laws = {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive};
+  if (!ImGui::BeginCombo("damping law", name_of(law))) return;
+  for (const DampingLaw one : laws)
+    if (ImGui::Selectable(name_of(one), one == law)) law = one;
+  ImGui::EndCombo();
+}
+
+void edit_method(const Facts& facts, Wishes& wishes) {
+  if (!ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  choose_integrator(wishes.settings.integrator);
+  choose_step(facts, wishes.settings);
+  choose_damping(wishes.settings.damping_law);
+}
+
+void plot(const char* id, const Series& series, const std::string& text) {
+  const std::vector<float>& values = series.values();
+  float high = values.empty() ? 1 : *std::ranges::max_element(values);
+  const float low = values.empty() ? 0 : std::min(0.0f, *std::ranges::min_element(values));
+  if (high <= low) high = low + 1;
+  ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, text.c_str(), low, high * 1.15f,
+                   {ImGui::GetContentRegionAvail().x, plot_height});
+}
+
+void plot_energy(const Observation& seen) {
+  if (!seen.energy_is_known) return say_muted("too many springs to measure the energy live");
+  const std::vector<float>& energy = seen.energy.values();
+  plot("##energy", seen.energy, energy.empty() ? "energy" : fmt::format("energy {:.5g} J", energy.back()));
+}
+
+void tell_what_happens(const Observation& seen) {
+  if (!ImGui::CollapsingHeader("Energy and contacts", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  plot_energy(seen);
+  const std::vector<float>& touching = seen.touching.values();
+  plot("##contacts", seen.touching, fmt::format("vertices held back {:g}", touching.empty() ? 0 : touching.back()));
+}
+
+void tell_of_work(const Facts& facts, Wishes& wishes) {
+  if (!ImGui::CollapsingHeader("Work")) return;
+  say("a step takes {:.3g} ms", facts.observation->step_milliseconds);
+  ImGui::Checkbox("time each pass (slower)", &wishes.times_passes);
+  for (const PassTime& pass : facts.observation->passes) say("{:>9.4f} ms  {}", pass.milliseconds, pass.name);
+  const StepReport& report = facts.report;
+  say("forces     {:>10} made {:>10} skipped", report.force_evaluations, report.forces_skipped);
+  say("body pairs {:>26} skipped", report.body_pairs_skipped);
+  say("tree refits{:>26} skipped", report.refits_skipped);
+}
+
+void choose_level(unsigned deepest, std::optional<unsigned>& level) {
+  bool has_boxes = level.has_value();
+  ImGui::Checkbox("boxes of level", &has_boxes);
+  if (!has_boxes) return level.reset();
+  int chosen = static_cast<int>(level.value_or(std::min(2u, deepest)));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderInt("##level", &chosen, 0, static_cast<int>(deepest), "%d", by_mouse);
+  level = static_cast<unsigned>(chosen);
+}
+
+void choose_look(const Facts& facts, Shows& shows) {
+  if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  int coloring = shows.coloring == Coloring::deformation ? 1 : 0;
+  ImGui::RadioButton("colour of the body", &coloring, 0);
+  ImGui::SameLine();
+  ImGui::RadioButton("deformation", &coloring, 1);
+  shows.coloring = coloring == 1 ? Coloring::deformation : Coloring::body;
+  ImGui::Checkbox("wireframe", &shows.wireframe);
+  ImGui::SameLine();
+  ImGui::Checkbox("velocities", &shows.velocities);
+  ImGui::SameLine();
+  ImGui::Checkbox("contacts", &shows.contacts);
+  choose_level(facts.deepest_level, shows.tree_level);
+}
+
+void show_help(const glm::uvec2& size, const std::string& help) {
+  if (help.empty()) return;
+  ImGui::SetNextWindowPos({static_cast<float>(size.x) - margin, margin}, ImGuiCond_Always, {1, 0});
+  ImGui::Begin("Keys and mouse", nullptr,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+  ImGui::TextUnformatted(help.c_str());
+  ImGui::End();
+}
+
+void set_style() {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = style.FrameRounding = style.GrabRounding = 4;
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg] = {0.07f, 0.08f, 0.10f, 0.88f};
+  style.Colors[ImGuiCol_PlotLines] = {0.95f, 0.62f, 0.25f, 1};
+}
+
+}  // namespace
+
+/// What ImGui is to hear of next: a press that was let go between two pictures counts, too.
+struct Panel::Mouse {
+  std::array<bool, 2> is_down{}, was_pressed{};
+};
+
+Panel::Panel() : mouse_(std::make_unique<Mouse>()) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+  set_style();
+  ImGui_ImplOpenGL3_Init("#version 450");
+}
+
+Panel::~Panel() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+bool Panel::takes(const gl::WindowEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto at = [&](const glm::dvec2& place) { io.MousePos = {static_cast<float>(place.x), static_cast<float>(place.y)}; };
+  if (const auto* moved = std::get_if<gl::MouseMoved>(&event)) {
+    at(moved->to);
+    return io.WantCaptureMouse && (mouse_->is_down[0] || mouse_->is_down[1]);
+  }
+  if (const auto* pressed = std::get_if<gl::MousePressed>(&event)) {
+    at(pressed->place);
+    if (!io.WantCaptureMouse) return false;
+    mouse_->is_down[static_cast<std::size_t>(pressed->button)] = mouse_->was_pressed[static_cast<std::size_t>(pressed->button)] =
+        true;
+    return true;
+  }
+  if (const auto* released = std::get_if<gl::MouseReleased>(&event))
+    return std::exchange(mouse_->is_down[static_cast<std::size_t>(released->button)], false);
+  const auto* scrolled = std::get_if<gl::MouseScrolled>(&event);
+  if (scrolled == nullptr || !io.WantCaptureMouse) return false;
+  io.MouseWheel += static_cast<float>(scrolled->notches);
+  return true;
+}
+
+void Panel::begin(const glm::uvec2& size, double seconds) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
+  io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.1));
+  for (std::size_t button = 0; button < 2; ++button)
+    io.MouseDown[button] = mouse_->is_down[button] || std::exchange(mouse_->was_pressed[button], false);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Panel::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help) {
+  begin(size, seconds);
+  ImGui::SetNextWindowPos({margin, margin});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, static_cast<float>(size.y) - 2 * margin});
+  ImGui::Begin((facts.title + "###panel").c_str(), nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  ImGui::PushItemWidth(-95);
+  choose_scene(facts, wishes);
+  play(facts, wishes);
+  edit_bodies(facts, wishes);
+  edit_method(facts, wishes);
+  tell_what_happens(*facts.observation);
+  tell_of_work(facts, wishes);
+  choose_look(facts, wishes.shows);
+  ImGui::PopItemWidth();
+  ImGui::End();
+  show_help(size, help);
+  end();
+}
+
+void Panel::draw_help(const glm::uvec2& size, double seconds, const std::string& help) {
+  begin(size, seconds);
+  show_help(size, help);
+  end();
+}
+
+}  // namespace pliant::view

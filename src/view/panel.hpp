@@ -1,0 +1,73 @@
+// The panel beside the scene: shows facts, and edits wishes, which the viewer fulfils.
+#pragma once
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/window.hpp"
+#include "scene/scene_description.hpp"
+#include "view/observer.hpp"
+
+namespace pliant::view {
+
+/// What is drawn over the bodies, and how they are.
+struct Shows {
+  bool wireframe = false;
+  Coloring coloring = Coloring::body;
+  bool velocities = false, contacts = false;
+  std::optional<unsigned> tree_level;  // whose boxes are drawn; the root is 0
+
+  bool operator==(const Shows&) const = default;
+};
+
+/// What the panel can ask for. It changes what it is given, and nothing else.
+struct Wishes {
+  bool is_paused = false, times_passes = false, is_on_gpu = false;
+  double speed = 1;
+  Settings settings;
+  Shows shows;
+  std::optional<std::filesystem::path> scene;  // to be opened
+  bool restarts = false, steps = false, steps_back = false;
+};
+
+/// What the panel tells.
+struct Facts {
+  std::string title, device, message;
+  std::vector<std::filesystem::path> scenes;  // to choose from
+  std::filesystem::path scene;
+  std::vector<std::string> bodies;
+  std::uint64_t step = 0, vertices = 0;
+  double time = 0, time_step = 0, pictures_per_second = 0;  // [s]; time_step 0: a tolerance governs it
+  std::optional<double> tolerance;
+  std::optional<double> slow_factor;
+  unsigned deepest_level = 0;  // of the trees
+  StepReport report;
+  const Observation* observation = nullptr;
+};
+
+class Panel {
+ public:
+  /// Needs a current gl::Context while it lives. One at a time.
+  Panel();
+  ~Panel();
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+  /// Hears of the mouse. True where it is the panel's: over it, or dragging one of its widgets.
+  bool takes(const gl::WindowEvent& event);
+  /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
+  void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
+  /// Draws the help alone.
+  void draw_help(const glm::uvec2& size, double seconds, const std::string& help);
+
+ private:
+  void begin(const glm::uvec2& size, double seconds);
+  void end();
+  struct Mouse;
+  std::unique_ptr<Mouse> mouse_;
+};
+
+}  // namespace pliant::view
