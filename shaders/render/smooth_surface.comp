@@ -1,5 +1,5 @@
 #version 450
-// A vertex's smooth normal, the sum over its triangles weighted by area, and its local strain.
+// A vertex's smooth normal, the sum over its triangles weighted by area, and its local strain, or its speed in place of that.
 #include "drawable.glsl"
 #include "studio.glsl"
 #include "surface.glsl"
@@ -9,11 +9,19 @@ layout(std430, binding = 3) readonly buffer Incident { uvec2 incident[]; };  // 
 layout(std430, binding = 4) writeonly buffer Smooth {
   vec4 smooth_surface[];  // xyz: normal; w: strain, the mean of |length / rest length - 1| over the edges of the triangles
 };
+layout(std430, binding = 5) readonly buffer Motions { double motion[]; };  // 6 a vertex: displacement, velocity [m/s]
 layout(location = 1) uniform uint vertex_count;
+layout(location = 2) uniform uint first_motion;         // of vertex 0
+layout(location = 3) uniform float strain_of_speed;     // what a speed is shown as in place of strain [s/m]; 0: motions are not read
 
 float edge_strain(uint a, uint b) {
   float rest_length = distance(rest_positions[a].xyz, rest_positions[b].xyz);
   return rest_length > 0.0 ? abs(distance(place_of(a), place_of(b)) / rest_length - 1.0) : 0.0;
+}
+
+float speed_of(uint vertex) {
+  uint at = 6u * (first_motion + vertex) + 3u;
+  return length(vec3(motion[at], motion[at + 1u], motion[at + 2u]));
 }
 
 void main() {
@@ -29,5 +37,6 @@ void main() {
     normal += area;
     strains += edge_strain(vertex, other.x) + edge_strain(vertex, other.y) + edge_strain(other.x, other.y);
   }
-  smooth_surface[vertex] = vec4(normal / max(length(normal), 1e-30), strains / max(3.0 * float(end - begin), 1.0));
+  float shown = strain_of_speed > 0.0 ? strain_of_speed * speed_of(vertex) : strains / max(3.0 * float(end - begin), 1.0);
+  smooth_surface[vertex] = vec4(normal / max(length(normal), 1e-30), shown);
 }

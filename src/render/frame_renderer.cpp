@@ -22,7 +22,8 @@ constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a
 constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // of a work group
 constexpr GLfloat far_depth = 1;
 // Uniform locations in the shaders.
-constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1;
+constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
+                first_motion_location = 2, strain_of_speed_location = 3;
 
 template <class T>
 gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
@@ -150,6 +151,7 @@ struct FrameRenderer::Impl {
   void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
   void draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const;
+  void set_shown() const;
   void smooth_surface() const;
   void draw_shadow_map() const;
   void draw_footprint() const;
@@ -167,6 +169,7 @@ struct FrameRenderer::Impl {
   Maps maps;
   std::optional<Picture> picture;  // empty only while it is replaced
   Fill fill_mode = Fill::surface;
+  std::optional<Speeds> speeds;
 };
 
 void FrameRenderer::Impl::upload_camera() {
@@ -193,9 +196,18 @@ void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat
   glDisable(GL_CLIP_DISTANCE0);
 }
 
+void FrameRenderer::Impl::set_shown() const {
+  constexpr float full_strain = 0.3f;  // as in picture.comp
+  const GLuint smooth = programs.smooth_surface.id();
+  glProgramUniform1i(programs.picture.id(), shows_strain_location, speeds || options.coloring == Coloring::deformation);
+  glProgramUniform1ui(smooth, first_motion_location, speeds ? speeds->first_vertex : 0);
+  glProgramUniform1f(smooth, strain_of_speed_location, speeds ? full_strain / static_cast<float>(speeds->top) : 0.0f);
+}
+
 void FrameRenderer::Impl::smooth_surface() const {
   const std::uint32_t buffers[] = {surface.first_incident.id(), surface.incident.id(), surface.smooth.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 2, 3, buffers);
+  if (speeds) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, speeds->motions_buffer);
   glProgramUniform1ui(programs.smooth_surface.id(), vertex_count_location, surface.vertex_count);
   glUseProgram(programs.smooth_surface.id());
   glDispatchCompute((surface.vertex_count + vertices_of_group - 1) / vertices_of_group, 1, 1);
@@ -292,7 +304,13 @@ void FrameRenderer::set_camera(const CameraDescription& camera) {
 }
 
 void FrameRenderer::set_coloring(Coloring coloring) {
-  glProgramUniform1i(impl_->programs.picture.id(), shows_strain_location, coloring == Coloring::deformation);
+  impl_->options.coloring = coloring;
+  impl_->set_shown();
+}
+
+void FrameRenderer::set_speeds(const std::optional<Speeds>& speeds) {
+  impl_->speeds = speeds;
+  impl_->set_shown();
 }
 
 void FrameRenderer::set_fill(Fill fill) { impl_->fill_mode = fill; }

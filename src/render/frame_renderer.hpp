@@ -27,6 +27,13 @@ struct RenderOptions {
 /// How bodies are drawn; their shadows are always those of surfaces.
 enum class Fill { surface, wireframe };
 
+/// What bodies are coloured by in place of strain.
+struct Speeds {
+  std::uint32_t motions_buffer = 0;  // a GL buffer of doubles, 6 a vertex: displacement, velocity [m/s]
+  std::uint32_t first_vertex = 0;    // the model's vertex 0 there
+  double top = 1;                    // the end of the colour scale [m/s]
+};
+
 /// The options for a scene: its camera, or one that frames the box, and a ground below it.
 [[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
 
@@ -53,6 +60,8 @@ class FrameRenderer {
   void set_camera(const CameraDescription& camera);
   void set_fill(Fill fill);
   void set_coloring(Coloring coloring);
+  /// Of the pictures from here on, over the colouring as set; empty: none.
+  void set_speeds(const std::optional<Speeds>& speeds);
   /// Of the pictures from here on [pixels]. Throws Error (device) when there is no room for them.
   void resize(const glm::uvec2& size);
 

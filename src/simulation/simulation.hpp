@@ -108,6 +108,8 @@ class Simulation {
   /// The device's own world positions: buffer and first element, for drawing.
   [[nodiscard]] BufferId position_buffer() const { return bodies_.world_positions.id(); }
   [[nodiscard]] std::uint32_t first_position() { return half() * bodies_.vertex_count; }
+  /// Likewise its motions: doubles, 6 a vertex, from the same vertex on.
+  [[nodiscard]] BufferId motion_buffer() const { return bodies_.motions.id(); }
   [[nodiscard]] const Collider& collider() const { return collider_; }
 
  private:

@@ -65,8 +65,11 @@ void play(const Facts& facts, Wishes& wishes) {
   choose_device(wishes);
   slide("speed", wishes.speed, 0.001, 10, "%.3g x");
   say("{:.4f} s   step {}   {} vertices", facts.time, facts.step, facts.vertices);
-  say("{:.0f} pictures a second, {}", facts.pictures_per_second,
-      facts.slow_factor ? fmt::format("{:.2g} x real time", *facts.slow_factor) : "in step with real time");
+  if (wishes.is_paused)
+    say("paused");
+  else
+    say("{:.0f} pictures a second, {}", facts.pictures_per_second,
+        facts.slow_factor ? fmt::format("{:.2g} x real time", *facts.slow_factor) : "in step with real time");
   say_muted(facts.device);
   if (!facts.message.empty()) say_muted(facts.message);
 }
@@ -167,11 +170,15 @@ void choose_level(unsigned deepest, std::optional<unsigned>& level) {
 
 void choose_look(const Facts& facts, Shows& shows) {
   if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  int coloring = shows.coloring == Coloring::deformation ? 1 : 0;
-  ImGui::RadioButton("colour of the body", &coloring, 0);
-  ImGui::SameLine();
-  ImGui::RadioButton("deformation", &coloring, 1);
-  shows.coloring = coloring == 1 ? Coloring::deformation : Coloring::body;
+  int colors = static_cast<int>(shows.colors);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("colour by");
+  for (const auto& [name, value] :
+       {std::pair{"body", Colors::body}, {"deformation", Colors::deformation}, {"speed", Colors::speed}}) {
+    ImGui::SameLine();
+    ImGui::RadioButton(name, &colors, static_cast<int>(value));
+  }
+  shows.colors = static_cast<Colors>(colors);
   ImGui::Checkbox("wireframe", &shows.wireframe);
   ImGui::SameLine();
   ImGui::Checkbox("velocities", &shows.velocities);

@@ -13,10 +13,12 @@
 
 namespace pliant::view {
 
+enum class Colors { body, deformation, speed };
+
 /// What is drawn over the bodies, and how they are.
 struct Shows {
   bool wireframe = false;
-  Coloring coloring = Coloring::body;
+  Colors colors = Colors::body;
   bool velocities = false, contacts = false;
   std::optional<unsigned> tree_level;  // whose boxes are drawn; the root is 0
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -38,6 +39,13 @@ std::vector<std::filesystem::path> scenes_beside(const std::filesystem::path& fi
     if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
   std::ranges::sort(scenes);
   return scenes;
+}
+
+// The fastest vertex at the start, or one that crosses the scene in two seconds.
+double top_speed_of(const Session& session, const render::SceneBox& box) {
+  double top = box.radius();
+  for (const glm::dvec3& velocity : session.start().world_velocities(session.model())) top = std::max(top, glm::length(velocity));
+  return top;
 }
 
 std::filesystem::path free_picture_name(const std::string& stem) {
@@ -119,7 +127,8 @@ void Viewer::open(LoadedScene scene) {
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
-  shows_.coloring = session->scene().output.coloring;
+  shows_.colors = session->scene().output.coloring == Coloring::deformation ? Colors::deformation : Colors::body;
+  top_speed_ = top_speed_of(*session, options.scene);
   renderer_ = std::move(renderer);
   session_ = std::move(session);
   pull_.reset();
@@ -309,7 +318,8 @@ void Viewer::draw_bodies(const Look& wanted) {
   renderer_->resize(wanted.size);
   renderer_->set_camera(camera_);
   renderer_->set_fill(shows_.wireframe ? render::Fill::wireframe : render::Fill::surface);
-  renderer_->set_coloring(shows_.coloring);
+  renderer_->set_coloring(shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body);
+  renderer_->set_speeds(speeds());
   Simulation& simulation = session_->simulation();
   if (gpu::context_of(*device_) != nullptr) {
     renderer_->draw(gpu::gl_buffer_of(*device_, simulation.position_buffer()), simulation.first_position());
@@ -320,6 +330,18 @@ void Viewer::draw_bodies(const Look& wanted) {
   }
   collect_lines();
   drawn_ = wanted;
+}
+
+std::optional<render::Speeds> Viewer::speeds() {
+  if (shows_.colors != Colors::speed) return {};
+  Simulation& simulation = session_->simulation();
+  if (gpu::context_of(*device_) != nullptr)
+    return render::Speeds{gpu::gl_buffer_of(*device_, simulation.motion_buffer()), simulation.first_position(), top_speed_};
+  const State state = simulation.state();
+  const auto bytes = std::as_bytes(std::span(state.motion));
+  if (copied_motions_.size() != bytes.size()) copied_motions_ = gl::Buffer(bytes.size(), "drawn motions");
+  copied_motions_.write(0, bytes);
+  return render::Speeds{copied_motions_.id(), 0, top_speed_};
 }
 
 // The state visits the CPU for these, if they are wanted.

@@ -82,6 +82,7 @@ class Viewer {
   [[nodiscard]] Look look() const;
   void draw();
   void draw_bodies(const Look& wanted);
+  [[nodiscard]] std::optional<render::Speeds> speeds();
   void collect_lines();
   void present();
   void draw_panel(double seconds);
@@ -99,6 +100,8 @@ class Viewer {
   std::unique_ptr<Session> session_;
   std::unique_ptr<render::FrameRenderer> renderer_;
   gl::Buffer copied_positions_;  // of a device that is not the window's
+  gl::Buffer copied_motions_;    // likewise, while bodies are coloured by their speed
+  double top_speed_ = 1;         // of the colour scale [m/s]
   CameraDescription camera_;
   Shows shows_;
   Lines lines_;  // over the latest picture

@@ -233,6 +233,29 @@ TEST_CASE("a picture is drawn anew for every draw and camera", "[gl]") {
   CHECK(renderer.read().pixels == first.pixels);
 }
 
+TEST_CASE("bodies at rest are coloured by speed as undeformed ones by deformation, and faster ones otherwise", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0, 0, 0});
+  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+  positions.write(0, std::as_bytes(std::span(subject.world)));
+  gl::Buffer motions(2 * 6 * subject.world.size() * sizeof(double), "motions");  // at rest, and as fast as the scale goes
+  std::vector<double> moving(6 * subject.world.size(), 0.0);
+  for (std::size_t i = 0; i < subject.world.size(); ++i) moving[6 * i + 4] = 3;
+  motions.write(moving.size() * sizeof(double), std::as_bytes(std::span(moving)));
+  FrameRenderer renderer(subject.model, without_ground());
+  const auto picture = [&](const std::optional<Speeds>& speeds) {
+    renderer.set_speeds(speeds);
+    renderer.draw(positions.id(), 0);
+    return renderer.read().pixels;
+  };
+  const auto plain = picture({});
+  const auto resting = picture(Speeds{motions.id(), 0, 3}), fast = picture(Speeds{motions.id(), subject.model.vertex_count(), 3});
+  CHECK((fast != resting && fast != plain && resting != plain));
+  CHECK((picture({}) == plain));
+  renderer.set_coloring(Coloring::deformation);
+  CHECK((picture({}) == resting));
+}
+
 TEST_CASE("a resized renderer draws what one of that size would, bit for bit", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0.4, 0, 0});
