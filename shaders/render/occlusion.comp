@@ -6,7 +6,6 @@
 #include "seen.glsl"
 #include "taps.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 3) uniform sampler2DMS depths;
 layout(binding = 0, rg16) writeonly uniform image2D occlusion;  // x: openness times y; y: 1 where there is a body
 
 const int taps = 10;
@@ -24,7 +23,7 @@ float openness(ivec2 pixel, vec3 where, vec3 normal, vec2 start) {
   vec2 side = start * in_pixels / float(taps);
   for (int i = 0; i < taps; ++i) {
     ivec2 at = clamp(pixel + ivec2((float(i) + 0.5) * side), ivec2(0), textureSize(depths) - 1);
-    float depth = texelFetch(depths, at, 0).x;
+    float depth = depth_at(at, 0);
     vec3 to = point_at(at, depth) - where;
     float squared = dot(to, to), near = max(1.0 - squared / (most * most), 0.0);
     hidden += near * near * near * max(dot(to, normal) - 0.02 * most, 0.0) * most / (squared + 1e-3 * most * most);
@@ -36,11 +35,11 @@ float openness(ivec2 pixel, vec3 where, vec3 normal, vec2 start) {
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy), pixel = 2 * texel;
   if (any(greaterThanEqual(texel, imageSize(occlusion)))) return;
-  uint seen = texelFetch(triangles_seen, pixel, 0).x;
+  uint seen = triangle_at(pixel, 0);
   vec2 result = vec2(0.0);
   if (seen != 0u) {
     Corners at = corners_of(seen);
-    vec3 where = point_at(pixel, texelFetch(depths, pixel, 0).x), normal = side_seen(at) * normalize(face_normal(at));
+    vec3 where = point_at(pixel, depth_at(pixel, 0)), normal = side_seen(at) * normalize(face_normal(at));
     result = vec2(openness(pixel, where, normal, start_of(texel)), 1.0);
   }
   imageStore(occlusion, texel, vec4(result, 0.0, 0.0));

@@ -94,7 +94,7 @@ bool are_alike(uint a, uint b) { return a == b || (!INNER_OUTLINES && a != 0u &&
 /// Which of the pixel's samples are like one that sees this triangle, a bit each.
 int samples_like(uint seen, ivec2 pixel) {
   int samples = 0;
-  for (int i = 0; i < sample_count; ++i) samples |= int(are_alike(seen, texelFetch(triangles_seen, pixel, i).x)) << i;
+  for (int i = 0; i < sample_count; ++i) samples |= int(are_alike(seen, triangle_at(pixel, i))) << i;
   return samples;
 }
 
@@ -103,7 +103,7 @@ vec3 average_color(ivec2 pixel, vec3 ray, vec2 place) {
   vec3 sum = vec3(0.0);
   int left = (1 << sample_count) - 1;
   do {
-    uint seen = texelFetch(triangles_seen, pixel, findLSB(left)).x;
+    uint seen = triangle_at(pixel, findLSB(left));
     int samples = samples_like(seen, pixel);
     sum += float(bitCount(samples)) * tone_map(color_of(seen, ray, place));
     left &= ~samples;

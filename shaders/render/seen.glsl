@@ -1,5 +1,15 @@
 // What the samples of the picture see: which triangle, how deep. And where a pixel's ray meets that triangle.
-layout(binding = 2) uniform usampler2DMS triangles_seen;  // counted from 1; 0: none
+// Neither is cleared for each picture: depths lie in a slice of their own, before those of the pictures before it.
+layout(binding = 2) uniform usampler2DMS triangles_seen;  // counted from 1; what is deeper than the slice is from earlier pictures
+layout(binding = 4) uniform sampler2DMS depths;
+layout(location = 2) uniform vec2 depth_slice;  // where it begins, and its width
+
+/// From 0 to 1, where nothing is seen.
+float depth_at(ivec2 pixel, int i) { return min((texelFetch(depths, pixel, i).x - depth_slice.x) / depth_slice.y, 1.0); }
+
+/// Counted from 1; 0: none.
+uint triangle_at(ivec2 pixel, int i) { return depth_at(pixel, i) < 1.0 ? texelFetch(triangles_seen, pixel, i).x : 0u; }
+
 layout(std430, binding = 5) readonly buffer Triangles { uint corners[]; };  // three each
 
 struct Corners {

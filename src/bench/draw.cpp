@@ -27,6 +27,7 @@ render::RenderOptions options_for(std::span<const glm::dvec3> world, const Look&
   output.size = look.size;
   render::RenderOptions options = render::options_for(render::box_around(world), output);
   options.detail = look.detail;
+  options.pictures_per_clear = render::most_pictures_per_clear;
   return options;
 }
 

@@ -21,9 +21,12 @@ namespace {
 constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a side
 constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // of a work group
 constexpr GLfloat far_depth = 1;
+// Clearing all samples can take a GPU as long as drawing. Each picture therefore has a slice of the depths nearer than that of
+// the one before, so that what is left of that one is behind. All slices lie above a half, where floats are equally far apart.
+constexpr GLfloat depth_slice_width = 0.5f / most_pictures_per_clear;
 // Uniform locations in the shaders.
 constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
-                first_motion_location = 2, strain_of_speed_location = 3;
+                first_motion_location = 2, strain_of_speed_location = 3, depth_slice_location = 2;
 
 template <class T>
 gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
@@ -124,6 +127,7 @@ struct Picture {
         shaded_target(&shaded, nullptr, "picture") {}
 
   gl::Texture seen, depth, occlusion, mean_occlusion, shaded;
+  int slices_left = 0;  // before depths are to be cleared
   gl::Framebuffer seen_target, shaded_target;
 };
 
@@ -157,7 +161,7 @@ struct FrameRenderer::Impl {
   void draw_footprint() const;
   void average(const gl::Texture& map, const gl::Texture& mean) const;
   void light_ground() const;
-  void draw_seen() const;
+  void draw_seen();
   void find_occlusion() const;
   void shade() const;
 
@@ -250,22 +254,29 @@ void FrameRenderer::Impl::light_ground() const {
   average(maps.ground_light, maps.mean_ground_light);
 }
 
-void FrameRenderer::Impl::draw_seen() const {
-  constexpr GLuint nothing[4] = {0, 0, 0, 0};
+void FrameRenderer::Impl::draw_seen() {
   picture->seen_target.bind();
-  glClearBufferuiv(GL_COLOR, 0, nothing);
-  glClearBufferfv(GL_DEPTH, 0, &far_depth);
+  if (picture->slices_left == 0) {
+    glClearBufferfv(GL_DEPTH, 0, &far_depth);
+    picture->slices_left = options.pictures_per_clear;
+  }
+  const int slice = --picture->slices_left + most_pictures_per_clear - options.pictures_per_clear;  // the farthest first
+  const GLfloat nearest = 0.5f + depth_slice_width * static_cast<GLfloat>(slice);
+  for (const gl::Program* program : {&programs.occlusion, &programs.picture})
+    glProgramUniform2f(program->id(), depth_slice_location, nearest, depth_slice_width);
+  glDepthRangef(nearest, nearest + depth_slice_width);
   glEnable(GL_DEPTH_TEST);
   if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   draw_bodies(programs.seen, studio.view_projection);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glDepthRangef(0, 1);
   glDisable(GL_DEPTH_TEST);
 }
 
 void FrameRenderer::Impl::find_occlusion() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, surface.indices.id());
   glBindTextureUnit(2, picture->seen.id());
-  glBindTextureUnit(3, picture->depth.id());
+  glBindTextureUnit(4, picture->depth.id());
   fill(picture->occlusion, GL_RG16, programs.occlusion);
   average(picture->occlusion, picture->mean_occlusion);
 }
@@ -274,8 +285,8 @@ void FrameRenderer::Impl::shade() const {
   const std::uint32_t buffers[] = {surface.colors.id(), surface.smooth.id(), surface.indices.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 3, 3, buffers);
   const std::uint32_t textures[] = {maps.shadow.id(), maps.mean_ground_light.id(), picture->seen.id(),
-                                    picture->mean_occlusion.id()};
-  glBindTextures(0, 4, textures);
+                                    picture->mean_occlusion.id(), picture->depth.id()};
+  glBindTextures(0, 5, textures);
   fill(picture->shaded, GL_RGBA8, programs.picture);
 }
 
@@ -291,6 +302,7 @@ RenderOptions options_for(const SceneBox& box, const OutputDescription& output) 
 
 FrameRenderer::FrameRenderer(const Model& model, const RenderOptions& options) {
   PLIANT_EXPECT(options.size.x > 0 && options.size.y > 0);
+  PLIANT_EXPECT(options.pictures_per_clear >= 1 && options.pictures_per_clear <= most_pictures_per_clear);
   impl_ = std::make_unique<Impl>(model, options);
   set_coloring(options.coloring);
   set_camera(options.camera);

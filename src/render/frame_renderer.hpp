@@ -22,7 +22,12 @@ struct RenderOptions {
   SceneBox scene;                       // lights and shadows are fitted to it; options_for takes where the bodies start
   std::optional<double> ground_height;  // [m]; empty: no ground
   Detail detail = Detail::full;
+  /// Depths are cleared for every so many pictures, 1 to 8. More are faster, but then the last bits of a picture depend on which
+  /// of them it is.
+  int pictures_per_clear = 1;
 };
+
+inline constexpr int most_pictures_per_clear = 8;
 
 /// How bodies are drawn; their shadows are always those of surfaces.
 enum class Fill { surface, wireframe };

@@ -123,6 +123,7 @@ void Viewer::open(LoadedScene scene) {
   render::RenderOptions options =
       render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
   options.size = at_least_a_pixel(window_.framebuffer_size());
+  options.pictures_per_clear = render::most_pictures_per_clear;
   if (window_.context().adapter().is_software) options.detail = render::Detail::reduced;
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);

@@ -217,20 +217,39 @@ TEST_CASE("positions may begin anywhere in their buffer", "[gl]") {
   CHECK(renderer.read().pixels == draw(subject).pixels);
 }
 
-TEST_CASE("a picture is drawn anew for every draw and camera", "[gl]") {
+TEST_CASE("a picture is drawn anew for every draw and camera, and shows nothing of earlier ones", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0, 0, 0});
   gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
   positions.write(0, std::as_bytes(std::span(subject.world)));
   FrameRenderer renderer(subject.model, without_ground());
-  renderer.draw(positions.id(), 0);
-  const Image first = renderer.read();
-  renderer.set_camera({{3, 1, 9}, {0, 0, 0}, 40});
-  renderer.draw(positions.id(), 0);
-  CHECK(renderer.read().pixels != first.pixels);
-  renderer.set_camera(front);
-  renderer.draw(positions.id(), 0);
-  CHECK(renderer.read().pixels == first.pixels);
+  const auto seen_from = [&](const CameraDescription& camera) {
+    renderer.set_camera(camera);
+    renderer.draw(positions.id(), 0);
+    return renderer.read().pixels;
+  };
+  const CameraDescription aside{{3, 1, 9}, {2, 0, 0}, 40};
+  const auto first = seen_from(front), second = seen_from(aside);
+  CHECK(first != second);
+  CHECK(seen_from(front) == first);
+}
+
+TEST_CASE("where depths are seldom cleared a picture shows nothing of earlier ones", "[gl]") {
+  const gl::Context context(0);
+  const Subject subject = sphere({0, 0, 0});
+  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+  positions.write(0, std::as_bytes(std::span(subject.world)));
+  RenderOptions seldom = without_ground();
+  seldom.pictures_per_clear = 3;
+  FrameRenderer always(subject.model, without_ground()), seldom_cleared(subject.model, seldom);
+  for (int k = 0; k < 8; ++k) {
+    CAPTURE(k);
+    for (FrameRenderer* renderer : {&always, &seldom_cleared}) {
+      renderer->set_camera({{k % 2 == 0 ? 3 : -3, 1, 9}, {k, 0, 0}, 40});
+      renderer->draw(positions.id(), 0);
+    }
+    CHECK(largest_difference(always.read(), seldom_cleared.read()) <= 4);  // of 255: depths round in another way
+  }
 }
 
 TEST_CASE("bodies at rest are coloured by speed as undeformed ones by deformation, and faster ones otherwise", "[gl]") {
