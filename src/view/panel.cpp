@@ -210,6 +210,14 @@ void set_style() {
 /// What ImGui is to hear of next: a press that was let go between two pictures counts, too.
 struct Panel::Mouse {
   std::array<bool, 2> is_down{}, was_pressed{};
+  float bottom = 1e9f;  // of the panel, once it has been laid out
+
+  /// ImGui itself knows only of the place at which the mouse was in the latest picture.
+  [[nodiscard]] bool is_over_panel() const {
+    const ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 at = io.MousePos;
+    return io.WantCaptureMouse || (at.x >= margin && at.x < margin + width && at.y >= margin && at.y < bottom);
+  }
 };
 
 Panel::Panel() : mouse_(std::make_unique<Mouse>()) {
@@ -230,11 +238,11 @@ bool Panel::takes(const gl::WindowEvent& event) {
   const auto at = [&](const glm::dvec2& place) { io.MousePos = {static_cast<float>(place.x), static_cast<float>(place.y)}; };
   if (const auto* moved = std::get_if<gl::MouseMoved>(&event)) {
     at(moved->to);
-    return io.WantCaptureMouse && (mouse_->is_down[0] || mouse_->is_down[1]);
+    return mouse_->is_down[0] || mouse_->is_down[1];
   }
   if (const auto* pressed = std::get_if<gl::MousePressed>(&event)) {
     at(pressed->place);
-    if (!io.WantCaptureMouse) return false;
+    if (!mouse_->is_over_panel()) return false;
     mouse_->is_down[static_cast<std::size_t>(pressed->button)] = mouse_->was_pressed[static_cast<std::size_t>(pressed->button)] =
         true;
     return true;
@@ -242,7 +250,7 @@ bool Panel::takes(const gl::WindowEvent& event) {
   if (const auto* released = std::get_if<gl::MouseReleased>(&event))
     return std::exchange(mouse_->is_down[static_cast<std::size_t>(released->button)], false);
   const auto* scrolled = std::get_if<gl::MouseScrolled>(&event);
-  if (scrolled == nullptr || !io.WantCaptureMouse) return false;
+  if (scrolled == nullptr || !mouse_->is_over_panel()) return false;
   io.MouseWheel += static_cast<float>(scrolled->notches);
   return true;
 }
@@ -277,6 +285,7 @@ void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wis
   tell_of_work(facts, wishes);
   choose_look(facts, wishes.shows);
   ImGui::PopItemWidth();
+  if (!ImGui::IsWindowAppearing()) mouse_->bottom = margin + ImGui::GetWindowHeight();
   ImGui::End();
   show_help(size, help);
   end();
