@@ -43,7 +43,7 @@ void add_small_limits(StabilityTasks& tasks) {
 void add_large_limit(StabilityTasks& tasks, const Integrator& integrator, const Place& place, double amplitude) {
   const Sphere body{.squash = amplitude};
   const std::uint64_t steps = tasks.is_quick() ? 2'000 : 20'000;
-  tasks.add("limits", integrator, place, body.vertex_count(), 25.0 * static_cast<double>(steps),
+  tasks.add("limits", integrator, place, body.vertex_count(), 40.0 * static_cast<double>(steps),
             [=, &integrator](Device& device) {
               const double predicted = step_bound(integrator, body.body(), DampingLaw::none);
               const TimePlan plan = plan_of(integrator, DampingLaw::none, predicted);

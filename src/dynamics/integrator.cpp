@@ -149,6 +149,7 @@ bool allows_damping(const Integrator& integrator, DampingLaw law) {
 }
 
 NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages, double drag) {
+  PLIANT_EXPECT(staged_method(integrator) != nullptr);
   const StagedMethod& method = *staged_method(integrator);
   const std::vector<int> used = used_stages(method, stages);
   NystromTableau tableau{.stages = static_cast<int>(used.size())};

@@ -12,7 +12,8 @@ namespace pliant {
 
 class Stepper {
  public:
-  /// How many different drags, that is damping rates times steps, the bodies may have where tableaus have to hold them.
+  /// How many different drags, that is damping rates times steps, the bodies may have where tableaus have to hold them. Expects
+  /// no splitting.
   [[nodiscard]] static std::size_t most_drags(const Integrator& integrator);
 
   /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `device` and `bodies` must

@@ -78,8 +78,7 @@ inline State evolve(Device& device, const ModelAndState& start, const Method& me
 
 /// The stiffest mode's angular frequency [1/s].
 inline double stiffest_omega(const Model& model) {
-  const ModelBody& body = model.bodies.front();
-  return std::sqrt(body.vertex_count * body.stiffness / body.vertex_mass);
+  return stiffest_frequency(model.bodies.front());
 }
 
 /// The larger of two numbers, infinite where one is NaN: a largest error that a NaN cannot slip through.
