@@ -8,6 +8,7 @@
 
 #include "core/bytes.hpp"
 #include "core/error.hpp"
+#include "core/version.hpp"
 #include "output/checkpoint_file.hpp"
 
 namespace pliant::app {
@@ -106,16 +107,19 @@ void expect_no_output(const std::filesystem::path& file, const std::filesystem::
                   "name another place");
 }
 
+// Bits change between commits, too.
+std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
+
 void warn_of_version(const Checkpoint& checkpoint, PreparedRun& run) {
-  if (checkpoint.version != PLIANT_VERSION)
+  if (checkpoint.version != full_version())
     run.warnings.push_back(fmt::format("the run was begun by pliant {}, and this is pliant {}: its bits may differ from here on",
-                                       checkpoint.version, PLIANT_VERSION));
+                                       checkpoint.version, full_version()));
 }
 
 }  // namespace
 
 Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress, const std::string& history) {
-  Checkpoint checkpoint{.version = PLIANT_VERSION,
+  Checkpoint checkpoint{.version = full_version(),
                         .options = options,
                         .working_folder = run.working_folder,
                         .device_name = run.device->info().name,

@@ -24,7 +24,7 @@ struct RunProgress {
 };
 
 struct Checkpoint {
-  std::string version;  // pliant's
+  std::string version;  // of pliant, with its commit
   RunOptions options;   // as the run was begun, but for its device, which is the one that it had
   std::filesystem::path working_folder;
   std::string device_name;

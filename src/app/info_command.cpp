@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/thread_pool.hpp"
+#include "core/version.hpp"
 #include "device/cpu/cpu_device.hpp"
 #include "dynamics/integrator.hpp"
 #include "gl/context.hpp"
@@ -47,8 +48,7 @@ Json described_devices() {
                     {"driver", adapter.version},
                     {"software", adapter.is_software},
                     {"largest_buffer_bytes", adapter.largest_buffer}});
-  Json result = {
-      {"version", PLIANT_VERSION}, {"cpu", {{"name", cpu::device_name()}, {"threads", thread_count(0)}}}, {"gpus", gpus}};
+  Json result = {{"version", version()}, {"cpu", {{"name", cpu::device_name()}, {"threads", thread_count(0)}}}, {"gpus", gpus}};
   if (gpus.empty()) result["missing"] = reason + "; " + remedy;
   return result;
 }

@@ -15,6 +15,7 @@
 #include "app/run_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
+#include "core/version.hpp"
 #include "mesh/load.hpp"
 #include "mesh/report.hpp"
 
@@ -246,7 +247,7 @@ std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
 
 int execute(int count, char** arguments) {
   CLI::App program{"pliant: soft bodies of all-pairs springs, on GPU and CPU"};
-  program.set_version_flag("--version", PLIANT_VERSION);
+  program.set_version_flag("--version", version());
   program.require_subcommand(1);
   program.failure_message(complaint_of);
   app::RunOptions run;

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "app/interrupts.hpp"
+#include "core/version.hpp"
 #include "simulation/breakdown.hpp"
 
 namespace pliant::app {
@@ -98,7 +99,7 @@ Summary summary_of(const RunStatus& status) {
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
-  s.version = PLIANT_VERSION;
+  s.version = version();
   return s;
 }
 

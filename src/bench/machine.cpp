@@ -6,9 +6,9 @@
 #include <ctime>
 
 #include "core/thread_pool.hpp"
+#include "core/version.hpp"
 #include "device/cpu/cpu_device.hpp"
 #include "gl/context.hpp"
-#include "pliant_commit.hpp"  // written by the build, see cmake/PliantCommit.cmake
 
 namespace pliant::bench {
 namespace {
@@ -26,8 +26,8 @@ std::string compiler() {
 }  // namespace
 
 Machine describe_machine(int gpu_index) {
-  Machine machine{.version = PLIANT_VERSION,
-                  .commit = PLIANT_COMMIT,
+  Machine machine{.version = version(),
+                  .commit = commit(),
                   .cpu = cpu::device_name(),
                   .cpu_threads = thread_count(0),
                   .gpu = {},

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/read_text.hpp"
+#include "core/version.hpp"
 #include "gl/context.hpp"
 #include "output/checkpoint_file.hpp"
 #include "support/program.hpp"
@@ -188,13 +189,16 @@ TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]"
   CHECK_THAT(result.output, Catch::Contains("at precision 64, and goes on on") && Catch::Contains("at precision 32"));
 }
 
-TEST_CASE("a run begun by another pliant goes on with a warning") {
+TEST_CASE("a run begun by a pliant of another version or another commit goes on with a warning") {
   const Begun begun;
-  const std::string version = account_in(begun.folder.path / "out")["version"];
-  begun.replace(version, std::string(version.size(), '9'));
-  const ProgramResult result = begun.resume();
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("begun by pliant 999"));
+  CHECK(begun.resume().output.empty());
+  for (const std::string& part : {version(), commit()}) {
+    const std::string other(part.size(), '9');
+    begun.replace(part, other);
+    const ProgramResult result = begun.resume();
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.output, Catch::Contains("begun by pliant") && Catch::Contains(other));
+  }
 }
 
 TEST_CASE("a run can go on in another folder, with the whole history") {
