@@ -1,8 +1,10 @@
 #include "app/frame_sink.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "core/error.hpp"
+#include <algorithm>
+#include <cstdio>
+
 #include "device/gpu/gpu_device.hpp"
 #include "gl/objects.hpp"
 #include "output/png.hpp"
@@ -68,8 +70,8 @@ FrameSink::~FrameSink() = default;
 
 void FrameSink::write(const State& state) {
   if (targets_.format == FrameFormat::none && !video_) return;
+  if (video_) return write_to_video();
   const int index = count_++;
-  if (video_) return video_->write(painter_->paint());
   const std::filesystem::path path = frame_path(targets_.folder, index, targets_.format);
   if (targets_.format == FrameFormat::png) return write_png(path, painter_->paint());
   const Model& model = run_.start.model;
@@ -80,7 +82,21 @@ void FrameSink::write(const State& state) {
   write_vtk(path, model, positions, velocities);
 }
 
+void FrameSink::write_to_video() {
+  if (lost_video_) return;
+  const render::Image picture = painter_->paint();
+  try {
+    video_->write(picture);
+    ++count_;
+  } catch (const Error& error) {
+    lost_video_ = error;
+    run_.warnings.push_back(fmt::format("the video ends here, after {} frames, and the run goes on: {}", count_, error.what()));
+    fmt::print(stderr, "pliant: warning: {}\n", run_.warnings.back());
+  }
+}
+
 void FrameSink::close() {
+  if (lost_video_) throw *lost_video_;
   if (video_) video_->close();
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/prepared_run.hpp"
+#include "core/error.hpp"
 #include "output/video.hpp"
 
 namespace pliant::app {
@@ -20,19 +22,22 @@ class FrameSink {
   FrameSink(PreparedRun& run, FrameTargets targets);
   ~FrameSink();
 
-  /// Writes the state as it stands as the next frame.
+  /// Writes the state as it stands as the next frame. A video that fails costs no run: a warning tells of it, and later frames
+  /// go nowhere.
   void write(const State& state);
-  /// After the last frame. Without it a video's failure at its end goes unnoticed. Throws Error (command_line).
+  /// After the last frame. Throws Error (command_line) where a video failed, on the way or at its end.
   void close();
   /// Of all frames, those before the first one too.
   [[nodiscard]] int count() const { return count_; }
 
  private:
   class Painter;
+  void write_to_video();
   PreparedRun& run_;
   FrameTargets targets_;
   std::unique_ptr<Painter> painter_;
   std::unique_ptr<VideoFile> video_;
+  std::optional<Error> lost_video_;  // why it ended early
   int count_;
 };
 

@@ -82,6 +82,19 @@ TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
   CHECK(drawn.summary()["steps"] == 50);
 }
 
+TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning at once", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const Drawn drawn;
+  const StandIn ffmpeg(drawn.bin(), "ffmpeg", "head -c 20000 > /dev/null\necho no room left >&2\nexit 1\n");
+  const ProgramResult result = drawn.run(" --steps 1000");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.output, Catch::Contains("warning: the video ends here") && Catch::Contains("no room left"));
+  CHECK_THAT(drawn.summary()["warnings"].dump(), Catch::Contains("no room left"));
+  CHECK(drawn.summary()["steps"] == 1000);
+  CHECK(std::filesystem::exists(drawn.folder.path / "final_state.csv"));
+}
+
 TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpeg end by itself", "[gl]") {
   if (gl::list_adapters().empty()) return;
   const Drawn drawn;
