@@ -114,7 +114,7 @@ void add_run(CLI::App& program, app::RunOptions& options) {
                           "What to write for each frame (default none)");
   CLI::Option* video =
       run->add_option("--video", options.video,
-                      "Video file to draw frames into, such as out.mp4 (needs ffmpeg; without it PNG frames are written)");
+                      "Video file to draw frames into: mp4, mkv or mov (needs ffmpeg; without it PNG frames are written)");
   video->check(not_empty())->excludes(run->get_option("--frames"));
   CLI::Option* checkpoint =
       run->add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")

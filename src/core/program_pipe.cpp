@@ -1,6 +1,7 @@
 // The pipe is a pair of sockets: to write to one whose other end is gone is an error and not a signal, where asked for.
 #include "core/program_pipe.hpp"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -9,8 +10,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -45,18 +48,30 @@ int spawn(pid_t& child, std::vector<std::string> words, int input, int output) {
   return code;
 }
 
-std::string last_line_of(std::FILE* file) {
+// The last line alone often says only that something failed, and one before it what.
+std::string last_lines_of(std::FILE* file) {
   std::rewind(file);
-  std::string line, last;
+  std::deque<std::string> lines;
+  std::string line;
+  const auto end_line = [&] {
+    if (!line.empty()) lines.push_back(std::exchange(line, {}));
+    if (lines.size() > 3) lines.pop_front();
+  };
   for (int c = 0; (c = std::fgetc(file)) != EOF;) {
-    if (c != '\n' && c != '\r') {
+    if (c == '\n' || c == '\r')
+      end_line();
+    else
       line += static_cast<char>(c);
-      continue;
-    }
-    if (!line.empty()) last = line;
-    line.clear();
   }
-  return line.empty() ? last : line;
+  end_line();
+  return fmt::format("{}", fmt::join(lines, " | "));
+}
+
+std::string account_of(std::FILE* printed, int status) {
+  std::string account = last_lines_of(printed);
+  if (account.empty()) account = "it said nothing";
+  if (WIFSIGNALED(status)) account += fmt::format(", and signal {} ended it: {}", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  return account;
 }
 
 }  // namespace
@@ -113,7 +128,7 @@ ProgramPipe::End ProgramPipe::finish() {
   while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
   child_ = 0;
-  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, last_line_of(printed_.get())};
+  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, account_of(printed_.get(), status)};
 }
 
 }  // namespace pliant

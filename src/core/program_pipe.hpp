@@ -21,7 +21,7 @@ class ProgramPipe {
  public:
   struct End {
     bool succeeded = false;
-    std::string last_line;  // that it printed; may be empty
+    std::string account;  // its last three lines, and the signal that ended it; never empty
   };
 
   /// Throws Error (command_line) when it can't be started.

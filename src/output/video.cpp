@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "output/file.hpp"
@@ -10,10 +13,17 @@
 namespace pliant {
 namespace {
 
-Error failed(const std::filesystem::path& path, const std::string& last_line) {
-  return {ErrorKind::command_line, path.string(),
-          fmt::format("ffmpeg failed: {}", last_line.empty() ? "it said nothing" : last_line),
-          "mend that, or write --frames png"};
+Error failed(const std::filesystem::path& path, const ProgramPipe::End& end) {
+  return {ErrorKind::command_line, path.string(), "ffmpeg failed: " + end.account, "mend that, or write --frames png"};
+}
+
+// Others that ffmpeg knows have no H.264, or no good place for it; it says so only when it has begun the file.
+void expect_container(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const char* known : {".mp4", ".mkv", ".mov"})
+    if (ending == known) return;
+  throw Error(ErrorKind::command_line, path.string(), "is no place for H.264 by its ending", "name it .mp4, .mkv or .mov");
 }
 
 std::filesystem::path encoder() {
@@ -67,6 +77,7 @@ std::vector<std::string> arguments_for(const std::filesystem::path& path, const 
 bool VideoFile::has_encoder() { return find_program("ffmpeg").has_value(); }
 
 VideoFile::VideoFile(const std::filesystem::path& path, const VideoFormat& format) : path_(path), format_(format) {
+  expect_container(path);
   static_cast<void>(WholeFile(path));  // makes the folder, and tells whether one may write there
   encoder_.emplace(encoder(), arguments_for(path, format));
 }
@@ -77,13 +88,13 @@ void VideoFile::write(const render::Image& image) {
   if (encoder_->write(std::as_bytes(std::span(image.pixels)))) return;
   const ProgramPipe::End end = encoder_->finish();
   encoder_.reset();
-  throw failed(path_, end.last_line);
+  throw failed(path_, end);
 }
 
 void VideoFile::close() {
   const ProgramPipe::End end = encoder_->finish();
   encoder_.reset();
-  if (!end.succeeded) throw failed(path_, end.last_line);
+  if (!end.succeeded) throw failed(path_, end);
 }
 
 }  // namespace pliant

@@ -19,11 +19,12 @@ class VideoFile {
   /// Whether ffmpeg is there, on PATH.
   [[nodiscard]] static bool has_encoder();
 
-  /// H.264 in the container that the path's ending names, such as mp4. Creates the folders that are missing, and replaces an
-  /// existing file. Throws Error (command_line) where it can't be written, or ffmpeg can't be started.
+  /// H.264 in the container that the path's ending names: mp4, mkv or mov. Creates the folders that are missing, and replaces
+  /// an existing file. Throws Error (command_line) for another ending, where the file can't be written, or ffmpeg can't be
+  /// started.
   VideoFile(const std::filesystem::path& path, const VideoFormat& format);
 
-  /// Expects a picture of the format's size. Throws Error (command_line), with ffmpeg's last line, when it takes no more.
+  /// Expects a picture of the format's size. Throws Error (command_line), with ffmpeg's last lines, when it takes no more.
   void write(const render::Image& image);
   /// Waits until ffmpeg is done; before that, the file may not be whole. Throws as write() does. Without it the file becomes
   /// whole when the VideoFile goes, but a failure goes unnoticed.

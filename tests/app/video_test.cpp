@@ -78,7 +78,7 @@ TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho some line >&2\necho no room left >&2\nexit 1\n");
   const ProgramResult result = drawn.run();
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.output, Catch::Contains("out.mp4: ffmpeg failed: no room left"));
+  CHECK_THAT(result.output, Catch::Contains("out.mp4: ffmpeg failed: some line | no room left"));
   CHECK(drawn.summary()["steps"] == 50);
 }
 

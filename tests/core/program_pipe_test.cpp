@@ -29,14 +29,22 @@ TEST_CASE("a program gets every byte, and its arguments as they are") {
   CHECK(read_text(file) == bytes);
 }
 
-TEST_CASE("a program that ends early takes no more, and its last line is kept, however much it printed") {
-  ProgramPipe pipe(shell(), {"-c", "head -c 1000000 /dev/zero | tr '\\0' '\\n'; echo first; echo last >&2; exit 3"});
+TEST_CASE("a program that ends early takes no more, and its last lines are kept, however much it printed") {
+  ProgramPipe pipe(
+      shell(),
+      {"-c", "head -c 1000000 /dev/zero | tr '\\0' '\\n'; echo first; echo; echo second; echo third; printf last >&2; exit 3"});
   const std::string bytes(1'000'000, 'x');
   while (pipe.write(std::as_bytes(std::span(bytes)))) {
   }
   const ProgramPipe::End end = pipe.finish();
   CHECK_FALSE(end.succeeded);
-  CHECK(end.last_line == "last");
+  CHECK(end.account == "second | third | last");
+}
+
+TEST_CASE("a program that a signal ends, or that says nothing, is told of") {
+  CHECK_THAT(ProgramPipe(shell(), {"-c", "echo a line; kill -9 $$"}).finish().account,
+             Catch::StartsWith("a line, and signal 9 ended it: "));
+  CHECK(ProgramPipe(shell(), {"-c", "exit 3"}).finish().account == "it said nothing");
 }
 
 TEST_CASE("a pipe that goes lets its program end") {

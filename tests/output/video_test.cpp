@@ -34,14 +34,14 @@ TEST_CASE("ffmpeg is given every picture's bytes in order, their size and rate, 
   CHECK(arguments.ends_with("\nfile:" + (folder.path / "new" / "a b.mp4").string() + "\n"));
 }
 
-TEST_CASE("an ffmpeg that fails is an error with its last line, at once or at the end") {
+TEST_CASE("an ffmpeg that fails is an error with its last lines, at once or at the end") {
   const ScratchFolder folder;
   const std::string complaint = "echo first >&2\necho no such codec >&2\nexit 1\n";
   {
     const StandIn ffmpeg(folder.path / "bin", "ffmpeg", "cat > /dev/null\n" + complaint);
     VideoFile video(folder.path / "a.mp4", {6, 4, 60});
     video.write(picture(1));
-    check_says(error_of([&] { video.close(); }), {"a.mp4", "ffmpeg failed: no such codec", "--frames png"});
+    check_says(error_of([&] { video.close(); }), {"a.mp4", "ffmpeg failed: first | no such codec", "--frames png"});
   }
   const StandIn ffmpeg(folder.path / "bin", "ffmpeg", complaint);
   VideoFile video(folder.path / "a.mp4", {6, 4, 60});
@@ -49,7 +49,7 @@ TEST_CASE("an ffmpeg that fails is an error with its last line, at once or at th
     for (;;) video.write(picture(1));
   });
   CHECK(error.kind() == ErrorKind::command_line);
-  check_says(error, {"a.mp4", "ffmpeg failed: no such codec"});
+  check_says(error, {"a.mp4", "ffmpeg failed: first | no such codec"});
 }
 
 TEST_CASE("a video in a place that can't be written is an error before ffmpeg is started") {
@@ -57,6 +57,18 @@ TEST_CASE("a video in a place that can't be written is an error before ffmpeg is
   const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
   CHECK(error_of([&] { VideoFile(folder.path, {6, 4, 60}); }).kind() == ErrorKind::command_line);
   CHECK(error_of([&] { VideoFile("/dev/null/a.mp4", {6, 4, 60}); }).kind() == ErrorKind::command_line);
+}
+
+TEST_CASE("a video's ending names a container for H.264, and any other is an error that leaves no file") {
+  const ScratchFolder folder;
+  const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
+  for (const char* name : {"a.mp4", "a.MKV", "a.b.mov"}) CHECK_NOTHROW(VideoFile(folder.path / name, {6, 4, 60}));
+  for (const char* name : {"a.gif", "a.webm", "mp4", ".mp4"}) {
+    const Error error = error_of([&] { VideoFile(folder.path / name, {6, 4, 60}); });
+    CHECK(error.kind() == ErrorKind::command_line);
+    check_says(error, {name, ".mp4, .mkv or .mov"});
+    CHECK_FALSE(std::filesystem::exists(folder.path / name));
+  }
 }
 
 }  // namespace
