@@ -1,7 +1,8 @@
-// What ffmpeg is told and given, by a script in its place.
+// What ffmpeg is told and given, by a script in its place, and what it makes of that where there is one.
 #include "output/video.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstdio>
 
 #include "core/read_text.hpp"
 #include "support/expect_error.hpp"
@@ -50,6 +51,32 @@ TEST_CASE("an ffmpeg that fails is an error with its last lines, at once or at t
   });
   CHECK(error.kind() == ErrorKind::command_line);
   check_says(error, {"a.mp4", "ffmpeg failed: first | no such codec"});
+}
+
+// A line for each property of the video, with its value.
+std::string probed(const std::filesystem::path& video) {
+  const std::string entries = "codec_name,width,height,pix_fmt,color_range,color_space,r_frame_rate,nb_read_frames";
+  const std::string command =
+      "ffprobe -v error -count_frames -of default=noprint_wrappers=1 -show_entries stream=" + entries + " " + video.string();
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::string lines;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) lines += static_cast<char>(c);
+  CHECK(pclose(pipe) == 0);
+  return lines;
+}
+
+TEST_CASE("the ffmpeg that is installed makes a video of every picture, with even sizes, in every container") {
+  if (!VideoFile::has_encoder() || !find_program("ffprobe")) return;
+  const ScratchFolder folder;
+  for (const std::string name : {"a.mp4", "a.mkv", "a.mov"}) {
+    VideoFile video(folder.path / name, {7, 5, 50});
+    for (const int value : {0, 100, 200}) video.write({7, 5, std::vector<std::uint8_t>(105, static_cast<std::uint8_t>(value))});
+    video.close();
+    CAPTURE(name);
+    CHECK(probed(folder.path / name) ==
+          "codec_name=h264\nwidth=8\nheight=6\npix_fmt=yuv420p\ncolor_range=tv\ncolor_space=bt709\n"
+          "r_frame_rate=50/1\nnb_read_frames=3\n");
+  }
 }
 
 TEST_CASE("a video in a place that can't be written is an error before ffmpeg is started") {
