@@ -8,9 +8,15 @@
 #include <vector>
 
 #include "app/prepared_run.hpp"
+#include "core/stopwatch.hpp"
 #include "simulation/measure.hpp"
 
 namespace pliant::app {
+
+/// Where the wall time goes.
+struct RunTimes {
+  Stopwatch stepping, measuring, writing, saving;
+};
 
 /// What a run knows beside its simulation.
 struct RunProgress {
@@ -20,7 +26,7 @@ struct RunProgress {
   Measurement first, latest;         // of the state, at the start and in the latest row
   double largest_drift = 0;          // of the energy [J]
   double most_in_motion = 0;         // kinetic and elastic [J]
-  double stepping_seconds = 0, measuring_seconds = 0, writing_seconds = 0, saving_seconds = 0;
+  RunTimes times;                    // of all parts of a run that was resumed
 };
 
 struct Checkpoint {

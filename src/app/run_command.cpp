@@ -44,10 +44,6 @@ class Run {
         checkpoints_(options),
         history_(from == nullptr ? HistoryFile(folder_ / "history.csv") : HistoryFile(folder_ / "history.csv", from->history)),
         before_row_{progress_, history_.text().size()} {
-    times_.stepping.add(progress_.stepping_seconds);
-    times_.measuring.add(progress_.measuring_seconds);
-    times_.writing.add(progress_.writing_seconds);
-    times_.saving.add(progress_.saving_seconds);
     for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder_ / name);  // not after hours of steps
   }
 
@@ -71,7 +67,7 @@ class Run {
   }
 
  private:
-  RunStatus status() { return {options_, run_, progress_, report_, times_}; }
+  RunStatus status() { return {options_, run_, progress_, report_}; }
   bool stopped() const { return is_interrupted() || report_.non_finite; }
 
   void begin() {
@@ -104,12 +100,12 @@ class Run {
 
   // Batches grow while they are short: a report a step would cost more than small steps do.
   void advance_by(std::uint64_t steps) {
-    const double before = times_.stepping.seconds();
+    const double before = progress_.times.stepping.seconds();
     step([&] {
       run_.simulation->advance(steps);
       return run_.simulation->report();
     });
-    const bool is_short = times_.stepping.seconds() - before < time_of_a_batch;
+    const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
     batch_ = is_short ? std::min(2 * batch_, Simulation::most_steps_at_once) : std::max<std::uint64_t>(batch_ / 2, 1);
   }
 
@@ -120,7 +116,7 @@ class Run {
 
   template <class Advance>
   void step(const Advance& advance) {
-    report_ = times_.stepping.time(advance);
+    report_ = progress_.times.stepping.time(advance);
     if (!options_.quiet) show_progress(status());
     if (checkpoints_.is_due()) keep_checkpoint(progress_, history_.text());
   }
@@ -128,11 +124,8 @@ class Run {
   // Not of a run that has failed: the one before is worth more.
   void keep_checkpoint(RunProgress progress, const std::string& history) {
     if (report_.non_finite) return;
-    progress.stepping_seconds = times_.stepping.seconds();
-    progress.measuring_seconds = times_.measuring.seconds();
-    progress.writing_seconds = times_.writing.seconds();
-    progress.saving_seconds = times_.saving.seconds();
-    times_.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
+    progress.times = progress_.times;
+    progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
   }
 
   // An interrupt may have put the latest row between two frames, or left it without its energy: it is made again.
@@ -149,7 +142,7 @@ class Run {
     before_row_ = {progress_, history_.text().size()};
     state_ = run_.simulation->state();
     Measurement& now = progress_.latest;
-    now = times_.measuring.time([&] { return measured(); });
+    now = progress_.times.measuring.time([&] { return measured(); });
     if (report_.steps == 0) progress_.first = now;
     progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic);
     const double drift = std::abs(now.energy() - progress_.first.energy());
@@ -175,7 +168,7 @@ class Run {
   }
 
   void write_frame() {
-    times_.writing.time([&] { frames_.write(state_); });
+    progress_.times.writing.time([&] { frames_.write(state_); });
     progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
   }
 
@@ -214,7 +207,6 @@ class Run {
   StepReport report_;
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
-  RunTimes times_;
 };
 
 // Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.

@@ -49,7 +49,7 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 }  // namespace
 
 std::optional<std::string> instability_of(const RunStatus& status) {
-  const auto& [options, run, progress, report, times] = status;
+  const auto& [options, run, progress, report] = status;
   if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
   const double growth = energy_growth(progress, run.start.model);
   if (growth > 2)
@@ -59,7 +59,8 @@ std::optional<std::string> instability_of(const RunStatus& status) {
 }
 
 Summary summary_of(const RunStatus& status) {
-  const auto& [options, run, progress, report, times] = status;
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
   Summary s;
   s.scene = run.scene.file.string();
   s.device = {run.device->info().kind, run.device->info().name};
@@ -104,7 +105,8 @@ Summary summary_of(const RunStatus& status) {
 }
 
 void show_progress(const RunStatus& status) {
-  const auto& [options, run, progress, report, times] = status;
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
   if (isatty(fileno(stderr)) == 0) return;
   const bool adapts = report.adaptive.has_value();
   const double done =
@@ -116,7 +118,8 @@ void show_progress(const RunStatus& status) {
 }
 
 void show_end(const RunStatus& status) {
-  const auto& [options, run, progress, report, times] = status;
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
   fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", is_interrupted() ? "interrupted after " : "",
              report.steps, length_of_steps(run.plan, report), run.plan.integrator->name, times.stepping.seconds(),
              report.steps == 0 ? 0.0 : static_cast<double>(report.steps) / times.stepping.seconds(), run.device->info().kind,

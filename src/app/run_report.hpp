@@ -5,15 +5,9 @@
 
 #include "app/checkpoint.hpp"
 #include "app/prepared_run.hpp"
-#include "core/stopwatch.hpp"
 #include "output/summary.hpp"
 
 namespace pliant::app {
-
-/// Where the wall time goes.
-struct RunTimes {
-  Stopwatch stepping, measuring, writing, saving;
-};
 
 /// A run as far as it has come.
 struct RunStatus {
@@ -21,7 +15,6 @@ struct RunStatus {
   PreparedRun& run;
   const RunProgress& progress;
   const StepReport& report;
-  const RunTimes& times;
 };
 
 /// What went wrong; a step beyond its bound is among the warnings from before the run.

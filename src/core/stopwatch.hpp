@@ -8,8 +8,6 @@ class Stopwatch {
  public:
   void start() { begin_ = Clock::now(); }
   void stop() { total_ += Clock::now() - begin_; }
-  /// What was measured before, in another run of the program [s].
-  void add(double seconds) { total_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(total_).count(); }
 
   /// Times one call and returns what it returns.

@@ -63,8 +63,10 @@ TEST_CASE("what is no checkpoint is told from one that is damaged, and one of a 
   write_checkpoint(path, content);
   std::string newer = read_text(path);
   newer[newer.find('\x1a') + 2]++;  // the version's first byte
+  const std::string next = "version " + std::to_string(checkpoint_version + 1);
+  const std::string now = "reads version " + std::to_string(checkpoint_version);
   put(path, newer);
-  check_says(error_of([&] { return read_checkpoint(path); }), {"version 2", "reads version 1", "newer pliant"});
+  check_says(error_of([&] { return read_checkpoint(path); }), {"newer pliant", next.c_str(), now.c_str()});
   check_says(error_of([&] { return read_checkpoint(folder.path / "none"); }), {"none", "can't be opened"});
 }
 
