@@ -47,7 +47,7 @@ bool has_other_content(const std::filesystem::path& path) {
 void expect_place_for_checkpoint(const std::filesystem::path& path) {
   if (has_other_content(path))
     throw Error(ErrorKind::command_line, path.string(), "is no checkpoint, and would be replaced by one", "name another place");
-  static_cast<void>(WholeFile(path));  // tries PATH.tmp, and removes it
+  expect_writable(path);
 }
 
 void write_checkpoint(const std::filesystem::path& path, std::string_view content) {

@@ -69,6 +69,8 @@ void OutputFile::require(bool good, const char* problem) const {
   if (!good) throw unwritable(path_, problem);
 }
 
+void expect_writable(const std::filesystem::path& path) { const WholeFile trial(path); }
+
 WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), written_(beside(place_)) {
   if (written_ == place_) return;
   { const OutputFile trial(written_); }

@@ -10,6 +10,10 @@ namespace pliant {
 /// Throws Error (command_line) where a folder stands at `path`, or a file that one may not write.
 void expect_replaceable(const std::filesystem::path& path);
 
+/// Makes the folders that are missing, and a file beside `path`, which it removes. Throws Error (command_line) where one may not
+/// write.
+void expect_writable(const std::filesystem::path& path);
+
 class OutputFile {
  public:
   enum class Begin { empty, at_end };

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <string>
 
+#include "core/bytes.hpp"
 #include "core/expect.hpp"
 #include "output/file.hpp"
 
@@ -28,13 +28,6 @@ std::string one_word(std::string name) {
   std::ranges::replace_if(
       name, [](unsigned char c) { return c <= ' ' || c == 0x7F; }, '_');
   return name;
-}
-
-template <class T>
-void append_bytes(std::string& to, T value) {
-  char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);
-  to.append(bytes, sizeof value);
 }
 
 unsigned char to_srgb_byte(double linear) {

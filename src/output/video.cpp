@@ -78,7 +78,7 @@ bool VideoFile::has_encoder() { return find_program("ffmpeg").has_value(); }
 
 VideoFile::VideoFile(const std::filesystem::path& path, const VideoFormat& format) : path_(path), format_(format) {
   expect_container(path);
-  static_cast<void>(WholeFile(path));  // makes the folder, and tells whether one may write there
+  expect_writable(path);
   encoder_.emplace(encoder(), arguments_for(path, format));
 }
 
