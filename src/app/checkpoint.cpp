@@ -1,4 +1,4 @@
-// See checkpoint.hpp. Every field is written and read in one order, by the two functions that visit them.
+// See checkpoint.hpp.
 #include "app/checkpoint.hpp"
 
 #include <fmt/format.h>
@@ -15,58 +15,27 @@ namespace pliant::app {
 namespace {
 
 // These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
-static_assert(checkpoint_version == 2 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
+static_assert(checkpoint_version == 3 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
                   sizeof(physics::Pace) == 160 && sizeof(RunProgress) == 248 && physics::slot_count == 3,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
-void put(ByteWriter& to, const RunOptions& options) {
-  to.put_text(options.scene.string());
-  to.put(options.device.kind);
-  to.put_optional(options.device.gpu_index);
-  to.put_optional(options.device.precision);
-  to.put(options.device.threads);
-  to.put_optional(options.steps);
-  to.put_optional(options.duration);
-  to.put_optional(options.time_step);
-  to.put_optional(options.tolerance);
-  to.put(std::uint8_t{options.integrator.has_value()});
-  to.put_text(options.integrator.value_or(""));
-  to.put(std::uint64_t{options.overrides.size()});
-  for (const std::string& text : options.overrides) to.put_text(text);
-  to.put_text(options.out.string());
-  to.put(options.frames);
-  to.put(options.checkpoint_interval.value_or(default_checkpoint_interval));
+// Every option by its name: with a new one this does not compile until it says whether a checkpoint holds it.
+template <class Archive, class Options>
+void visit_options(Archive& archive, Options& options) {
+  auto& [scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint, interval,
+         resume, scene_text, timings, check, quiet] = options;
+  auto& [kind, gpu_index, precision, threads] = device;
+  archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
+          interval);
 }
 
-template <class T>
-void get(ByteReader& from, T& value) {
-  value = from.get<T>();
-}
-
-template <class T>
-void get(ByteReader& from, std::optional<T>& value) {
-  value = from.get_optional<T>();
-}
-
-RunOptions get_options(ByteReader& from) {
-  RunOptions options;
-  options.scene = from.get_text();
-  get(from, options.device.kind);
-  get(from, options.device.gpu_index);
-  get(from, options.device.precision);
-  get(from, options.device.threads);
-  get(from, options.steps);
-  get(from, options.duration);
-  get(from, options.time_step);
-  get(from, options.tolerance);
-  const bool names_integrator = from.get<std::uint8_t>() != 0;
-  const std::string integrator(from.get_text());
-  if (names_integrator) options.integrator = integrator;
-  for (auto count = from.get<std::uint64_t>(); count > 0; --count) options.overrides.emplace_back(from.get_text());
-  options.out = from.get_text();
-  get(from, options.frames);
-  options.checkpoint_interval = from.get<double>();
-  return options;
+// The same for writing and for reading.
+template <class Archive, class Held>
+void visit(Archive& archive, Held& held) {
+  auto& [version, options, working_folder, device_name, scene_text, mesh_checksums, progress, history, simulation] = held;
+  archive(version);
+  visit_options(archive, options);
+  archive(working_folder, device_name, scene_text, mesh_checksums, progress, history, simulation);
 }
 
 bool names_device(const RunOptions& given) {
@@ -135,31 +104,14 @@ Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunP
 
 std::string to_bytes(const Checkpoint& checkpoint) {
   ByteWriter to;
-  to.put_text(checkpoint.version);
-  put(to, checkpoint.options);
-  to.put_text(checkpoint.working_folder.string());
-  to.put_text(checkpoint.device_name);
-  to.put_text(checkpoint.scene_text);
-  to.put(std::uint64_t{checkpoint.mesh_checksums.size()});
-  for (const std::uint64_t sum : checkpoint.mesh_checksums) to.put(sum);
-  to.put(checkpoint.progress);
-  to.put_text(checkpoint.history);
-  to.put_text(checkpoint.simulation);
+  visit(to, checkpoint);
   return to.take();
 }
 
 Checkpoint checkpoint_from(std::string_view bytes) {
   ByteReader from(bytes);
   Checkpoint checkpoint;
-  checkpoint.version = from.get_text();
-  checkpoint.options = get_options(from);
-  checkpoint.working_folder = from.get_text();
-  checkpoint.device_name = from.get_text();
-  checkpoint.scene_text = from.get_text();
-  for (auto count = from.get<std::uint64_t>(); count > 0; --count) checkpoint.mesh_checksums.push_back(from.get<std::uint64_t>());
-  get(from, checkpoint.progress);
-  checkpoint.history = from.get_text();
-  checkpoint.simulation = from.get_text();
+  visit(from, checkpoint);
   if (!from.at_end()) throw Error(ErrorKind::input, "", "holds more than a checkpoint does", "");
   return checkpoint;
 }

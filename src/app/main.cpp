@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -125,14 +127,18 @@ void add_run(CLI::App& program, app::RunOptions& options) {
   CLI::Option* resume = run->add_option("--resume", options.resume,
                                         "Checkpoint to go on from, instead of a scene: the run is the one that was begun, to the "
                                         "bit, and goes on writing checkpoints there");
-  resume->check(not_empty())->excludes(scene);
+  resume->check(not_empty());
   CLI::Option* timings =
       run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
-  for (CLI::Option* option : {timings, video}) option->excludes(checkpoint)->excludes(resume);
+  for (CLI::Option* option : {timings, video}) option->excludes(checkpoint);
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
-  for (const char* name : {"--steps", "--duration", "--time-step", "--tolerance", "--integrator", "--set", "--frames", "--check"})
-    resume->excludes(run->get_option(name));
+  const auto is_refused = [run, resume](const CLI::Option* option) {
+    const auto* end = std::end(app::options_beside_resume);
+    return option != resume && option != run->get_help_ptr() &&
+           std::find(std::begin(app::options_beside_resume), end, option->get_name()) == end;
+  };
+  for (CLI::Option* option : run->get_options(is_refused)) resume->excludes(option);
   run->callback([scene, resume, checkpoint, interval] {
     if (scene->empty() && resume->empty()) throw CLI::RequiredError("scene, or --resume,");
     if (!interval->empty() && checkpoint->empty() && resume->empty())

@@ -2,11 +2,13 @@
 #pragma once
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -27,14 +29,25 @@ class ByteWriter {
     append_bytes(bytes_, value);
   }
   /// With its length.
-  void put_text(std::string_view text) {
+  void put(const std::string& text) {
     put(std::uint64_t{text.size()});
     bytes_ += text;
   }
+  void put(const std::filesystem::path& path) { put(path.string()); }
   template <class T>
-  void put_optional(const std::optional<T>& value) {
+  void put(const std::optional<T>& value) {
     put(std::uint8_t{value.has_value()});
     if (value) put(*value);
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    put(std::uint64_t{values.size()});
+    for (const T& value : values) put(value);
+  }
+  /// One after the other. A ByteReader called with the same variables reads them, so that one function can do both.
+  template <class... T>
+  void operator()(const T&... values) {
+    (put(values), ...);
   }
 
   [[nodiscard]] std::string take() { return std::move(bytes_); }
@@ -50,16 +63,30 @@ class ByteReader {
 
   template <class T>
   [[nodiscard]] T get() {
-    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
-    T value;
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+    T value{};
+    get(value);
     return value;
   }
-  [[nodiscard]] std::string_view get_text() { return take(get<std::uint64_t>()); }
   template <class T>
-  [[nodiscard]] std::optional<T> get_optional() {
-    if (get<std::uint8_t>() == 0) return std::nullopt;
-    return get<T>();
+  void get(T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+  }
+  void get(std::string& text) { text = take(get<std::uint64_t>()); }
+  void get(std::filesystem::path& path) { path = get<std::string>(); }
+  template <class T>
+  void get(std::optional<T>& value) {
+    value.reset();
+    if (get<std::uint8_t>() != 0) value = get<T>();
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    values.clear();
+    for (auto count = get<std::uint64_t>(); count > 0; --count) values.push_back(get<T>());
+  }
+  template <class... T>
+  void operator()(T&... values) {
+    (get(values), ...);
   }
   [[nodiscard]] bool at_end() const { return bytes_.empty(); }
 

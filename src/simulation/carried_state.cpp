@@ -32,14 +32,14 @@ void write_arrays(Device& device, std::span<const CarriedArray> arrays, ByteWrit
   for (const CarriedArray& array : arrays) {
     bytes.resize(array.byte_count);
     device.read(array.buffer, array.first_byte, std::as_writable_bytes(std::span(bytes)));
-    to.put_text(bytes);
+    to.put(bytes);
   }
 }
 
 void read_arrays(Device& device, std::span<const CarriedArray> arrays, ByteReader& from) {
   const auto precision = from.get<std::uint32_t>();
   for (const CarriedArray& array : arrays) {
-    std::string bytes(from.get_text());
+    auto bytes = from.get<std::string>();
     if (array.is_real) bytes = in_precision(bytes, precision, device.precision());
     if (bytes.size() != array.byte_count)
       throw Error(ErrorKind::input, "", "its state is of other bodies, or of another method, than its scene", "");

@@ -217,7 +217,8 @@ TEST_CASE("options that a resumed run can't follow, or that lack their counterpa
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.output, Catch::Contains(what));
   };
-  for (const std::string option : {"--steps 3", "--set simulation.duration=9", "--frames png", "--timings", "--check"})
+  for (const std::string option : {"--steps 3", "--duration 1", "--time-step 1", "--tolerance 1e-6", "--integrator rk4",
+                                   "--set simulation.duration=9", "--frames png", "--video x.mp4", "--timings", "--check"})
     check_refused("--resume " + begun.checkpoint + " " + option, "--resume");
   check_refused(scene + " --resume " + begun.checkpoint, "--resume");
   check_refused(scene + " --checkpoint-every 5", "--checkpoint");
