@@ -35,7 +35,6 @@ class Run {
         run_(prepared),
         folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
-        is_resumed_(from != nullptr),
         progress_(from == nullptr ? RunProgress() : from->progress),
         frames_(prepared, {.format = options.frames,
                            .folder = folder_ / "frames",
@@ -50,10 +49,12 @@ class Run {
   int execute() {
     if (options_.timings) run_.simulation->time_passes();
     report_ = run_.simulation->report();
-    if (is_resumed_)
-      state_ = run_.simulation->state();
-    else
+    if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // not another run's until one is due
+    if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
+    if (report_.steps == 0)
       begin();
+    else
+      state_ = run_.simulation->state();
     if (run_.plan.tolerance)
       run_adaptive();
     else
@@ -118,10 +119,10 @@ class Run {
   void step(const Advance& advance) {
     report_ = progress_.times.stepping.time(advance);
     if (!options_.quiet) show_progress(status());
-    if (checkpoints_.is_due()) keep_checkpoint(progress_, history_.text());
+    if (checkpoints_.is_due() && report_.steps > 0) keep_checkpoint(progress_, history_.text());
   }
 
-  // Not of a run that has failed: the one before is worth more.
+  // Not of a run that has failed: the one before is worth more. At step 0 the history has no row, for a run begins with one.
   void keep_checkpoint(RunProgress progress, const std::string& history) {
     if (report_.non_finite) return;
     progress.times = progress_.times;
@@ -130,7 +131,7 @@ class Run {
 
   // An interrupt may have put the latest row between two frames, or left it without its energy: it is made again.
   void keep_interrupted() {
-    if (checkpoints_.is_wanted() && is_interrupted() && report_.steps > 0)
+    if (checkpoints_.is_wanted() && is_interrupted())
       keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
   }
 
@@ -195,7 +196,6 @@ class Run {
   PreparedRun& run_;
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
-  bool is_resumed_;
   RunProgress progress_;
   FrameSink frames_;  // before any file is touched: there may be nothing to draw with
   CheckpointKeeper checkpoints_;

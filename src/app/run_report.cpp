@@ -104,6 +104,12 @@ Summary summary_of(const RunStatus& status) {
   return s;
 }
 
+void show_beginning(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  fmt::print("going on with {} at step {}, into {}\n", run.scene.file.string(), report.steps, folder_of(options).string());
+  std::fflush(stdout);  // it may take hours until there is more
+}
+
 void show_progress(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   const RunTimes& times = progress.times;

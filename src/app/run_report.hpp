@@ -23,6 +23,8 @@ struct RunStatus {
 /// Counts the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);
 
+/// Where a resumed run goes on.
+void show_beginning(const RunStatus& status);
 /// A bar, on a terminal.
 void show_progress(const RunStatus& status);
 void show_end(const RunStatus& status);

@@ -100,12 +100,20 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   ProgramInTerminal program(
       {"run", scene, "--device", "cpu", "--frames", "ply", "--out", part.string(), "--checkpoint", checkpoint});
   REQUIRE(program.has_shown_progress(9));
-  CHECK_FALSE(std::filesystem::exists(checkpoint));  // five minutes have not passed
+  const std::string at_start = read_text(checkpoint);  // five minutes have not passed
   CHECK(program.end_by(SIGINT).exit_code == 130);
   const auto steps = account_in(part)["steps"];
   CHECK(steps > 0);
   CHECK(steps < account_in(whole)["steps"]);
-  REQUIRE(run_program("run --quiet --resume " + checkpoint).exit_code == 0);
+  const ProgramResult resumed = run_program("run --resume " + checkpoint);
+  REQUIRE(resumed.exit_code == 0);
+  CHECK_THAT(resumed.output,
+             Catch::StartsWith("going on with " + scene + " at step ") && Catch::Contains(", into " + part.string()));
+  check_same_run(whole, part);
+  std::ofstream(checkpoint, std::ios::binary) << at_start;
+  const ProgramResult again = run_program("run --resume " + checkpoint);
+  REQUIRE(again.exit_code == 0);
+  CHECK_THAT(again.output, Catch::Contains(" at step 0, into "));
   check_same_run(whole, part);
 }
 
@@ -142,6 +150,23 @@ struct Begun {
     write_checkpoint(checkpoint, content.replace(at, now.size(), now));
   }
 };
+
+TEST_CASE("a run has a checkpoint of its own from its start on, whatever stood there, and a resumed one, too") {
+  const Begun begun;
+  const std::string scene = scene_in(begun.folder, verlet).string(),
+                    begins = " --checkpoint-every 1000 --checkpoint " + begun.checkpoint;
+  const auto out = begun.folder.path / "out", other = begun.folder.path / "other";
+  REQUIRE(run_program("run " + scene + " --device cpu --quiet --steps 7 --out " + other.string() + begins).exit_code == 0);
+  std::filesystem::remove_all(out);
+  REQUIRE(begun.resume().exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(account_in(other)["steps"] == 7);
+  REQUIRE(begun.resume(" --out " + out.string()).exit_code == 0);
+  std::filesystem::remove_all(other);
+  REQUIRE(begun.resume().exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(other));
+  CHECK(account_in(out)["steps"] == 7);
+}
 
 TEST_CASE("a checkpoint that is damaged, cut short or none exits with 3 and changes no file") {
   const Begun begun;
