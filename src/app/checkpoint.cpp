@@ -15,7 +15,7 @@ namespace pliant::app {
 namespace {
 
 // These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
-static_assert(checkpoint_version == 3 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
+static_assert(checkpoint_version == 4 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
                   sizeof(physics::Pace) == 160 && sizeof(RunProgress) == 248 && physics::slot_count == 3,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
@@ -32,34 +32,54 @@ void visit_options(Archive& archive, Options& options) {
 // The same for writing and for reading.
 template <class Archive, class Held>
 void visit(Archive& archive, Held& held) {
-  auto& [version, options, working_folder, device_name, scene_text, mesh_checksums, progress, history, simulation] = held;
+  auto& [version, options, working_folder, device_name, scene_text, mesh_checksums, warnings, progress, history, simulation] =
+      held;
   archive(version);
   visit_options(archive, options);
-  archive(working_folder, device_name, scene_text, mesh_checksums, progress, history, simulation);
+  archive(working_folder, device_name, scene_text, mesh_checksums, warnings, progress, history, simulation);
 }
+
+// Bits change between commits, too.
+std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
 
 bool names_device(const RunOptions& given) {
   return given.device.kind != DeviceKind::automatic || given.device.gpu_index || given.device.precision;
 }
 
 void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
-  const std::size_t count = checkpoint.mesh_checksums.size();
-  for (std::size_t body = 0; body < count; ++body)
-    if (count != run.mesh_checksums.size() || checkpoint.mesh_checksums[body] != run.mesh_checksums[body])
-      throw Error(ErrorKind::input, "", fmt::format("the mesh of body \"{}\" has changed since", run.scene.bodies.at(body).name),
+  const std::vector<std::uint64_t>&before = checkpoint.mesh_checksums, &now = run.mesh_checksums;
+  if (before.size() != now.size())
+    throw Error(ErrorKind::input, "", "its scene has other bodies than the run was begun with", "take the pliant that wrote it");
+  for (std::size_t body = 0; body < now.size(); ++body)
+    if (before[body] != now[body])
+      throw Error(ErrorKind::input, "", fmt::format("the mesh of body \"{}\" has changed since", run.scene.bodies[body].name),
                   "bring back the mesh that the run was begun with");
 }
 
-std::string title_of(const std::string& device, int precision) { return fmt::format("{} at precision {}", device, precision); }
+std::string device_of(const std::string& device, int precision) { return fmt::format("{} at precision {}", device, precision); }
+std::string device_of(const Checkpoint& before) {
+  return device_of(before.device_name, before.options.device.precision.value_or(32));
+}
+std::string device_of(const PreparedRun& now) { return device_of(now.device->info().name, now.device->precision()); }
 
-void expect_device(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run) {
-  const std::string before = title_of(checkpoint.device_name, checkpoint.options.device.precision.value_or(32));
-  const std::string now = title_of(run.device->info().name, run.device->precision());
-  if (before == now) return;
-  const std::string what = fmt::format("the run was on {}, and this is {}: its bits would differ", before, now);
-  if (!names_device(given))
-    throw Error(ErrorKind::device, "", what, "take the device of before, or ask for this one by --device or --precision");
-  run.warnings.push_back(fmt::format("the run was on {}, and goes on on {}: its bits differ from here on", before, now));
+void expect_device(const RunOptions& given, const Checkpoint& before, const PreparedRun& now) {
+  if (device_of(before) == device_of(now) || names_device(given)) return;
+  throw Error(ErrorKind::device, "",
+              fmt::format("the run was on {}, and this is {}: its bits would differ", device_of(before), device_of(now)),
+              "take the device of before, or ask for this one by --device or --precision");
+}
+
+// Those that the run had stay with it.
+void add_warnings(const Checkpoint& before, PreparedRun& run) {
+  run.warnings = before.warnings;
+  const std::uint64_t step = run.simulation->report().steps;
+  if (device_of(before) != device_of(run))
+    run.warnings.push_back(fmt::format("up to step {} the run was on {}, and goes on on {}: its bits differ from there on", step,
+                                       device_of(before), device_of(run)));
+  if (before.version != full_version())
+    run.warnings.push_back(
+        fmt::format("up to step {} the run was by pliant {}, and goes on by {}: its bits may differ from there on", step,
+                    before.version, full_version()));
 }
 
 // One file by two names, too, whether or not there is one yet.
@@ -76,15 +96,6 @@ void expect_no_output(const std::filesystem::path& file, const std::filesystem::
                   "name another place");
 }
 
-// Bits change between commits, too.
-std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
-
-void warn_of_version(const Checkpoint& checkpoint, PreparedRun& run) {
-  if (checkpoint.version != full_version())
-    run.warnings.push_back(fmt::format("the run was begun by pliant {}, and this is pliant {}: its bits may differ from here on",
-                                       checkpoint.version, full_version()));
-}
-
 }  // namespace
 
 Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress, const std::string& history) {
@@ -94,6 +105,7 @@ Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunP
                         .device_name = run.device->info().name,
                         .scene_text = run.scene_text,
                         .mesh_checksums = run.mesh_checksums,
+                        .warnings = run.warnings,
                         .progress = progress,
                         .history = history,
                         .simulation = run.simulation->save()};
@@ -153,8 +165,8 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
   try {
     expect_meshes(checkpoint, run);
     expect_device(given, checkpoint, run);
-    warn_of_version(checkpoint, run);
     run.simulation->restore(checkpoint.simulation);
+    add_warnings(checkpoint, run);
   } catch (const Error& error) {
     throw Error(error.kind(), given.resume.string(), error.what(), "");
   }

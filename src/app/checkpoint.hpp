@@ -36,6 +36,7 @@ struct Checkpoint {
   std::string device_name;
   std::string scene_text;
   std::vector<std::uint64_t> mesh_checksums;  // by body
+  std::vector<std::string> warnings;
   RunProgress progress;
   std::string history;     // history.csv
   std::string simulation;  // Simulation::save
@@ -55,8 +56,8 @@ struct Checkpoint {
 /// device, precision, number of threads, place or interval.
 [[nodiscard]] RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint);
 
-/// Puts the prepared run where the checkpoint stood. Throws Error: input, when a mesh has changed; device, when the bits would
-/// differ because this is another device, unless `given` names one; then that is a warning.
+/// Puts the prepared run where the checkpoint stood, with the warnings that it had. Throws Error: input, when a mesh has changed;
+/// device, when the bits would differ because this is another device, unless `given` names one; then that is a warning.
 void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run);
 
 /// When a checkpoint is due, and how it is written.

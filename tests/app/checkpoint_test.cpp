@@ -193,6 +193,13 @@ TEST_CASE("a run is not resumed with another mesh, and the error names the body"
   CHECK(begun.resume().exit_code == 0);
 }
 
+TEST_CASE("a run is not resumed with other bodies") {
+  const Begun begun;
+  const std::string body = "[[body]]\nname = \"right\"\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstiffness = 20\n";
+  begun.replace(body, std::string(body.size() - 1, '#') + '\n');
+  begun.check_refused(3, "other bodies");
+}
+
 TEST_CASE("a run goes on on another device or at another precision only if told to, with a warning") {
   const Begun begun;
   const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
@@ -200,10 +207,25 @@ TEST_CASE("a run goes on on another device or at another precision only if told 
   begun.check_refused(4, "its bits would differ");
   const ProgramResult told = begun.resume(" --device cpu");
   CHECK(told.exit_code == 0);
-  CHECK_THAT(told.output, Catch::Contains("warning: the run was on xxx") && Catch::Contains("its bits differ from here on"));
+  CHECK_THAT(told.output,
+             Catch::Contains("warning: up to step 100 the run was on xxx") && Catch::Contains("its bits differ from there on"));
   const ProgramResult whole = Begun().resume(" --precision 64");
   CHECK(whole.exit_code == 0);
   CHECK_THAT(whole.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+}
+
+TEST_CASE("warnings stay with a run, however often it is resumed, and are told once") {
+  const Begun begun("icosphere:1", " --tolerance 1e-5");
+  const auto warnings = [&] { return account_in(begun.folder.path / "out")["warnings"]; };
+  const auto before = warnings();
+  REQUIRE(before.size() == 1);  // of an integrator that can't meet it
+  REQUIRE(begun.resume(" --precision 64").exit_code == 0);
+  const auto after = warnings();
+  REQUIRE(after.size() == 2);
+  CHECK(after[0] == before[0]);
+  CHECK_THAT(after[1].get<std::string>(), Catch::Contains("at precision 64"));
+  REQUIRE(begun.resume().exit_code == 0);
+  CHECK(warnings() == after);
 }
 
 TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]") {
@@ -222,7 +244,7 @@ TEST_CASE("a run begun by a pliant of another version or another commit goes on 
     begun.replace(part, other);
     const ProgramResult result = begun.resume();
     CHECK(result.exit_code == 0);
-    CHECK_THAT(result.output, Catch::Contains("begun by pliant") && Catch::Contains(other));
+    CHECK_THAT(result.output, Catch::Contains("the run was by pliant") && Catch::Contains(other));
   }
 }
 
