@@ -176,6 +176,7 @@ CheckpointKeeper::CheckpointKeeper(const RunOptions& options)
     : file_(options.checkpoint), interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
   if (!is_wanted()) return;
   expect_no_output(file_, folder_of(options));
+  lock_.emplace(file_);
   expect_place_for_checkpoint(file_);
 }
 

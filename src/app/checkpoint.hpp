@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/prepared_run.hpp"
 #include "core/stopwatch.hpp"
+#include "output/file_lock.hpp"
 #include "simulation/measure.hpp"
 
 namespace pliant::app {
@@ -63,8 +65,8 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 /// When a checkpoint is due, and how it is written.
 class CheckpointKeeper {
  public:
-  /// Does nothing unless the options name a file. Throws Error (command_line) when it can't be written, or is an
-  /// output of the run.
+  /// Does nothing unless the options name a file, which is then this run's alone. Throws Error (command_line) when it can't be
+  /// written, is another run's, or an output of this one.
   explicit CheckpointKeeper(const RunOptions& options);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
@@ -75,6 +77,7 @@ class CheckpointKeeper {
  private:
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;
+  std::optional<FileLock> lock_;
   std::chrono::duration<double> interval_;
   Clock::time_point latest_ = Clock::now();
 };

@@ -287,6 +287,27 @@ TEST_CASE("a checkpoint in the place of one of the run's outputs exits with 2, b
   }
 }
 
+TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and changes no file") {
+  const ScratchFolder folder;
+  const std::string scene = scene_in(folder, verlet).string(), checkpoint = (folder.path / "run.checkpoint").string();
+  const std::string first = (folder.path / "first").string(), second = (folder.path / "second").string();
+  ProgramInTerminal program({"run", scene, "--device", "cpu", "--out", first, "--checkpoint", checkpoint});
+  REQUIRE(program.has_shown_progress(1));
+  const std::string before = read_text(checkpoint);
+  for (const std::string& begins :
+       {scene + " --device cpu --checkpoint " + checkpoint + " --out " + second, "--resume " + checkpoint}) {
+    const ProgramResult result = run_program("run --quiet " + begins);
+    CAPTURE(begins, result.output);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.output, Catch::Contains("is being written by another run"));
+  }
+  CHECK_FALSE(std::filesystem::exists(second));
+  CHECK(read_text(checkpoint) == before);
+  program.end_by(SIGKILL);
+  CHECK(run_program("run --quiet --resume " + checkpoint).exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(checkpoint + ".lock"));
+}
+
 TEST_CASE("a checkpoint that can't be written costs no run") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(

@@ -1,0 +1,40 @@
+// Two at once.
+#include "output/file_lock.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <optional>
+
+#include "support/expect_error.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant {
+namespace {
+
+TEST_CASE("a file is one's until the lock goes, by any name, and nothing is left behind") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "new" / "file", link = folder.path / "link";
+  std::filesystem::create_symlink(folder.path / "new", link);
+  std::optional<FileLock> first(path);
+  for (const auto& name : {path, link / "file", folder.path / "new/../new/file"})
+    check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is being written by another run"});
+  CHECK_NOTHROW(FileLock(folder.path / "new" / "other"));
+  first.reset();
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".lock"));
+  CHECK_NOTHROW(FileLock(path));
+}
+
+TEST_CASE("a lock that a program has left behind when it was killed is no obstacle") {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path / "file.lock") << "";
+  CHECK_NOTHROW(FileLock(folder.path / "file"));
+}
+
+TEST_CASE("what is no plain file is everyone's, and a place that can't be written is no error yet") {
+  const FileLock one("/dev/null"), two("/dev/null");
+  CHECK_FALSE(std::filesystem::exists("/dev/null.lock"));
+  CHECK_NOTHROW(FileLock("/dev/null/file"));
+}
+
+}  // namespace
+}  // namespace pliant
