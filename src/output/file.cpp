@@ -15,12 +15,16 @@ Error unwritable(const std::filesystem::path& path, const char* problem) {
   return {ErrorKind::command_line, path.string(), problem, "make room and check that you may write there, or name another place"};
 }
 
-// Behind symbolic links, which stay. A plain file that may not be written must not be replaced either.
+// Behind symbolic links, which stay, whether or not there is a file yet. A plain file that may not be written must not be
+// replaced either.
 std::filesystem::path checked_place(const std::filesystem::path& path) {
   std::error_code failure;
   expect_replaceable(path);
-  if (!std::filesystem::exists(path, failure)) return path;
-  return std::filesystem::is_regular_file(path, failure) ? std::filesystem::canonical(path, failure) : path;
+  const auto behind = std::filesystem::status(path, failure).type();
+  if (behind == std::filesystem::file_type::regular) return std::filesystem::canonical(path, failure);
+  if (behind == std::filesystem::file_type::not_found && std::filesystem::is_symlink(path, failure))
+    return checked_place(path.parent_path() / std::filesystem::read_symlink(path, failure));
+  return path;
 }
 
 std::filesystem::path beside(const std::filesystem::path& place) {

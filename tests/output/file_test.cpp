@@ -59,16 +59,19 @@ TEST_CASE("a file begins empty, or at the end of what there is") {
   }
 }
 
-TEST_CASE("a symbolic link stays one, and the file behind it is replaced") {
+TEST_CASE("a symbolic link stays one, and the file behind it is made or replaced") {
   const test::ScratchFolder folder;
-  const auto path = folder.path / "file.txt", link = folder.path / "link";
-  std::ofstream(path) << "earlier";
-  std::filesystem::create_symlink(path, link);
-  WholeFile file(link);
-  file.write("later");
-  file.close();
-  CHECK(std::filesystem::is_symlink(link));
-  CHECK(read_text(path) == "later");
+  const auto path = folder.path / "file.txt", link = folder.path / "link", further = folder.path / "further";
+  std::filesystem::create_symlink("file.txt", link);
+  std::filesystem::create_symlink(link, further);
+  for (const std::string text : {"first", "second"}) {
+    WholeFile file(further);
+    file.write(text);
+    file.close();
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(std::filesystem::is_symlink(further));
+    CHECK(read_text(path) == text);
+  }
 }
 
 TEST_CASE("a device is written to where it is, and a full one is an error") {
