@@ -42,6 +42,12 @@ void visit(Archive& archive, Held& held) {
 // Bits change between commits, too.
 std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
 
+// With a project that was moved its folder is gone, and the one to be in is the one it has come to.
+bool is_here_or_gone(const std::filesystem::path& folder) {
+  std::error_code failure;
+  return folder == std::filesystem::current_path(failure) || !std::filesystem::is_directory(folder, failure);
+}
+
 bool names_device(const RunOptions& given) {
   return given.device.kind != DeviceKind::automatic || given.device.gpu_index || given.device.precision;
 }
@@ -144,10 +150,9 @@ RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint
   options.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint;
   if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
   options.out = folder_of(options);
-  std::error_code gone;
-  if (std::filesystem::current_path(gone) != checkpoint.working_folder) {
-    options.scene = checkpoint.working_folder / options.scene;
-    options.out = checkpoint.working_folder / options.out;
+  if (const auto& base = checkpoint.working_folder; !is_here_or_gone(base)) {
+    options.scene = base / options.scene;
+    options.out = base / options.out;
   }
   if (!given.out.empty()) options.out = given.out;
   if (given.device.kind != DeviceKind::automatic || given.device.gpu_index) {

@@ -55,7 +55,8 @@ struct Checkpoint {
 [[nodiscard]] Checkpoint load_checkpoint(const std::filesystem::path& file);
 
 /// The options by which the run goes on that `given` resumes: those it was begun with, but for where `given` names another
-/// device, precision, number of threads, place or interval.
+/// device, precision, number of threads, place or interval. Relative places are in the folder that the run was begun in, or in
+/// this one where that is gone.
 [[nodiscard]] RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint);
 
 /// Puts the prepared run where the checkpoint stood, with the warnings that it had. Throws Error: input, when a mesh has changed;

@@ -255,6 +255,31 @@ TEST_CASE("a run can go on in another folder, with the whole history") {
   for (const char* name : {"history.csv", "final_state.csv"}) CHECK(read_text(out / name) == read_text(other / name));
 }
 
+TEST_CASE("places of a run stay where they were for one who resumes it elsewhere, and move with a folder that was moved") {
+  const ScratchFolder folder;
+  const auto old = folder.path / "old", moved = folder.path / "moved";
+  std::filesystem::create_directory(old);
+  std::ofstream(old / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(old / "scene.toml") << "[[body]]\nmesh = \"mesh.obj\"\n";
+  const std::string begun = "run scene.toml --device cpu --steps 3 --out out --checkpoint c", resumed = "run --resume ../c";
+  REQUIRE(run_program(begun + " --quiet", "cd " + old.string() + " && ").exit_code == 0);
+  std::filesystem::copy_file(old / "c", folder.path / "c");
+  std::filesystem::remove_all(old / "out");
+  std::filesystem::create_directory(moved);
+  CHECK(run_program(resumed, "cd " + moved.string() + " && ").exit_code == 0);
+  CHECK(std::filesystem::exists(old / "out/summary.json"));
+  std::filesystem::remove(moved);
+  std::filesystem::rename(old, moved);
+  std::filesystem::copy_file(moved / "c", folder.path / "c", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::remove_all(moved / "out");
+  const ProgramResult result = run_program(resumed, "cd " + moved.string() + " && ");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("going on with scene.toml at step 0, into out\n"));
+  CHECK(std::filesystem::exists(moved / "out/summary.json"));
+  CHECK_FALSE(std::filesystem::exists(old));
+}
+
 TEST_CASE("options that a resumed run can't follow, or that lack their counterpart, exit with 2") {
   const Begun begun;
   const std::string scene = (begun.folder.path / "scene.toml").string();
