@@ -173,11 +173,13 @@ void choose_look(const Facts& facts, Shows& shows) {
   int colors = static_cast<int>(shows.colors);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("colour by");
+  ImGui::PushID("colour");  // another control of the panel is for a speed, too
   for (const auto& [name, value] :
        {std::pair{"body", Colors::body}, {"deformation", Colors::deformation}, {"speed", Colors::speed}}) {
     ImGui::SameLine();
     ImGui::RadioButton(name, &colors, static_cast<int>(value));
   }
+  ImGui::PopID();
   shows.colors = static_cast<Colors>(colors);
   ImGui::Checkbox("wireframe", &shows.wireframe);
   ImGui::SameLine();
