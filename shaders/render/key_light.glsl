@@ -1,7 +1,8 @@
 // How much of the key light reaches a place: percentage-closer soft shadows (Fernando, 2005) from one shadow map. The light has a
 // width, so a shadow is as soft as its caster is far away.
 #include "taps.glsl"
-layout(binding = 0) uniform sampler2D shadow_map;  // depth seen from the light; 1: nothing
+layout(binding = 0) uniform sampler2D shadow_map;  // depth seen from the light, in a slice as in seen.glsl
+layout(location = 3) uniform vec2 shadow_slice;    // where it begins, and its width
 
 const float key_softness = 0.11;    // tangent of the light's angular radius
 const float depth_per_width = 1.5;  // of the shadow map's box
@@ -19,7 +20,7 @@ struct Tap {
 };
 
 Tap tap_at(vec3 place, vec2 slope, vec2 offset) {
-  vec4 depths = textureGather(shadow_map, place.xy + offset);
+  vec4 depths = (textureGather(shadow_map, place.xy + offset) - shadow_slice.x) / shadow_slice.y;
   return Tap(vec4(lessThan(depths, vec4(min(place.z + dot(slope, offset), 0.99999)))), depths);
 }
 

@@ -21,12 +21,9 @@ namespace {
 constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a side
 constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // of a work group
 constexpr GLfloat far_depth = 1;
-// Clearing all samples can take a GPU as long as drawing. Each picture therefore has a slice of the depths nearer than that of
-// the one before, so that what is left of that one is behind. All slices lie above a half, where floats are equally far apart.
-constexpr GLfloat depth_slice_width = 0.5f / most_pictures_per_clear;
 // Uniform locations in the shaders.
 constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
-                first_motion_location = 2, strain_of_speed_location = 3, depth_slice_location = 2;
+                first_motion_location = 2, strain_of_speed_location = 3, depth_slice_location = 2, shadow_slice_location = 3;
 
 template <class T>
 gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
@@ -89,6 +86,29 @@ struct Programs {
   gl::Program picture;
 };
 
+/// Clearing all depths can take a GPU as long as drawing. Each picture therefore has a slice of them nearer than that of the one
+/// before, so that what is left of that one is behind. All slices lie above a half, where floats are equally far apart.
+class DepthSlices {
+ public:
+  explicit DepthSlices(int pictures_per_clear) : pictures_per_clear_(pictures_per_clear) {}
+
+  /// Where the next picture's slice begins, and its width. Clears the depths of the target that is bound if none is left.
+  glm::vec2 next() {
+    if (left_ == 0) {
+      glClearBufferfv(GL_DEPTH, 0, &far_depth);
+      left_ = pictures_per_clear_;
+    }
+    const int slice = --left_ + most_pictures_per_clear - pictures_per_clear_;  // the farthest first
+    return {0.5f + width * static_cast<float>(slice), width};
+  }
+
+ private:
+  static constexpr float width = 0.5f / most_pictures_per_clear;
+  int pictures_per_clear_, left_ = 0;
+};
+
+void set_depth_range(const glm::vec2& slice) { glDepthRangef(slice.x, slice.x + slice.y); }
+
 gl::TextureOptions square(GLenum format, std::uint32_t side) { return {.format = format, .size = {side, side}}; }
 
 gl::TextureOptions shadow_options() {
@@ -105,11 +125,13 @@ gl::TextureOptions footprint_options() {
 
 /// What depends on no size: the maps of light and shadow.
 struct Maps {
-  explicit Maps(const Sampling& sampling)
-      : ground_light(square(GL_RG16, sampling.ground_light_size), "light on the ground"),
+  Maps(const Sampling& sampling, int pictures_per_clear)
+      : shadow_slices(pictures_per_clear),
+        ground_light(square(GL_RG16, sampling.ground_light_size), "light on the ground"),
         mean_ground_light(square(GL_RG16, sampling.ground_light_size), "mean light on the ground") {}
 
   gl::Texture shadow{shadow_options(), "shadow map"};
+  DepthSlices shadow_slices;
   gl::Texture footprint{footprint_options(), "footprint from above"};
   gl::Texture ground_light, mean_ground_light;
   gl::Framebuffer shadow_target{nullptr, &shadow, "shadow map"};
@@ -117,8 +139,9 @@ struct Maps {
 };
 
 struct Picture {
-  explicit Picture(const glm::uvec2& size)
-      : seen({.format = GL_R32UI, .size = size, .samples = sample_count}, "triangles seen"),
+  Picture(const glm::uvec2& size, int pictures_per_clear)
+      : slices(pictures_per_clear),
+        seen({.format = GL_R32UI, .size = size, .samples = sample_count}, "triangles seen"),
         depth({.format = GL_DEPTH_COMPONENT32F, .size = size, .samples = sample_count}, "depths"),
         occlusion({.format = GL_RG16, .size = (size + 1u) / 2u}, "occlusion"),
         mean_occlusion({.format = GL_RG16, .size = (size + 1u) / 2u}, "mean occlusion"),
@@ -126,8 +149,8 @@ struct Picture {
         seen_target(&seen, &depth, "triangles seen"),
         shaded_target(&shaded, nullptr, "picture") {}
 
+  DepthSlices slices;
   gl::Texture seen, depth, occlusion, mean_occlusion, shaded;
-  int slices_left = 0;  // before depths are to be cleared
   gl::Framebuffer seen_target, shaded_target;
 };
 
@@ -149,15 +172,15 @@ struct FrameRenderer::Impl {
         studio(studio_for(render_options)),
         programs(sampling_of(render_options.detail)),
         surface(model),
-        maps(sampling_of(render_options.detail)),
-        picture(std::in_place, render_options.size) {}
+        maps(sampling_of(render_options.detail), render_options.pictures_per_clear),
+        picture(std::in_place, render_options.size, render_options.pictures_per_clear) {}
 
   void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
   void draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const;
   void set_shown() const;
   void smooth_surface() const;
-  void draw_shadow_map() const;
+  void draw_shadow_map();
   void draw_footprint() const;
   void average(const gl::Texture& map, const gl::Texture& mean) const;
   void light_ground() const;
@@ -218,9 +241,12 @@ void FrameRenderer::Impl::smooth_surface() const {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void FrameRenderer::Impl::draw_shadow_map() const {
+void FrameRenderer::Impl::draw_shadow_map() {
   maps.shadow_target.bind();
-  glClearBufferfv(GL_DEPTH, 0, &far_depth);
+  const glm::vec2 slice = maps.shadow_slices.next();
+  for (const gl::Program* program : {&programs.ground_light, &programs.picture})
+    glProgramUniform2f(program->id(), shadow_slice_location, slice.x, slice.y);
+  set_depth_range(slice);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_DEPTH_CLAMP);  // a body beyond the light's box still casts its shadow
   glEnable(GL_POLYGON_OFFSET_FILL);
@@ -229,6 +255,7 @@ void FrameRenderer::Impl::draw_shadow_map() const {
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
+  glDepthRangef(0, 1);
 }
 
 void FrameRenderer::Impl::draw_footprint() const {
@@ -256,21 +283,16 @@ void FrameRenderer::Impl::light_ground() const {
 
 void FrameRenderer::Impl::draw_seen() {
   picture->seen_target.bind();
-  if (picture->slices_left == 0) {
-    glClearBufferfv(GL_DEPTH, 0, &far_depth);
-    picture->slices_left = options.pictures_per_clear;
-  }
-  const int slice = --picture->slices_left + most_pictures_per_clear - options.pictures_per_clear;  // the farthest first
-  const GLfloat nearest = 0.5f + depth_slice_width * static_cast<GLfloat>(slice);
+  const glm::vec2 slice = picture->slices.next();
   for (const gl::Program* program : {&programs.occlusion, &programs.picture})
-    glProgramUniform2f(program->id(), depth_slice_location, nearest, depth_slice_width);
-  glDepthRangef(nearest, nearest + depth_slice_width);
+    glProgramUniform2f(program->id(), depth_slice_location, slice.x, slice.y);
+  set_depth_range(slice);
   glEnable(GL_DEPTH_TEST);
   if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   draw_bodies(programs.seen, studio.view_projection);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glDepthRangef(0, 1);
   glDisable(GL_DEPTH_TEST);
+  glDepthRangef(0, 1);
 }
 
 void FrameRenderer::Impl::find_occlusion() const {
@@ -331,7 +353,7 @@ void FrameRenderer::resize(const glm::uvec2& size) {
   PLIANT_EXPECT(size.x > 0 && size.y > 0);
   if (size == impl_->options.size) return;
   impl_->picture.reset();
-  impl_->picture.emplace(size);
+  impl_->picture.emplace(size, impl_->options.pictures_per_clear);
   impl_->options.size = size;
   impl_->upload_camera();
 }
