@@ -289,7 +289,12 @@ void FrameRenderer::Impl::draw_seen() {
   set_depth_range(slice);
   glEnable(GL_DEPTH_TEST);
   if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-  draw_bodies(programs.seen, studio.view_projection);
+  glEnable(GL_CULL_FACE);
+  for (const GLenum hidden : {GL_BACK, GL_FRONT}) {  // the sides that face the eye first: most of the others are then behind them
+    glCullFace(hidden);
+    draw_bodies(programs.seen, studio.view_projection);
+  }
+  glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);
   glDepthRangef(0, 1);
