@@ -323,7 +323,7 @@ RenderOptions options_for(const SceneBox& box, const OutputDescription& output) 
   options.camera = output.camera ? *output.camera : frame_scene(box, static_cast<double>(output.size.x) / output.size.y);
   options.coloring = output.coloring;
   options.scene = box;
-  options.ground_height = ground_below(box);
+  options.ground_height = output.ground_height.value_or(ground_below(box));
   return options;
 }
 

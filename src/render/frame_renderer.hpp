@@ -39,7 +39,7 @@ struct Speeds {
   double top = 1;                    // the end of the colour scale [m/s]
 };
 
-/// The options for a scene: its camera, or one that frames the box, and a ground below it.
+/// The options for a scene: its camera, or one that frames the box, and its ground, or one below the box.
 [[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
 
 /// Hears the name of each pass once it is queued, so that its time can be taken.

@@ -295,6 +295,7 @@ void read_table(TableReader& table, OutputDescription& output) {
   table.read("size", output.size, pixel_count);
   table.section("camera", output.camera);
   table.read("coloring", output.coloring, colorings);
+  table.read("ground_height", output.ground_height, coordinate);
 }
 
 void read_table(TableReader& table, BodyDescription& body) {

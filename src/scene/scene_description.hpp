@@ -66,6 +66,7 @@ struct OutputDescription {
   glm::uvec2 size{1280, 720};               // [pixels]
   std::optional<CameraDescription> camera;  // empty: frames the scene
   Coloring coloring = Coloring::body;
+  std::optional<double> ground_height;  // [m]; empty: just below where the bodies start
 };
 
 /// Of the body with this index, linear RGB: seven colours in turn that the colour-blind tell apart, too (Okabe and Ito, 2008).

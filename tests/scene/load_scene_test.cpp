@@ -60,6 +60,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK(scene.output.size == glm::uvec2(1280, 720));
   CHECK_FALSE(scene.output.camera);
   CHECK(scene.output.coloring == Coloring::body);
+  CHECK_FALSE(scene.output.ground_height);
   REQUIRE(scene.bodies.size() == 1);
   const BodyDescription& body = scene.bodies[0];
   CHECK((body.name == "body0" && body.mesh == "icosphere:1" && !body.weld && body.scale == 1.0));
@@ -101,6 +102,7 @@ frame_rate = 24
 size = [640, 480]
 camera = { eye = [0, 2, 6], target = [1, 0, 0], field_of_view = 50 }
 coloring = "deformation"
+ground_height = -1.5
 [[body]]
 name = "thing"
 mesh = "thing.obj"
@@ -136,6 +138,7 @@ color = [0.1, 0.2, 0.3]
   CHECK(scene.output.camera->target == glm::dvec3(1, 0, 0));
   CHECK(scene.output.camera->field_of_view == 50);
   CHECK(scene.output.coloring == Coloring::deformation);
+  CHECK(scene.output.ground_height == -1.5);
   const BodyDescription& body = scene.bodies.at(0);
   CHECK((body.name == "thing" && body.mesh == "thing.obj" && body.weld == 1e-6 && body.scale == 2));
   CHECK((body.position == glm::dvec3(1, 2, 3) && body.rotation == glm::dvec3(4, 5, 6) && body.velocity == glm::dvec3(7, 8, 9)));
@@ -199,7 +202,8 @@ TEST_CASE("a value out of range is an error that gives the range") {
                            "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4",
                            "output.frame_rate = 0",        "output.frame_rate = 1e30",
                            "output.frame_rate = 1e-30",    "output.size = [0, 720]",
-                           "output.size = [1280, 99999]",  "output.camera = { eye = [0, 0, 5], field_of_view = 180 }"}) {
+                           "output.size = [1280, 99999]",  "output.camera = { eye = [0, 0, 5], field_of_view = 180 }",
+                           "output.ground_height = nan"}) {
     check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
   }
   for (const char* line :
