@@ -9,7 +9,6 @@ layout(binding = 0, rg16) writeonly uniform image2D ground_light;
 
 const float pi = 3.14159265;
 const int sky_taps = 8;
-const float ceiling = 4.0;  // in radii of the scene above the ground
 
 /// Mip level of the footprint whose texels are `width` [m] wide.
 float level_of(float width) { return log2(max(width / (2.0 * ground.w) * float(textureSize(footprint, 0).x), 1.0)); }

@@ -4,8 +4,7 @@
 layout(binding = 0) uniform sampler2D shadow_map;  // depth seen from the light, in a slice as in seen.glsl
 layout(location = 3) uniform vec2 shadow_slice;    // where it begins, and its width
 
-const float key_softness = 0.11;    // tangent of the light's angular radius
-const float depth_per_width = 1.5;  // of the shadow map's box
+const float key_softness = 0.11;  // tangent of the light's angular radius
 
 /// How a place asks for its light.
 struct Search {

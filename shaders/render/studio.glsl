@@ -20,12 +20,11 @@ layout(std140, binding = 0) uniform Studio {
   vec4 key_direction;     // xyz: unit vector towards the light
   vec4 centre;            // xyz: of the scene, in the world [m]; w: its radius [m]
   vec4 ground;            // x, z: centre of the ground's maps; y: height; w: half the maps' side [m], 0: no ground
+};
+const int sample_count = 4;          // of a pixel
+const float depth_per_width = 1.5f;  // of the box that the shadow map covers
+const float ceiling = 4.0f;          // of the footprint above the ground, in radii of the scene
 #ifdef __cplusplus
-};
-constexpr int sample_count = 4;  // of a pixel
 }  // namespace pliant::render
-#else
-};
-const int sample_count = 4;  // of a pixel
 #endif
 #endif

@@ -15,13 +15,14 @@
 #include "gl/allocation.hpp"
 
 namespace pliant::gl {
-namespace {
 
-void set_label(GLenum kind, GLuint id, std::string_view label) {
+void set_label(std::uint32_t kind, std::uint32_t id, std::string_view label) {
   GLint longest = 256;
   glGetIntegerv(GL_MAX_LABEL_LENGTH, &longest);
   glObjectLabel(kind, id, static_cast<GLsizei>(std::min(label.size(), static_cast<std::size_t>(longest) - 1)), label.data());
 }
+
+namespace {
 
 std::string shader_log(GLuint shader) {
   GLint length = 0;

@@ -9,6 +9,9 @@
 
 namespace pliant::gl {
 
+/// What debug output and graphics debuggers call an object of this kind (GL_BUFFER, ...); cut off where the driver's labels end.
+void set_label(std::uint32_t kind, std::uint32_t id, std::string_view label);
+
 /// A buffer object with immutable, zero-filled storage. Throws Error (device) when the GPU has no room for it.
 class Buffer {
  public:

@@ -25,6 +25,14 @@ void expect_within_limit(const glm::uvec2& size, std::string_view label) {
     refuse(size, label, fmt::format("the driver allows {} a side", limit));
 }
 
+void expect_samples(const TextureOptions& options, std::string_view label) {
+  GLint most = 1;
+  glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, options.format, GL_SAMPLES, 1, &most);
+  if (options.samples > 1 && options.samples > most)
+    throw Error(ErrorKind::device, std::string(label),
+                fmt::format("it needs {} samples a pixel, the driver allows {}", options.samples, most), "choose another GPU");
+}
+
 bool has_room_for(GLuint texture, const TextureOptions& options) {
   const Allocation allocation;
   const auto width = static_cast<GLsizei>(options.size.x), height = static_cast<GLsizei>(options.size.y);
@@ -48,13 +56,14 @@ void set_sampling(GLuint texture, const TextureOptions& options) {
 
 Texture::Texture(const TextureOptions& options, std::string_view label) : size_(options.size) {
   expect_within_limit(size_, label);
+  expect_samples(options, label);
   glCreateTextures(options.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id_);
   if (!has_room_for(id_, options)) {
     glDeleteTextures(1, &id_);
     refuse(size_, label, "there is no room for it");
   }
   if (options.samples == 1) set_sampling(id_, options);
-  glObjectLabel(GL_TEXTURE, id_, static_cast<GLsizei>(label.size()), label.data());
+  set_label(GL_TEXTURE, id_, label);
 }
 
 Texture::~Texture() { glDeleteTextures(1, &id_); }
@@ -62,7 +71,7 @@ Texture::~Texture() { glDeleteTextures(1, &id_); }
 Framebuffer::Framebuffer(const Texture* color, const Texture* depth, std::string_view label)
     : size_(color != nullptr ? color->size() : depth->size()) {
   glCreateFramebuffers(1, &id_);
-  glObjectLabel(GL_FRAMEBUFFER, id_, static_cast<GLsizei>(label.size()), label.data());
+  set_label(GL_FRAMEBUFFER, id_, label);
   if (color != nullptr) glNamedFramebufferTexture(id_, GL_COLOR_ATTACHMENT0, color->id(), 0);
   if (depth != nullptr) glNamedFramebufferTexture(id_, GL_DEPTH_ATTACHMENT, depth->id(), 0);
   if (color == nullptr) glNamedFramebufferDrawBuffer(id_, GL_NONE);

@@ -16,8 +16,8 @@ struct TextureOptions {
   float outside = 0;  // what is sampled there
 };
 
-/// A 2D texture with linear filtering. Throws Error (device) beyond the driver's largest size, and
-/// when the GPU has no room for it.
+/// A 2D texture with linear filtering. Throws Error (device) beyond the driver's largest size or
+/// most samples, and when the GPU has no room for it.
 class Texture {
  public:
   Texture(const TextureOptions& options, std::string_view label);

@@ -15,6 +15,9 @@ namespace pliant::render {
 /// How finely light is sampled: `reduced` is for renderers in software.
 enum class Detail { full, reduced };
 
+/// What can be drawn while somebody watches.
+[[nodiscard]] constexpr Detail live_detail(bool is_software) { return is_software ? Detail::reduced : Detail::full; }
+
 struct RenderOptions {
   glm::uvec2 size{1280, 720};  // [pixels]
   CameraDescription camera;

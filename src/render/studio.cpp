@@ -19,16 +19,16 @@ glm::dvec3 key_direction_for(const CameraDescription& camera) {
   return glm::normalize(-0.55 * right + glm::dvec3(0, 1.15, 0) + 0.55 * back);
 }
 
-/// A box 2 r wide and 3 r deep (`depth_per_width` in key_light.glsl).
 glm::mat4 key_projection_for(double radius, const glm::dvec3& direction) {
   const double r = 1.15 * radius;
+  const double half_depth = depth_per_width * r;
   const glm::dmat4 view = glm::lookAt(direction * (2 * r), glm::dvec3(0), glm::dvec3(0, 1, 0));
-  return glm::mat4(glm::ortho(-r, r, -r, r, 0.5 * r, 3.5 * r) * view);
+  return glm::mat4(glm::ortho(-r, r, -r, r, 2 * r - half_depth, 2 * r + half_depth) * view);
 }
 
-/// From the ground up to 4 radii (`ceiling` in ground_light.comp); z of the world is y of the map.
+/// From the ground up to the ceiling; z of the world is y of the map.
 glm::mat4 above_projection_for(const glm::vec4& ground, float radius) {
-  const float side = 1 / ground.w, height = 2 / (4 * radius);
+  const float side = 1 / ground.w, height = 2 / (ceiling * radius);
   return {glm::vec4(side, 0, 0, 0), glm::vec4(0, 0, height, 0), glm::vec4(0, side, 0, 0),
           glm::vec4(-side * ground.x, -side * ground.z, -height * ground.y - 1, 1)};
 }

@@ -124,7 +124,7 @@ void Viewer::open(LoadedScene scene) {
       render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
   options.size = at_least_a_pixel(window_.framebuffer_size());
   options.pictures_per_clear = render::most_pictures_per_clear;
-  if (window_.context().adapter().is_software) options.detail = render::Detail::reduced;
+  options.detail = render::live_detail(window_.context().adapter().is_software);
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
