@@ -1,21 +1,22 @@
 #include "bench/draw.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
 
 #include "bench/step_cases.hpp"
 #include "bench/timing.hpp"
+#include "core/stopwatch.hpp"
 #include "device/gpu/gpu_device.hpp"
-#include "gl/objects.hpp"
+#include "gl/context.hpp"
 #include "render/frame_renderer.hpp"
+#include "simulation/simulation.hpp"
 
 namespace pliant::bench {
 namespace {
 
 constexpr int marked_frames = 21, quick_marked_frames = 3;
+constexpr double a_sixtieth = 1.0 / 60;  // [s]
 
 struct Look {
   glm::uvec2 size;  // [pixels]
@@ -31,22 +32,25 @@ render::RenderOptions options_for(std::span<const glm::dvec3> world, const Look&
   return options;
 }
 
-// A scene at its start, ready to be drawn.
+// A scene that is drawn from the buffers in which it is simulated.
 class Drawing {
  public:
-  Drawing(const ModelAndState& start, const Look& look) : Drawing(start, look, start.state.world_positions(start.model)) {}
+  Drawing(Device& device, const StepCase& what, const Look& look)
+      : device_(device),
+        simulation_(device, what.start.model, what.start.state, what.plan, what.collision),
+        start_(simulation_.save()),
+        renderer_(what.start.model, options_for(what.start.state.world_positions(what.start.model), look)) {}
 
-  void draw(const render::PassObserver& after_pass = {}) { renderer_.draw(positions_.id(), 0, after_pass); }
-
- private:
-  Drawing(const ModelAndState& start, const Look& look, const std::vector<glm::dvec3>& world)
-      : positions_(world.size() * sizeof(glm::vec4), "drawn positions"), renderer_(start.model, options_for(world, look)) {
-    std::vector<glm::vec4> rounded;
-    for (const glm::dvec3& place : world) rounded.emplace_back(glm::vec3(place), 1.0f);
-    positions_.write(0, std::as_bytes(std::span(rounded)));
+  void restart() { simulation_.restore(start_); }
+  void step(std::uint64_t steps) { simulation_.advance(steps); }
+  void draw(const render::PassObserver& after_pass = {}) {
+    renderer_.draw(gpu::gl_buffer_of(device_, simulation_.position_buffer()), simulation_.first_position(), after_pass);
   }
 
-  gl::Buffer positions_;
+ private:
+  Device& device_;
+  Simulation simulation_;
+  std::string start_;
   render::FrameRenderer renderer_;
 };
 
@@ -77,21 +81,47 @@ PassTimes median_passes(Device& device, Drawing& drawing, int frames) {
   return medians;
 }
 
+// Steps from the start, and a picture of the last or none, as somebody who watches has to wait for them [s].
+double seconds_of(Device& device, Drawing& drawing, std::uint64_t steps, bool draws) {
+  drawing.restart();
+  device.finish();
+  Stopwatch watch;
+  watch.time([&] {
+    drawing.step(steps);
+    if (draws) drawing.draw();
+    device.finish();
+  });
+  return watch.seconds();
+}
+
+std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
+  seconds_of(device, drawing, 1, true);  // builds the kernels
+  const double steps_of_a_picture = a_sixtieth / seconds_of(device, drawing, 1, false);
+  if (steps_of_a_picture < 1) return std::nullopt;
+  std::vector<double> with, without;
+  for (int round = 0; round < rounds; ++round)
+    for (const bool draws : {false, true})
+      (draws ? with : without).push_back(seconds_of(device, drawing, static_cast<std::uint64_t>(steps_of_a_picture), draws));
+  return (median(std::move(with)) - median(std::move(without))) / a_sixtieth;
+}
+
 DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
   const Model& model = what.start.model;
-  const bool software = gpu::context_of(device)->adapter().is_software;
-  Drawing drawing(what.start, {options.size, software ? render::Detail::reduced : render::Detail::full});
+  const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
+  Drawing drawing(device, what, {options.size, detail});
+  const int frames = options.quick ? quick_marked_frames : marked_frames;
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   return {.scene = what.name,
           .vertices = model.vertex_count(),
           .triangles = static_cast<std::uint32_t>(model.triangles.size()),
           .bodies = static_cast<std::uint32_t>(model.bodies.size()),
-          .detail = software ? "reduced" : "full",
+          .detail = detail == render::Detail::full ? "full" : "reduced",
           .width = options.size.x,
           .height = options.size.y,
           .milliseconds_per_frame = 1e3 * frame.median,
           .fastest_milliseconds_per_frame = 1e3 * frame.fastest,
-          .milliseconds = median_passes(device, drawing, options.quick ? quick_marked_frames : marked_frames)};
+          .steps_lost = frame.median < a_sixtieth ? steps_lost(device, drawing, frames) : std::nullopt,
+          .milliseconds = median_passes(device, drawing, frames)};
 }
 
 }  // namespace

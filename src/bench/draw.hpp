@@ -1,8 +1,10 @@
-// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts, drawn as the viewer would.
+// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts, drawn as the viewer would;
+// and what pictures cost a simulation that goes on.
 #pragma once
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,10 +26,13 @@ struct DrawRow {
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t triangles = 0;
   std::uint32_t bodies = 0;
-  std::string detail = "full";                               // or "reduced", where software draws
-  std::uint32_t width = 0, height = 0;                       // [pixels]
-  double milliseconds_per_frame = 0;                         // the median over batches, by the GPU's clock
-  double fastest_milliseconds_per_frame = 0;                 // the fastest batch
+  std::string detail = "full";                // or "reduced", where software draws
+  std::uint32_t width = 0, height = 0;        // [pixels]
+  double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
+  double fastest_milliseconds_per_frame = 0;  // the fastest batch
+  /// The share of its steps per second that a scene loses to 60 pictures a second, between steps from its start on; empty where a
+  /// picture or a step alone takes longer than a sixtieth of a second.
+  std::optional<double> steps_lost;
   std::vector<std::pair<std::string, double>> milliseconds;  // of each pass, medians of frames drawn with a mark after each
 };
 
@@ -37,7 +42,7 @@ struct DrawResult {
   bool interrupted = false;        // by Progress
 };
 
-/// Positions are those at a scene's start, already on the GPU; nothing is read back. Throws Error.
+/// Draws from the simulation's own buffers; nothing is read back. Throws Error.
 [[nodiscard]] DrawResult bench_draw(const DrawOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

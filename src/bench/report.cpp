@@ -57,7 +57,8 @@ Json row_json(const DrawRow& row) {
                {"width", row.width},
                {"height", row.height},
                {"milliseconds_per_frame", row.milliseconds_per_frame},
-               {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame}};
+               {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame},
+               {"steps_lost", or_null(row.steps_lost)}};
   for (const auto& [pass, milliseconds] : row.milliseconds) json[pass + "_milliseconds"] = milliseconds;
   return json;
 }
@@ -132,12 +133,14 @@ std::string to_table(const StepsResult& result) {
 
 std::string to_table(const DrawResult& result) {
   const std::size_t width = width_of(result.rows, &DrawRow::scene);
-  std::string table = fmt::format("{:<{}} {:>9} {:>11} {:>9}", "scene", width, "triangles", "pixels", "ms/frame");
+  std::string table =
+      fmt::format("{:<{}} {:>9} {:>11} {:>9} {:>10}", "scene", width, "triangles", "pixels", "ms/frame", "steps lost");
   if (!result.rows.empty())
     for (const auto& [pass, milliseconds] : result.rows.front().milliseconds) table += fmt::format(" {:>9}", pass);
   for (const DrawRow& row : result.rows) {
-    table += fmt::format("\n{:<{}} {:>9} {:>11} {:>9.4g}", row.scene, width, row.triangles,
-                         fmt::format("{} x {}", row.width, row.height), row.milliseconds_per_frame);
+    table += fmt::format("\n{:<{}} {:>9} {:>11} {:>9.4g} {:>10}", row.scene, width, row.triangles,
+                         fmt::format("{} x {}", row.width, row.height), row.milliseconds_per_frame,
+                         row.steps_lost ? fmt::format("{:.1f} %", 100 * *row.steps_lost) : "-");
     for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
   }
   table += '\n';
