@@ -14,7 +14,6 @@ layout(binding = 0, rgba8) writeonly uniform image2D picture;
 layout(location = 1) uniform bool shows_strain;
 
 const float pi = 3.14159265;
-const float full_strain = 0.3;  // the end of the colour scale
 const float roughness = 0.42;
 
 // BLOCKER_TAPS, SHADOW_TAPS and INNER_OUTLINES come from Detail (frame_renderer.hpp).

@@ -23,6 +23,7 @@ layout(std140, binding = 0) uniform Studio {
 };
 const int sample_count = 4;          // of a pixel
 const float depth_per_width = 1.5f;  // of the box that the shadow map covers
+const float full_strain = 0.3f;      // where the scale of colours ends
 const float ceiling = 4.0f;          // of the footprint above the ground, in radii of the scene
 #ifdef __cplusplus
 }  // namespace pliant::render

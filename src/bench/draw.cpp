@@ -1,7 +1,6 @@
 #include "bench/draw.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "bench/step_cases.hpp"
@@ -18,16 +17,12 @@ namespace {
 constexpr int marked_frames = 21, quick_marked_frames = 3;
 constexpr double a_sixtieth = 1.0 / 60;  // [s]
 
-struct Look {
-  glm::uvec2 size;  // [pixels]
-  render::Detail detail;
-};
-
-render::RenderOptions options_for(std::span<const glm::dvec3> world, const Look& look) {
-  OutputDescription output;
-  output.size = look.size;
+render::RenderOptions options_for(const StepCase& what, const glm::uvec2& size, render::Detail detail) {
+  OutputDescription output = what.output;
+  output.size = size;
+  const std::vector<glm::dvec3> world = what.start.state.world_positions(what.start.model);
   render::RenderOptions options = render::options_for(render::box_around(world), output);
-  options.detail = look.detail;
+  options.detail = detail;
   options.pictures_per_clear = render::most_pictures_per_clear;
   return options;
 }
@@ -35,11 +30,11 @@ render::RenderOptions options_for(std::span<const glm::dvec3> world, const Look&
 // A scene that is drawn from the buffers in which it is simulated.
 class Drawing {
  public:
-  Drawing(Device& device, const StepCase& what, const Look& look)
+  Drawing(Device& device, const StepCase& what, const render::RenderOptions& options)
       : device_(device),
         simulation_(device, what.start.model, what.start.state, what.plan, what.collision),
         start_(simulation_.save()),
-        renderer_(what.start.model, options_for(what.start.state.world_positions(what.start.model), look)) {}
+        renderer_(what.start.model, options) {}
 
   void restart() { simulation_.restore(start_); }
   void step(std::uint64_t steps) { simulation_.advance(steps); }
@@ -108,7 +103,7 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
 DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
   const Model& model = what.start.model;
   const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
-  Drawing drawing(device, what, {options.size, detail});
+  Drawing drawing(device, what, options_for(what, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   return {.scene = what.name,

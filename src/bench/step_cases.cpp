@@ -38,6 +38,7 @@ constexpr Family families[] = {
 std::string misfit(const Family& family, const SceneDescription& scene) {
   if (scene.bodies.size() != 2) return fmt::format("\"{}\" has not two bodies", family.scene);
   const auto fits = [&](const BodyDescription& body) { return body.mesh.starts_with(family.mesh); };
+  if (scene.simulation.tolerance) return fmt::format("\"{}\" has a tolerance", family.scene);
   if (!std::ranges::all_of(scene.bodies, fits)) return fmt::format("the bodies of \"{}\" are no icospheres", family.scene);
   return {};
 }
@@ -52,9 +53,6 @@ SceneDescription scene_at(const Family& family, SceneDescription scene, int leve
 }
 
 StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> setups) {
-  if (scene.simulation.tolerance)
-    throw Error(ErrorKind::input, scene.file.string(), "a tolerance gives steps no fixed length, so that none can be timed",
-                "give the scene a time_step, or take it out of the folder");
   StepCase made;
   made.start = build_model(setups, scene.simulation.gravity);
   made.plan = plan_time(scene, made.start.model);
@@ -84,10 +82,10 @@ void deform(ModelAndState& start) {
       start.state.motion[6 * i + k] += 1e-3 * start.model.rest_positions[i][static_cast<glm::length_t>(k)];
 }
 
-StepCase case_of(const std::filesystem::path& file, bool quick) {
-  const SceneDescription scene = load_scene(file);
+StepCase case_of(const SceneDescription& scene, bool quick) {
   StepCase made = make_case(scene, load_bodies(scene));
-  made.name = file.stem().string();
+  made.name = scene.file.stem().string();
+  made.output = scene.output;
   made.steps = quick ? std::min(made.plan.steps, quick_steps) : made.plan.steps;
   if (quick) deform(made.start);
   return made;
@@ -102,6 +100,18 @@ std::set<std::filesystem::path> scene_files(const std::filesystem::path& folder)
     throw Error(ErrorKind::command_line, "--scenes", fmt::format("no scenes in folder \"{}\"", folder.string()),
                 "name the folder of scenes, or run where there is a folder \"scenes\"");
   return files;
+}
+
+// The scene as it is, or a note why not.
+void add_scene(StepCases& all, const std::filesystem::path& file, bool quick) {
+  const auto leave_out = [&](const std::string& reason) {
+    all.notes.push_back(fmt::format("{}: left out, as {}", file.stem().string(), reason));
+  };
+  const SceneDescription scene = load_scene(file);
+  if (scene.simulation.tolerance) return leave_out("its tolerance gives steps no fixed length");
+  StepCase made = case_of(scene, quick);
+  if (made.steps == 0) return leave_out("it has no steps");
+  all.cases.push_back(std::move(made));
 }
 
 // The family's cases, or a note why there are none.
@@ -125,13 +135,7 @@ StepCases load_step_cases(const std::filesystem::path& folder, bool quick) {
   const std::set<std::filesystem::path> files = scene_files(folder);
   StepCases all;
   for (const Family& family : families) add_family(all, family, folder, quick);
-  for (const std::filesystem::path& file : files) {
-    StepCase made = case_of(file, quick);
-    if (made.steps == 0)
-      all.notes.push_back(fmt::format("{}: left out, as it has no steps", made.name));
-    else
-      all.cases.push_back(std::move(made));
-  }
+  for (const std::filesystem::path& file : files) add_scene(all, file, quick);
   return all;
 }
 

@@ -16,6 +16,7 @@ struct StepCase {
   ModelAndState start;
   TimePlan plan;
   CollisionDescription collision;
+  OutputDescription output;        // how it is seen
   std::uint64_t steps_before = 0;  // not measured: the first contacts
   std::uint64_t steps = 0;         // measured, at least one
 };

@@ -224,7 +224,6 @@ void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat
 }
 
 void FrameRenderer::Impl::set_shown() const {
-  constexpr float full_strain = 0.3f;  // as in picture.comp
   const GLuint smooth = programs.smooth_surface.id();
   glProgramUniform1i(programs.picture.id(), shows_strain_location, speeds || options.coloring == Coloring::deformation);
   glProgramUniform1ui(smooth, first_motion_location, speeds ? speeds->first_vertex : 0);
