@@ -7,7 +7,10 @@
 #include <numeric>
 #include <random>
 
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
 #include "support/collision_scene.hpp"
+#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
@@ -153,6 +156,18 @@ TEST_CASE("a wild mouse leaves soft and stiff bodies finite, with damping and wi
         Adaptive adaptive{.law = law};
         check_bears(*test.device, start, plan_of(adaptive, start.model), {}, 1);
       }
+}
+
+// Hours on few CPUs.
+TEST_CASE("a minute of a wild mouse leaves every scene whose step is stable finite", "[.soak][gl]") {
+  const std::vector<TestDevice> devices = all_devices();
+  for (const char* name : {"two_spheres", "three_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot",
+                           "bunnies_undamped_verlet", "bunnies_overdamped_verlet"}) {
+    CAPTURE(name);
+    const SceneDescription scene = load_scene(source_dir() + "/scenes/" + name + ".toml");
+    const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
+    check_bears(*devices.back().device, start, plan_time(scene, start.model), scene.collision, 60);
+  }
 }
 
 }  // namespace
