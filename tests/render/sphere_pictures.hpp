@@ -1,0 +1,51 @@
+// Spheres before a camera, their pictures, and what geometry says of them.
+#pragma once
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "model/model.hpp"
+#include "render/frame_renderer.hpp"
+
+namespace pliant::test {
+
+inline constexpr glm::uvec2 picture_size{320, 180};
+inline const CameraDescription front{{0, 1, 7}, {0, 0, 0}, 40};
+
+/// One body, and where its vertices are.
+struct Subject {
+  Model model;
+  std::vector<glm::vec4> world;  // [m]
+};
+
+[[nodiscard]] Subject sphere(const glm::dvec3& centre, const glm::dvec3& color = {0.8, 0.1, 0.05},
+                             const char* generator = "icosphere:3");
+[[nodiscard]] Subject together(Subject a, const Subject& b);
+
+[[nodiscard]] render::RenderOptions without_ground();
+/// Needs a current context.
+[[nodiscard]] render::Image draw(const Subject& subject, const render::RenderOptions& options = without_ground());
+
+/// Pixels that differ from the picture without bodies.
+struct Silhouette {
+  explicit Silhouette(const render::Image& image, const render::RenderOptions& options = without_ground());
+  [[nodiscard]] bool at(int x, int y) const;
+  [[nodiscard]] bool near(int x, int y) const;
+  [[nodiscard]] long area() const;
+
+  std::vector<bool> covered;
+};
+
+struct PixelBox {
+  double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+  void add(double x, double y);
+};
+
+[[nodiscard]] PixelBox box_of(const Silhouette& silhouette);
+/// A pinhole camera by similar triangles.
+[[nodiscard]] PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescription& camera);
+/// Sum of a pixel's red, green and blue, where the camera `front` sees a place.
+[[nodiscard]] int brightness_at(const render::Image& image, const glm::dvec3& place);
+
+}  // namespace pliant::test
