@@ -24,23 +24,20 @@ glm::dvec3 linear(const glm::dvec3& srgb) { return {std::pow(srgb.x, 2.2), std::
 TEST_CASE("bodies at rest are coloured by speed as undeformed ones by deformation, and faster ones otherwise", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0, 0, 0});
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
-  positions.write(0, std::as_bytes(std::span(subject.world)));
   gl::Buffer motions(2 * 6 * subject.world.size() * sizeof(double), "motions");  // at rest, and as fast as the scale goes
   std::vector<double> moving(6 * subject.world.size(), 0.0);
   for (std::size_t i = 0; i < subject.world.size(); ++i) moving[6 * i + 4] = 3;
   motions.write(moving.size() * sizeof(double), std::as_bytes(std::span(moving)));
-  FrameRenderer renderer(subject.model, without_ground());
+  Drawing drawing(subject);
   const auto picture = [&](const std::optional<Speeds>& speeds) {
-    renderer.set_speeds(speeds);
-    renderer.draw(positions.id(), 0);
-    return renderer.read().pixels;
+    drawing.renderer.set_speeds(speeds);
+    return drawing.picture().pixels;
   };
   const auto plain = picture({});
   const auto resting = picture(Speeds{motions.id(), 0, 3}), fast = picture(Speeds{motions.id(), subject.model.vertex_count(), 3});
   CHECK((fast != resting && fast != plain && resting != plain));
   CHECK((picture({}) == plain));
-  renderer.set_coloring(Coloring::deformation);
+  drawing.renderer.set_coloring(Coloring::deformation);
   CHECK((picture({}) == resting));
 }
 
@@ -57,11 +54,7 @@ TEST_CASE("with colours of deformation a body stretched by 30 % everywhere has t
   const gl::Context context(0);
   RenderOptions deformation = without_ground();
   deformation.coloring = Coloring::deformation;
-  const auto stretched = [](Subject subject) {
-    for (auto& p : subject.world) p = glm::vec4(glm::vec3(p) * 1.3f, 1.0f);
-    return subject;
-  };
   const glm::dvec3 last_of_viridis(0.993, 0.906, 0.144);
-  const Image expected = draw(stretched(sphere({0, 0, 0}, linear(last_of_viridis))));
-  CHECK(largest_difference(draw(stretched(sphere({0, 0, 0})), deformation), expected) <= 12);
+  const Image expected = draw(scaled(sphere({0, 0, 0}, linear(last_of_viridis)), 1.3f));
+  CHECK(largest_difference(draw(scaled(sphere({0, 0, 0}), 1.3f), deformation), expected) <= 12);
 }

@@ -36,14 +36,10 @@ TEST_CASE("positions may begin anywhere in their buffer", "[gl]") {
 
 TEST_CASE("a picture is drawn anew for every draw and camera, and shows nothing of earlier ones", "[gl]") {
   const gl::Context context(0);
-  const Subject subject = sphere({0, 0, 0});
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
-  positions.write(0, std::as_bytes(std::span(subject.world)));
-  FrameRenderer renderer(subject.model, without_ground());
+  Drawing drawing(sphere({0, 0, 0}));
   const auto seen_from = [&](const CameraDescription& camera) {
-    renderer.set_camera(camera);
-    renderer.draw(positions.id(), 0);
-    return renderer.read().pixels;
+    drawing.renderer.set_camera(camera);
+    return drawing.picture().pixels;
   };
   const CameraDescription aside{{3, 1, 9}, {2, 0, 0}, 40};
   const auto first = seen_from(front), second = seen_from(aside);
@@ -53,34 +49,26 @@ TEST_CASE("a picture is drawn anew for every draw and camera, and shows nothing 
 
 TEST_CASE("where depths are seldom cleared a picture shows nothing of earlier ones", "[gl]") {
   const gl::Context context(0);
-  const Subject subject = sphere({0, 0, 0});
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
-  positions.write(0, std::as_bytes(std::span(subject.world)));
   RenderOptions seldom = without_ground();
   seldom.pictures_per_clear = 3;
-  FrameRenderer always(subject.model, without_ground()), seldom_cleared(subject.model, seldom);
+  Drawing always(sphere({0, 0, 0})), seldom_cleared(sphere({0, 0, 0}), seldom);
   for (int k = 0; k < 8; ++k) {
     CAPTURE(k);
-    for (FrameRenderer* renderer : {&always, &seldom_cleared}) {
-      renderer->set_camera({{k % 2 == 0 ? 3 : -3, 1, 9}, {k, 0, 0}, 40});
-      renderer->draw(positions.id(), 0);
-    }
-    CHECK(are_alike(always.read(), seldom_cleared.read()));
+    for (Drawing* drawing : {&always, &seldom_cleared})
+      drawing->renderer.set_camera({{k % 2 == 0 ? 3 : -3, 1, 9}, {k, 0, 0}, 40});
+    CHECK(are_alike(always.picture(), seldom_cleared.picture()));
   }
 }
 
 TEST_CASE("a resized renderer draws what one of that size would, bit for bit", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0.4, 0, 0});
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
-  positions.write(0, std::as_bytes(std::span(subject.world)));
-  FrameRenderer renderer(subject.model, without_ground());
+  Drawing drawing(subject);
   for (const glm::uvec2 size : {glm::uvec2(90, 200), glm::uvec2(1, 1), picture_size}) {
     RenderOptions options = without_ground();
     options.size = size;
-    renderer.resize(size);
-    renderer.draw(positions.id(), 0);
-    const Image resized = renderer.read();
+    drawing.renderer.resize(size);
+    const Image resized = drawing.picture();
     CHECK(resized.width == size.x);
     CHECK(resized.height == size.y);
     CHECK(resized.pixels == draw(subject, options).pixels);

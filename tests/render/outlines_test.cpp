@@ -2,10 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
-#include <span>
 
 #include "gl/context.hpp"
-#include "gl/objects.hpp"
 #include "render/sphere_pictures.hpp"
 #include "support/pictures.hpp"
 
@@ -44,24 +42,18 @@ TEST_CASE("a mirrored scene has the mirrored silhouette, to a pixel", "[gl]") {
 
 TEST_CASE("a wireframe lies within the surface's outline, reaches it, and leaves gaps", "[gl]") {
   const gl::Context context(0);
-  const Subject subject = sphere({0.2, 0, 0}, {0.8, 0.1, 0.05}, "icosphere:1");
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
-  positions.write(0, std::as_bytes(std::span(subject.world)));
-  FrameRenderer renderer(subject.model, without_ground());
-  renderer.draw(positions.id(), 0);
-  const Image surface = renderer.read();
-  renderer.set_fill(Fill::wireframe);
-  renderer.draw(positions.id(), 0);
-  const Silhouette whole{surface}, wires{renderer.read()};
+  Drawing drawing(sphere({0.2, 0, 0}, {0.8, 0.1, 0.05}, "icosphere:1"));
+  const Image surface = drawing.picture();
+  drawing.renderer.set_fill(Fill::wireframe);
+  const Silhouette whole{surface}, wires{drawing.picture()};
   const PixelBox of_whole = box_of(whole), of_wires = box_of(wires);
   CHECK(of_wires.left == Approx(of_whole.left).margin(1));
   CHECK(of_wires.right == Approx(of_whole.right).margin(1));
   CHECK(of_wires.top == Approx(of_whole.top).margin(1));
   CHECK(of_wires.bottom == Approx(of_whole.bottom).margin(1));
   CHECK(wires.area() < whole.area() * 9 / 10);
-  renderer.set_fill(Fill::surface);
-  renderer.draw(positions.id(), 0);
-  CHECK(renderer.read().pixels == surface.pixels);
+  drawing.renderer.set_fill(Fill::surface);
+  CHECK(drawing.picture().pixels == surface.pixels);
 }
 
 TEST_CASE("outlines are smoothed: most rows pass through a colour between backdrop and body", "[gl]") {

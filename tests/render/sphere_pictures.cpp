@@ -32,13 +32,24 @@ Subject sphere(const glm::dvec3& centre, const glm::dvec3& color, const char* ge
 }
 
 Subject together(Subject a, const Subject& b) {
-  const auto first = static_cast<std::uint32_t>(a.world.size());
+  const auto first = static_cast<std::uint32_t>(a.world.size()), triangles = static_cast<std::uint32_t>(a.model.triangles.size());
+  const auto first_body = static_cast<float>(a.model.bodies.size());
   for (const auto& [i, j, k] : b.model.triangles) a.model.triangles.push_back({first + i, first + j, first + k});
-  a.model.rest_positions.insert(a.model.rest_positions.end(), b.model.rest_positions.begin(), b.model.rest_positions.end());
+  for (const glm::vec4& p : b.model.rest_positions) a.model.rest_positions.emplace_back(glm::vec3(p), first_body + p.w);
+  for (ModelBody body : b.model.bodies) {
+    body.first_vertex += first;
+    body.first_triangle += triangles;
+    a.model.bodies.push_back(body);
+  }
   a.world.insert(a.world.end(), b.world.begin(), b.world.end());
-  a.model.bodies.front().vertex_count += b.model.bodies.front().vertex_count;
-  a.model.bodies.front().triangle_count += b.model.bodies.front().triangle_count;
   return a;
+}
+
+Subject scaled(Subject subject, float factor) {
+  glm::vec3 middle(0);
+  for (const glm::vec4& p : subject.world) middle += glm::vec3(p) / static_cast<float>(subject.world.size());
+  for (glm::vec4& p : subject.world) p = glm::vec4(middle + factor * (glm::vec3(p) - middle), 1.0f);
+  return subject;
 }
 
 RenderOptions without_ground() {
@@ -49,13 +60,17 @@ RenderOptions without_ground() {
   return options;
 }
 
-Image draw(const Subject& subject, const RenderOptions& options) {
-  gl::Buffer positions(subject.world.size() * sizeof(glm::vec4), "positions");
+Drawing::Drawing(const Subject& subject, const RenderOptions& options)
+    : positions(subject.world.size() * sizeof(glm::vec4), "positions"), renderer(subject.model, options) {
   positions.write(0, std::as_bytes(std::span(subject.world)));
-  FrameRenderer renderer(subject.model, options);
+}
+
+Image Drawing::picture() {
   renderer.draw(positions.id(), 0);
   return renderer.read();
 }
+
+Image draw(const Subject& subject, const RenderOptions& options) { return Drawing(subject, options).picture(); }
 
 Silhouette::Silhouette(const Image& image, const RenderOptions& options) : covered(std::size_t{image.width} * image.height) {
   const Image empty = draw({}, options);
@@ -108,8 +123,8 @@ PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescriptio
   return box;
 }
 
-int brightness_at(const Image& image, const glm::dvec3& place) {
-  const PixelBox at = pinhole_box({glm::vec4(place, 1)}, front);
+int brightness_at(const Image& image, const glm::dvec3& place, const CameraDescription& camera) {
+  const PixelBox at = pinhole_box({glm::vec4(place, 1)}, camera);
   const std::size_t first = 3 * (static_cast<std::size_t>(at.top) * image.width + static_cast<std::size_t>(at.left));
   return image.pixels[first] + image.pixels[first + 1] + image.pixels[first + 2];
 }

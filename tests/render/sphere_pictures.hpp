@@ -1,10 +1,12 @@
 // Spheres before a camera, their pictures, and what geometry says of them.
 #pragma once
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "gl/objects.hpp"
 #include "model/model.hpp"
 #include "render/frame_renderer.hpp"
 
@@ -12,8 +14,10 @@ namespace pliant::test {
 
 inline constexpr glm::uvec2 picture_size{320, 180};
 inline const CameraDescription front{{0, 1, 7}, {0, 0, 0}, 40};
+/// Of unit length; the key light of renderers that are made with the camera `front` stands behind its left shoulder.
+inline const glm::dvec3 to_light = glm::normalize(glm::dvec3(-0.55, 1.15, 0.55));
 
-/// One body, and where its vertices are.
+/// Bodies, and where their vertices are.
 struct Subject {
   Model model;
   std::vector<glm::vec4> world;  // [m]
@@ -21,9 +25,20 @@ struct Subject {
 
 [[nodiscard]] Subject sphere(const glm::dvec3& centre, const glm::dvec3& color = {0.8, 0.1, 0.05},
                              const char* generator = "icosphere:3");
+/// As many bodies as both have.
 [[nodiscard]] Subject together(Subject a, const Subject& b);
+/// About the mean of its vertices.
+[[nodiscard]] Subject scaled(Subject subject, float factor);
 
 [[nodiscard]] render::RenderOptions without_ground();
+/// A subject to be drawn more than once. Needs a current context while it lives.
+struct Drawing {
+  explicit Drawing(const Subject& subject, const render::RenderOptions& options = without_ground());
+  [[nodiscard]] render::Image picture();
+
+  gl::Buffer positions;
+  render::FrameRenderer renderer;
+};
 /// Needs a current context.
 [[nodiscard]] render::Image draw(const Subject& subject, const render::RenderOptions& options = without_ground());
 
@@ -45,7 +60,7 @@ struct PixelBox {
 [[nodiscard]] PixelBox box_of(const Silhouette& silhouette);
 /// A pinhole camera by similar triangles.
 [[nodiscard]] PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescription& camera);
-/// Sum of a pixel's red, green and blue, where the camera `front` sees a place.
-[[nodiscard]] int brightness_at(const render::Image& image, const glm::dvec3& place);
+/// Sum of a pixel's red, green and blue, where a camera sees a place.
+[[nodiscard]] int brightness_at(const render::Image& image, const glm::dvec3& place, const CameraDescription& camera = front);
 
 }  // namespace pliant::test
