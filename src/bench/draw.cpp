@@ -106,6 +106,7 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
   Drawing drawing(device, what, options_for(what, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
+  PassTimes passes = median_passes(device, drawing, frames);
   return {.scene = what.name,
           .vertices = model.vertex_count(),
           .triangles = static_cast<std::uint32_t>(model.triangles.size()),
@@ -116,7 +117,7 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
           .milliseconds_per_frame = 1e3 * frame.median,
           .fastest_milliseconds_per_frame = 1e3 * frame.fastest,
           .steps_lost = frame.median < a_sixtieth ? steps_lost(device, drawing, frames) : std::nullopt,
-          .milliseconds = median_passes(device, drawing, frames)};
+          .milliseconds = std::move(passes)};
 }
 
 }  // namespace

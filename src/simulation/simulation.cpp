@@ -112,6 +112,7 @@ std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
 }
 
 void Simulation::queue(std::uint64_t steps) {
+  known_control_.reset();
   for (std::uint64_t k = 0; k < steps; ++k) {
     const std::vector<Pass>& step = schedules_[queued_steps_++ & 1];
     if (timed_)
@@ -145,8 +146,13 @@ void Simulation::pull(const Pull& by, double seconds) {
   device_.run(grip_->passes(half()));
 }
 
+const Control& Simulation::control() {
+  if (!known_control_) known_control_ = bodies_.control.download().front();
+  return *known_control_;
+}
+
 std::uint32_t Simulation::half() {
-  const std::uint32_t halted_at = bodies_.control.download().front().non_finite_step;
+  const std::uint32_t halted_at = control().non_finite_step;
   return static_cast<std::uint32_t>((halted_at != 0 ? halted_at : queued_steps_) & 1);
 }
 
@@ -159,7 +165,7 @@ void Simulation::add_pace(StepReport& report) {
 }
 
 StepReport Simulation::report() {
-  const Control control = bodies_.control.download().front();
+  const Control& control = this->control();
   StepReport report;
   report.steps = control.step - 1;
   report.time = static_cast<double>(report.steps) * fixed_step_;
@@ -202,6 +208,7 @@ std::string Simulation::save() {
 
 void Simulation::restore(std::string_view saved) {
   ByteReader from(saved);
+  known_control_.reset();
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, carried_arrays(), from);
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state holds more than its scene has use for", "");
@@ -209,7 +216,7 @@ void Simulation::restore(std::string_view saved) {
 }
 
 std::vector<std::uint32_t> Simulation::touching_vertices() {
-  const std::uint32_t latest = bodies_.control.download().front().step - 1;
+  const std::uint32_t latest = control().step - 1;
   const std::vector<std::uint32_t> marks = collider_.marks();
   std::vector<std::uint32_t> touching;
   for (std::uint32_t i = 0; i < marks.size(); ++i)
@@ -218,7 +225,7 @@ std::vector<std::uint32_t> Simulation::touching_vertices() {
 }
 
 Intersections Simulation::intersections() {
-  const Control saved = bodies_.control.download().front();
+  const Control saved = control();
   Control probe = saved;
   probe.step = 0xffffffffu;  // no step's own
   probe.non_finite_step = 0;

@@ -113,7 +113,8 @@ class Simulation {
   [[nodiscard]] const Collider& collider() const { return collider_; }
 
  private:
-  [[nodiscard]] std::uint32_t half();  // the one that holds the current state
+  [[nodiscard]] const physics::Control& control();  // after the queued steps, for which it waits
+  [[nodiscard]] std::uint32_t half();               // the one that holds the current state
   [[nodiscard]] std::vector<CarriedArray> carried_arrays() const;
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
@@ -124,13 +125,14 @@ class Simulation {
   DeviceBodies bodies_;
   Stepper stepper_;
   Collider collider_;
-  std::optional<Grip> grip_;                    // of the latest pull
-  std::optional<Pacer> pacer_;                  // where a tolerance governs the steps
-  physics::Pace known_pace_{};                  // of the latest report
-  double fixed_step_;                           // else their length [s]
-  bool responds_;                               // to contacts; else none are looked for
-  std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
-  std::uint64_t queued_steps_ = 0;              // rejected and empty ones count here
+  std::optional<Grip> grip_;                       // of the latest pull
+  std::optional<Pacer> pacer_;                     // where a tolerance governs the steps
+  physics::Pace known_pace_{};                     // of the latest report
+  double fixed_step_;                              // else their length [s]
+  bool responds_;                                  // to contacts; else none are looked for
+  std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
+  std::optional<physics::Control> known_control_;  // read once for all who ask between steps
+  std::uint64_t queued_steps_ = 0;                 // rejected and empty ones count here
   bool timed_ = false;
   std::map<std::string_view, double> pass_seconds_;
 };
