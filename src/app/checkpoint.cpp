@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/file.hpp"
 
 namespace pliant::app {
 namespace {
@@ -91,8 +92,8 @@ void add_warnings(const Checkpoint& before, PreparedRun& run) {
 // One file by two names, too, whether or not there is one yet.
 bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code failure;
-  return std::filesystem::weakly_canonical(a, failure) == std::filesystem::weakly_canonical(b, failure) ||
-         std::filesystem::equivalent(a, b, failure);
+  const auto full_place = [&](const auto& path) { return std::filesystem::weakly_canonical(place_behind(path), failure); };
+  return full_place(a) == full_place(b) || std::filesystem::equivalent(a, b, failure);
 }
 
 void expect_no_output(const std::filesystem::path& file, const std::filesystem::path& folder) {

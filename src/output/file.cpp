@@ -15,16 +15,10 @@ Error unwritable(const std::filesystem::path& path, const char* problem) {
   return {ErrorKind::command_line, path.string(), problem, "make room and check that you may write there, or name another place"};
 }
 
-// Behind symbolic links, which stay, whether or not there is a file yet. A plain file that may not be written must not be
-// replaced either.
+// A plain file that may not be written must not be replaced either.
 std::filesystem::path checked_place(const std::filesystem::path& path) {
-  std::error_code failure;
   expect_replaceable(path);
-  const auto behind = std::filesystem::status(path, failure).type();
-  if (behind == std::filesystem::file_type::regular) return std::filesystem::canonical(path, failure);
-  if (behind == std::filesystem::file_type::not_found && std::filesystem::is_symlink(path, failure))
-    return checked_place(path.parent_path() / std::filesystem::read_symlink(path, failure));
-  return path;
+  return place_behind(path);
 }
 
 std::filesystem::path beside(const std::filesystem::path& place) {
@@ -44,6 +38,15 @@ void sync_to_disk(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path place_behind(const std::filesystem::path& path) {
+  std::error_code failure;
+  const auto behind = std::filesystem::status(path, failure).type();
+  if (behind == std::filesystem::file_type::regular) return std::filesystem::canonical(path, failure);
+  if (behind == std::filesystem::file_type::not_found && std::filesystem::is_symlink(path, failure))
+    return place_behind(path.parent_path() / std::filesystem::read_symlink(path, failure));
+  return path;
+}
 
 void expect_replaceable(const std::filesystem::path& path) {
   std::error_code failure;

@@ -7,6 +7,10 @@
 
 namespace pliant {
 
+/// Where what is written to `path` comes to stand: behind symbolic links, whether or not there is a file yet. What is no plain
+/// file, such as /dev/stdout, is its own place.
+[[nodiscard]] std::filesystem::path place_behind(const std::filesystem::path& path);
+
 /// Throws Error (command_line) where a folder stands at `path`, or a file that one may not write.
 void expect_replaceable(const std::filesystem::path& path);
 

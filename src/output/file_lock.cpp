@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "output/file.hpp"
 
 namespace pliant {
 namespace {
@@ -34,7 +35,7 @@ int locked(const std::filesystem::path& lock, const std::filesystem::path& path)
 FileLock::FileLock(const std::filesystem::path& path) {
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) return;
-  lock_ = std::filesystem::weakly_canonical(path, failure) += ".lock";
+  lock_ = std::filesystem::weakly_canonical(place_behind(path), failure) += ".lock";
   std::filesystem::create_directories(lock_.parent_path(), failure);
   file_ = locked(lock_, path);
   while (file_ >= 0 && !is_at(lock_, file_)) {  // who had it has removed it meanwhile

@@ -310,6 +310,11 @@ TEST_CASE("a checkpoint in the place of one of the run's outputs exits with 2, b
     CHECK_THAT(result.output, Catch::Contains("is where the run writes"));
     CHECK_FALSE(std::filesystem::exists(out));
   }
+  std::filesystem::create_symlink("out/history.csv", folder.path / "link");
+  const ProgramResult result = run_program("run " + scene + " --device cpu --quiet --duration 0.1 --out " + out +
+                                           " --checkpoint " + (folder.path / "link").string());
+  CHECK(result.exit_code == 2);
+  CHECK_FALSE(std::filesystem::exists(out));
 }
 
 TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and changes no file") {

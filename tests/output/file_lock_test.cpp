@@ -24,6 +24,19 @@ TEST_CASE("a file is one's until the lock goes, by any name, and nothing is left
   CHECK_NOTHROW(FileLock(path));
 }
 
+TEST_CASE("a file is one's by the name of a link, too, from before it is there on") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file", link = folder.path / "link", further = folder.path / "further";
+  std::filesystem::create_symlink("file", link);
+  std::filesystem::create_symlink(link, further);
+  const FileLock first(further);
+  for (const bool is_there : {false, true}) {
+    if (is_there) std::ofstream(link) << "written";
+    for (const auto& name : {path, link, further})
+      check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is being written by another run"});
+  }
+}
+
 TEST_CASE("a lock that a program has left behind when it was killed is no obstacle") {
   const test::ScratchFolder folder;
   std::ofstream(folder.path / "file.lock") << "";
