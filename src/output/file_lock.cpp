@@ -35,7 +35,9 @@ int locked(const std::filesystem::path& lock, const std::filesystem::path& path)
 FileLock::FileLock(const std::filesystem::path& path) {
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) return;
-  lock_ = std::filesystem::weakly_canonical(place_behind(path), failure) += ".lock";
+  lock_ = std::filesystem::weakly_canonical(place_behind(path), failure);
+  if (failure) return;  // a link to itself, or a name that is too long: nothing can stand there
+  lock_ += ".lock";
   std::filesystem::create_directories(lock_.parent_path(), failure);
   file_ = locked(lock_, path);
   while (file_ >= 0 && !is_at(lock_, file_)) {  // who had it has removed it meanwhile

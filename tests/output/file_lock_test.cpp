@@ -43,6 +43,14 @@ TEST_CASE("a lock that a program has left behind when it was killed is no obstac
   CHECK_NOTHROW(FileLock(folder.path / "file"));
 }
 
+TEST_CASE("what can't be a place has no lock, nor does the current folder get one") {
+  const test::ScratchFolder folder;
+  const auto link = folder.path / "link";
+  std::filesystem::create_symlink("link", link);
+  const FileLock one(link), two(folder.path / std::string(300, 'x'));
+  CHECK_FALSE(std::filesystem::exists(".lock"));
+}
+
 TEST_CASE("what is no plain file is everyone's, and a place that can't be written is no error yet") {
   const FileLock one("/dev/null"), two("/dev/null");
   CHECK_FALSE(std::filesystem::exists("/dev/null.lock"));
