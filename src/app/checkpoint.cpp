@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "core/bytes.hpp"
 #include "core/error.hpp"
@@ -89,6 +90,15 @@ void add_warnings(const Checkpoint& before, PreparedRun& run) {
                     before.version, full_version()));
 }
 
+Checkpoint load_checkpoint(const std::filesystem::path& file) {
+  const std::string content = read_checkpoint(file);
+  try {
+    return checkpoint_from(content);
+  } catch (const Error& error) {
+    throw Error(error.kind(), file.string(), error.what(), "take an earlier copy");
+  }
+}
+
 // One file by two names, too, whether or not there is one yet.
 bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code failure;
@@ -135,13 +145,14 @@ Checkpoint checkpoint_from(std::string_view bytes) {
   return checkpoint;
 }
 
-Checkpoint load_checkpoint(const std::filesystem::path& file) {
-  const std::string content = read_checkpoint(file);
-  try {
-    return checkpoint_from(content);
-  } catch (const Error& error) {
-    throw Error(error.kind(), file.string(), error.what(), "take an earlier copy");
-  }
+// The lock comes first: what a run writes there at its end would be lost to one that had read what it wrote before.
+Resumed load_resumed(const RunOptions& given) {
+  const bool goes_on_there = given.checkpoint.empty() || is_same_place(given.checkpoint, given.resume);
+  std::unique_ptr<FileLock> lock;
+  if (std::error_code failure; std::filesystem::exists(given.resume, failure))
+    lock = std::make_unique<FileLock>(given.resume, goes_on_there ? FileLock::For::writing : FileLock::For::reading);
+  Checkpoint checkpoint = load_checkpoint(given.resume);
+  return {std::move(checkpoint), goes_on_there ? std::move(lock) : nullptr};
 }
 
 RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint) {
@@ -178,11 +189,13 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
   }
 }
 
-CheckpointKeeper::CheckpointKeeper(const RunOptions& options)
-    : file_(options.checkpoint), interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
+CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock)
+    : file_(options.checkpoint),
+      lock_(std::move(lock)),
+      interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
   if (!is_wanted()) return;
   expect_no_output(file_, folder_of(options));
-  lock_.emplace(file_);
+  if (!lock_) lock_ = std::make_unique<FileLock>(file_);
   expect_place_for_checkpoint(file_);
 }
 

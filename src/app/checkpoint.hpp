@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,8 +52,14 @@ struct Checkpoint {
 /// Throws Error (input) where bytes are missing or too many.
 [[nodiscard]] Checkpoint checkpoint_from(std::string_view bytes);
 
-/// Reads a file. Throws Error (input).
-[[nodiscard]] Checkpoint load_checkpoint(const std::filesystem::path& file);
+/// What a run goes on from.
+struct Resumed {
+  Checkpoint checkpoint;
+  std::unique_ptr<FileLock> lock;  // of its file, where the run goes on writing there; from before it was read on
+};
+
+/// Reads the file that `given` resumes. Throws Error: command_line while another run writes it, input when it is no checkpoint.
+[[nodiscard]] Resumed load_resumed(const RunOptions& given);
 
 /// The options by which the run goes on that `given` resumes: those it was begun with, but for where `given` names another
 /// device, precision, number of threads, place or interval. Relative places are in the folder that the run was begun in, or in
@@ -66,9 +73,9 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 /// When a checkpoint is due, and how it is written.
 class CheckpointKeeper {
  public:
-  /// Does nothing unless the options name a file, which is then this run's alone. Throws Error (command_line) when it can't be
-  /// written, is another run's, or an output of this one.
-  explicit CheckpointKeeper(const RunOptions& options);
+  /// Does nothing unless the options name a file, which is then this run's alone: by `lock`, or by one that it makes. Throws
+  /// Error (command_line) when it can't be written, is another run's, or an output of this one.
+  CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
   [[nodiscard]] bool is_due() const { return is_wanted() && Clock::now() - latest_ >= interval_; }
@@ -78,7 +85,7 @@ class CheckpointKeeper {
  private:
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;
-  std::optional<FileLock> lock_;
+  std::unique_ptr<FileLock> lock_;
   std::chrono::duration<double> interval_;
   Clock::time_point latest_ = Clock::now();
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "app/checkpoint.hpp"
 #include "app/frame_sink.hpp"
@@ -29,19 +30,20 @@ constexpr double time_of_a_batch = 0.1;  // of steps, after which Ctrl-C is hear
 
 class Run {
  public:
-  /// From its start, or from where the checkpoint stood.
-  Run(const RunOptions& options, PreparedRun& prepared, const Checkpoint* from)
+  /// From its start, or from where the checkpoint stood, whose lock it takes.
+  Run(const RunOptions& options, PreparedRun& prepared, std::optional<Resumed> from)
       : options_(options),
         run_(prepared),
         folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
-        progress_(from == nullptr ? RunProgress() : from->progress),
+        progress_(from ? from->checkpoint.progress : RunProgress()),
         frames_(prepared, {.format = options.frames,
                            .folder = folder_ / "frames",
                            .video = options.video,
                            .first = static_cast<int>(progress_.frames_written)}),
-        checkpoints_(options),
-        history_(from == nullptr ? HistoryFile(folder_ / "history.csv") : HistoryFile(folder_ / "history.csv", from->history)),
+        checkpoints_(options, from ? std::move(from->lock) : nullptr),
+        history_(from ? HistoryFile(folder_ / "history.csv", std::move(from->checkpoint.history))
+                      : HistoryFile(folder_ / "history.csv")),
         before_row_{progress_, history_.text().size()} {
     for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder_ / name);  // not after hours of steps
   }
@@ -238,13 +240,13 @@ std::filesystem::path folder_of(const RunOptions& options) {
 }
 
 int run(const RunOptions& given) {
-  std::optional<Checkpoint> from;
-  if (!given.resume.empty()) from = load_checkpoint(given.resume);
-  const RunOptions options = from ? resumed_options(given, *from) : drawable(given);
+  std::optional<Resumed> from;
+  if (!given.resume.empty()) from = load_resumed(given);
+  const RunOptions options = from ? resumed_options(given, from->checkpoint) : drawable(given);
   if (!options.check || !options.out.empty()) expect_folder(folder_of(options));
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
-  if (from) resume(given, *from, prepared);
+  if (from) resume(given, from->checkpoint, prepared);
   if (!given.video.empty() && options.video.empty())
     prepared.warnings.push_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
@@ -253,7 +255,7 @@ int run(const RunOptions& given) {
     return 0;
   }
   watch_for_interrupts();
-  return Run(options, prepared, from ? &*from : nullptr).execute();
+  return Run(options, prepared, std::move(from)).execute();
 }
 
 }  // namespace pliant::app

@@ -22,34 +22,34 @@ bool is_at(const std::filesystem::path& path, int file) {
 }
 
 // An open file with the lock; -1 where none can be made.
-int locked(const std::filesystem::path& lock, const std::filesystem::path& path) {
+int locked(const std::filesystem::path& lock, const std::filesystem::path& path, int operation) {
   const int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0 || flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
+  if (file < 0 || flock(file, operation | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
   close(file);
-  throw Error(ErrorKind::command_line, path.string(), "is being written by another run",
-              "wait for its end, or name another place");
+  throw Error(ErrorKind::command_line, path.string(), "is in use by another run", "wait for its end, or name another place");
 }
 
 }  // namespace
 
-FileLock::FileLock(const std::filesystem::path& path) {
+FileLock::FileLock(const std::filesystem::path& path, For use) {
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) return;
   lock_ = std::filesystem::weakly_canonical(place_behind(path), failure);
   if (failure) return;  // a link to itself, or a name that is too long: nothing can stand there
   lock_ += ".lock";
   std::filesystem::create_directories(lock_.parent_path(), failure);
-  file_ = locked(lock_, path);
+  const int operation = use == For::writing ? LOCK_EX : LOCK_SH;
+  file_ = locked(lock_, path, operation);
   while (file_ >= 0 && !is_at(lock_, file_)) {  // who had it has removed it meanwhile
     close(file_);
-    file_ = locked(lock_, path);
+    file_ = locked(lock_, path, operation);
   }
 }
 
 FileLock::~FileLock() {
   if (file_ < 0) return;
   std::error_code ignored;
-  std::filesystem::remove(lock_, ignored);  // before it is let go: no other one's
+  if (flock(file_, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(lock_, ignored);  // before it is let go: no other one's
   close(file_);
 }
 

@@ -1,17 +1,19 @@
-// Who may write a file, among all programs that ask.
+// Who may write or read a file, among all programs that ask.
 #pragma once
 #include <filesystem>
 
 namespace pliant {
 
-/// Keeps a file for one program, by whatever name, as long as it lives: by a lock on PATH.lock, which the system lets go with a
-/// program that is killed.
+/// Keeps a file for one program that writes it, or for those that read it, by whatever name, as long as it lives: by a lock on
+/// PATH.lock, which the system lets go with a program that is killed.
 class FileLock {
  public:
-  /// Makes PATH.lock, and the folders that are missing. Throws Error (command_line) while another one has it. What is no plain
-  /// file, such as /dev/null, is everyone's; so is a file where there are no locks, or one may not write.
-  explicit FileLock(const std::filesystem::path& path);
-  /// Removes PATH.lock.
+  enum class For { writing, reading };
+
+  /// Makes PATH.lock, and the folders that are missing. Throws Error (command_line) while another one has it, unless both read.
+  /// What is no plain file, such as /dev/null, is everyone's; so is a file where there are no locks, or one may not write.
+  explicit FileLock(const std::filesystem::path& path, For use = For::writing);
+  /// Removes PATH.lock, but for others that read.
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

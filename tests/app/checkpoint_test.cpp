@@ -9,6 +9,7 @@
 #include "core/version.hpp"
 #include "gl/context.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/file_lock.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -329,13 +330,30 @@ TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and cha
     const ProgramResult result = run_program("run --quiet " + begins);
     CAPTURE(begins, result.output);
     CHECK(result.exit_code == 2);
-    CHECK_THAT(result.output, Catch::Contains("is being written by another run"));
+    CHECK_THAT(result.output, Catch::Contains("is in use by another run"));
   }
   CHECK_FALSE(std::filesystem::exists(second));
   CHECK(read_text(checkpoint) == before);
   program.end_by(SIGKILL);
   CHECK(run_program("run --quiet --resume " + checkpoint).exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(checkpoint + ".lock"));
+}
+
+// By which error comes first: what is there cannot be read.
+TEST_CASE("a run that is resumed has its checkpoint for itself from before it is read on, wherever it goes on writing") {
+  const ScratchFolder folder;
+  const auto checkpoint = folder.path / "run.checkpoint";
+  std::ofstream(checkpoint) << "no checkpoint yet";
+  const std::string resumed = "run --quiet --resume " + checkpoint.string();
+  for (const std::string& elsewhere : {std::string(), " --checkpoint " + (folder.path / "other").string()}) {
+    CHECK(run_program(resumed + elsewhere).exit_code == 3);
+    const FileLock other_run(checkpoint);
+    const ProgramResult result = run_program(resumed + elsewhere);
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.output, Catch::Contains("is in use by another run"));
+  }
+  CHECK(run_program("run --resume " + (folder.path / "no/such").string()).exit_code == 3);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "no"));
 }
 
 TEST_CASE("a checkpoint that can't be written costs no run") {

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 #include "support/expect_error.hpp"
@@ -17,7 +18,7 @@ TEST_CASE("a file is one's until the lock goes, by any name, and nothing is left
   std::filesystem::create_symlink(folder.path / "new", link);
   std::optional<FileLock> first(path);
   for (const auto& name : {path, link / "file", folder.path / "new/../new/file"})
-    check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is being written by another run"});
+    check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is in use by another run"});
   CHECK_NOTHROW(FileLock(folder.path / "new" / "other"));
   first.reset();
   CHECK_FALSE(std::filesystem::exists(path.string() + ".lock"));
@@ -33,8 +34,22 @@ TEST_CASE("a file is one's by the name of a link, too, from before it is there o
   for (const bool is_there : {false, true}) {
     if (is_there) std::ofstream(link) << "written";
     for (const auto& name : {path, link, further})
-      check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is being written by another run"});
+      check_says(error_of([&] { FileLock second(name); }), {name.c_str(), "is in use by another run"});
   }
+}
+
+TEST_CASE("any number read a file at once while none writes it, and the last one leaves nothing behind") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file";
+  auto first = std::make_unique<FileLock>(path, FileLock::For::reading);
+  auto second = std::make_unique<FileLock>(path, FileLock::For::reading);
+  for (auto* reader : {&first, &second}) {
+    CHECK_THROWS_AS(FileLock(path), Error);
+    reader->reset();
+  }
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".lock"));
+  const FileLock writer(path);
+  CHECK_THROWS_AS(FileLock(path, FileLock::For::reading), Error);
 }
 
 TEST_CASE("a lock that a program has left behind when it was killed is no obstacle") {
