@@ -107,7 +107,7 @@ bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& 
 }
 
 void expect_no_output(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  for (const char* name : {"history.csv", "final_state.csv", "summary.json"})
+  for (const char* name : output_names)
     if (is_same_place(file, folder / name))
       throw Error(ErrorKind::command_line, "--checkpoint " + file.string(), fmt::format("is where the run writes {}", name),
                   "name another place");

@@ -42,11 +42,9 @@ class Run {
                            .video = options.video,
                            .first = static_cast<int>(progress_.frames_written)}),
         checkpoints_(options, from ? std::move(from->lock) : nullptr),
-        history_(from ? HistoryFile(folder_ / "history.csv", std::move(from->checkpoint.history))
-                      : HistoryFile(folder_ / "history.csv")),
-        before_row_{progress_, history_.text().size()} {
-    for (const char* name : {"final_state.csv", "summary.json"}) expect_replaceable(folder_ / name);  // not after hours of steps
-  }
+        history_(from ? HistoryFile(folder_ / history_name, std::move(from->checkpoint.history))
+                      : HistoryFile(folder_ / history_name)),
+        before_row_{progress_, history_.text().size()} {}
 
   int execute() {
     if (options_.timings) run_.simulation->time_passes();
@@ -187,8 +185,8 @@ class Run {
 
   void write_end() {
     const Model& model = run_.start.model;
-    write_final_state(folder_ / "final_state.csv", model, state_.world_positions(model), state_.world_velocities(model));
-    write_summary(folder_ / "summary.json", summary_of(status()));
+    write_final_state(folder_ / final_state_name, model, state_.world_positions(model), state_.world_velocities(model));
+    write_summary(folder_ / summary_name, summary_of(status()));
     if (!options_.quiet) show_end(status());
     if (const auto what = instability_of(status()))
       fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
@@ -225,6 +223,14 @@ void expect_folder(const std::filesystem::path& folder) {
   std::filesystem::remove(missing, failure);
 }
 
+// Before any of it is replaced, and not after hours of steps.
+void expect_outputs(const RunOptions& options) {
+  const std::filesystem::path folder = folder_of(options);
+  expect_folder(folder);
+  for (const char* name : output_names) expect_replaceable(folder / name);
+  if (options.frames != FrameFormat::none) expect_folder(folder / "frames");
+}
+
 // Where nothing can encode a video its pictures are written.
 RunOptions drawable(RunOptions options) {
   if (options.video.empty() || VideoFile::has_encoder()) return options;
@@ -243,7 +249,7 @@ int run(const RunOptions& given) {
   std::optional<Resumed> from;
   if (!given.resume.empty()) from = load_resumed(given);
   const RunOptions options = from ? resumed_options(given, from->checkpoint) : drawable(given);
-  if (!options.check || !options.out.empty()) expect_folder(folder_of(options));
+  if (!options.check || !options.out.empty()) expect_outputs(options);
   const std::unique_ptr<PreparedRun> run = prepare_run(options);
   PreparedRun& prepared = *run;
   if (from) resume(given, from->checkpoint, prepared);

@@ -15,6 +15,12 @@ namespace pliant::app {
 inline constexpr int exit_non_finite = 5;
 inline constexpr double default_checkpoint_interval = 300;  // [s] of wall time
 
+// What a run leaves in its folder, beside frames.
+inline constexpr const char* history_name = "history.csv";
+inline constexpr const char* final_state_name = "final_state.csv";
+inline constexpr const char* summary_name = "summary.json";
+inline constexpr const char* output_names[] = {history_name, final_state_name, summary_name};
+
 struct RunOptions {
   std::filesystem::path scene;
   DeviceChoice device;

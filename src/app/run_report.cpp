@@ -137,7 +137,7 @@ void show_end(const RunStatus& status) {
                !options.checkpoint.empty() ? fmt::format(" and {:.2f} s of checkpoints", times.saving.seconds()) : "");
   fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report.contact_steps, report.contact_pairs_max);
   if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
-  fmt::print("summary: {}\n", (folder_of(options) / "summary.json").string());
+  fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }
 
 }  // namespace pliant::app

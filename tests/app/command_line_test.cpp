@@ -399,15 +399,23 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"another place"});
 }
 
-TEST_CASE("a place that can't be written is told before anything is read or stepped, and by a check as well") {
+TEST_CASE("a place that can't be written is told before anything is read, replaced or stepped, and by a check as well") {
   const ScratchFolder folder;
   const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 3 --out ";
+  const auto check_kept = [&](const std::filesystem::path& out, const char* options, const std::string& what) {
+    std::ofstream(out / "history.csv") << "an earlier run's";
+    for (const char* check : {"", " --check"}) check_fails(run + out.string() + options + check, 2, {what.c_str()});
+    CHECK(read_text(out / "history.csv") == "an earlier run's");
+  };
   for (const char* name : {"summary.json", "final_state.csv"}) {
     const auto out = folder.path / name / "out";
     std::filesystem::create_directories(out / name);
-    check_fails(run + out.string(), 2, {name, "can't be written"});
-    CHECK(line_count(read_text(out / "history.csv")) <= 1);
+    check_kept(out, "", std::string(name) + ": can't be written");
   }
+  const auto out = folder.path / "out";
+  std::filesystem::create_directory(out);
+  std::ofstream(out / "frames") << "no folder";
+  check_kept(out, " --frames obj", "frames: is no folder");
   for (const std::string place : {"/proc/x", "/dev/null/x"})
     for (const std::string& scene : {std::string("nowhere.toml"), small_scene(folder).string()})
       for (const char* check : {"", " --check"})
