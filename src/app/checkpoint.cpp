@@ -24,8 +24,8 @@ static_assert(checkpoint_version == 4 && sizeof(physics::Frame) == 368 && sizeof
 // Every option by its name: with a new one this does not compile until it says whether a checkpoint holds it.
 template <class Archive, class Options>
 void visit_options(Archive& archive, Options& options) {
-  auto& [scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint, interval,
-         resume, scene_text, timings, check, quiet] = options;
+  auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
+         interval, resume, scene_text, timings, check, quiet] = options;
   auto& [kind, gpu_index, precision, threads] = device;
   archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
           interval);
@@ -161,12 +161,8 @@ RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint
   options.resume = given.resume;
   options.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint;
   if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
-  options.out = folder_of(options);
-  if (const auto& base = checkpoint.working_folder; !is_here_or_gone(base)) {
-    options.scene = base / options.scene;
-    options.out = base / options.out;
-  }
-  if (!given.out.empty()) options.out = given.out;
+  if (!is_here_or_gone(checkpoint.working_folder)) options.base = checkpoint.working_folder;
+  if (!given.out.empty()) options.out = options.base.empty() ? given.out : std::filesystem::absolute(given.out);
   if (given.device.kind != DeviceKind::automatic || given.device.gpu_index) {
     options.device.kind = given.device.kind;
     options.device.gpu_index = given.device.gpu_index;

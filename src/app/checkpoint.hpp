@@ -33,9 +33,9 @@ struct RunProgress {
 };
 
 struct Checkpoint {
-  std::string version;  // of pliant, with its commit
-  RunOptions options;   // as the run was begun, but for its device, which is the one that it had
-  std::filesystem::path working_folder;
+  std::string version;                   // of pliant, with its commit
+  RunOptions options;                    // as the run was begun, but for its device, which is the one that it had
+  std::filesystem::path working_folder;  // that their relative places are in
   std::string device_name;
   std::string scene_text;
   std::vector<std::uint64_t> mesh_checksums;  // by body

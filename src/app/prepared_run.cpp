@@ -22,7 +22,7 @@ void expect_one_of(const std::string& option, const std::string& key, const RunO
 }
 
 SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
-  SceneDescription scene = parse_scene(text, options.scene, options.overrides);
+  SceneDescription scene = parse_scene(text, scene_of(options), options.overrides);
   if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
   if (options.time_step) {
     expect_one_of("--time-step", "simulation.tolerance", options);
@@ -81,9 +81,9 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   auto prepared = std::make_unique<PreparedRun>();
   PreparedRun& run = *prepared;
   std::error_code gone;
-  run.working_folder = std::filesystem::current_path(gone);
+  run.working_folder = options.base.empty() ? std::filesystem::current_path(gone) : options.base;
   run.load_time.start();
-  run.scene_text = options.scene_text ? *options.scene_text : read_text(options.scene);
+  run.scene_text = options.scene_text ? *options.scene_text : read_text(scene_of(options));
   run.scene = describe_scene(run.scene_text, options);
   const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings);
   for (const BodySetup& setup : setups) run.mesh_checksums.push_back(checksum_of(setup.mesh));

@@ -14,7 +14,7 @@
 namespace pliant::app {
 
 struct PreparedRun {
-  std::filesystem::path working_folder;  // at the start; empty if it had gone by then
+  std::filesystem::path working_folder;  // that relative places are in; empty if it had gone at the start
   std::string scene_text;
   SceneDescription scene;
   std::vector<std::uint64_t> mesh_checksums;  // of each body's vertices and triangles

@@ -241,8 +241,10 @@ RunOptions drawable(RunOptions options) {
 
 }  // namespace
 
+std::filesystem::path scene_of(const RunOptions& options) { return options.base / options.scene; }
+
 std::filesystem::path folder_of(const RunOptions& options) {
-  return options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out;
+  return options.base / (options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out);
 }
 
 int run(const RunOptions& given) {

@@ -22,6 +22,7 @@ inline constexpr const char* summary_name = "summary.json";
 inline constexpr const char* output_names[] = {history_name, final_state_name, summary_name};
 
 struct RunOptions {
+  std::filesystem::path base;  // folder that `scene` and `out` are in where they are relative; empty: the current one
   std::filesystem::path scene;
   DeviceChoice device;
   std::optional<std::uint64_t> steps;
@@ -46,7 +47,8 @@ struct RunOptions {
 inline constexpr std::string_view options_beside_resume[] = {"--out", "--checkpoint", "--checkpoint-every", "--device",
                                                              "--gpu", "--precision",  "--threads",          "--quiet"};
 
-/// Where a run writes.
+/// The scene's file, and where a run writes.
+[[nodiscard]] std::filesystem::path scene_of(const RunOptions& options);
 [[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
 /// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp); what there is was written in each case. Throws

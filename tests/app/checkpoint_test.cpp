@@ -270,8 +270,7 @@ TEST_CASE("places of a run stay where they were for one who resumes it elsewhere
   CHECK(run_program(resumed, "cd " + moved.string() + " && ").exit_code == 0);
   CHECK(std::filesystem::exists(old / "out/summary.json"));
   std::filesystem::remove(moved);
-  std::filesystem::rename(old, moved);
-  std::filesystem::copy_file(moved / "c", folder.path / "c", std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::rename(old, moved);  // and the checkpoint is of a run that was resumed elsewhere
   std::filesystem::remove_all(moved / "out");
   const ProgramResult result = run_program(resumed, "cd " + moved.string() + " && ");
   CAPTURE(result.output);
@@ -279,6 +278,8 @@ TEST_CASE("places of a run stay where they were for one who resumes it elsewhere
   CHECK_THAT(result.output, Catch::Contains("going on with scene.toml at step 0, into out\n"));
   CHECK(std::filesystem::exists(moved / "out/summary.json"));
   CHECK_FALSE(std::filesystem::exists(old));
+  CHECK(run_program("run --resume c --out new", "cd " + folder.path.string() + " && ").exit_code == 0);
+  CHECK(std::filesystem::exists(folder.path / "new/summary.json"));
 }
 
 TEST_CASE("options that a resumed run can't follow, or that lack their counterpart, exit with 2") {
