@@ -62,9 +62,7 @@ class Run {
     keep_interrupted();
     history_.close();
     write_end();
-    end_frames();
-    if (report_.non_finite) return exit_non_finite;
-    return is_interrupted() ? exit_interrupted : 0;
+    return end_frames(report_.non_finite ? exit_non_finite : is_interrupted() ? exit_interrupted : 0);
   }
 
  private:
@@ -173,9 +171,19 @@ class Run {
     progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
   }
 
-  // At last: when a video can't be ended, all else is there.
-  void end_frames() {
-    frames_.close();
+  // At last: when a video can't be ended, all else is there. How the run itself ended says more than that.
+  int end_frames(int exit_code) {
+    try {
+      frames_.close();
+      show_frames();
+    } catch (const Error& error) {
+      if (exit_code == 0) throw;
+      fmt::print(stderr, "pliant: {}\n", error.what());
+    }
+    return exit_code;
+  }
+
+  void show_frames() const {
     if (options_.quiet || frames_.count() == 0) return;
     if (options_.video.empty())
       fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());

@@ -24,12 +24,15 @@ struct Drawn {
   std::string scene = (folder.path / "scene.toml").string(), video = (folder.path / "out.mp4").string();
   Drawn() {
     std::ofstream(scene) << "[simulation]\ntime_step = 0.002\nduration = 0.1\n[output]\nsize = [64, 48]\n"
-                            "[[body]]\nmesh = \"icosphere:1\"\nvelocity = [1, 0, 0]\n";
+                            "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\nvelocity = [1, 0, 0]\n";
   }
   std::filesystem::path bin() const { return folder.path / "bin"; }
   std::string input() const { return read_text(bin() / "ffmpeg.input"); }
   ProgramResult run(const std::string& options = "", const std::string& before = "") const {
     return run_program("run " + scene + " --device cpu --out " + folder.path.string() + " --video " + video + options, before);
+  }
+  std::vector<std::string> endless() const {
+    return {"run", scene, "--device", "cpu", "--out", folder.path.string(), "--video", video, "--steps", "100000000"};
   }
   nlohmann::json summary() const { return nlohmann::json::parse(read_text(folder.path / "summary.json")); }
 };
@@ -82,6 +85,22 @@ TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
   CHECK(drawn.summary()["steps"] == 50);
 }
 
+TEST_CASE("a run that goes non-finite or is interrupted exits so, whatever became of its video", "[gl]") {
+  if (gl::list_adapters().empty()) return;
+  const Drawn drawn;
+  const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho no room left >&2\nexit 1\n");
+  const ProgramResult broken = drawn.run(
+      " --integrator rk4 --set simulation.damping_law=none --time-step 1 --steps 5000 --set body.ball.stretch=[1.1,1,1]");
+  CAPTURE(broken.output);
+  CHECK(broken.exit_code == 5);
+  CHECK_THAT(broken.output, Catch::Contains("ffmpeg failed: no room left"));
+  ProgramInTerminal program(drawn.endless());
+  REQUIRE(program.has_shown_progress(3));
+  const ProgramResult interrupted = program.end_by(SIGINT);
+  CHECK(interrupted.exit_code == 130);
+  CHECK_THAT(interrupted.output, Catch::Contains("ffmpeg failed: no room left"));
+}
+
 TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning at once", "[gl]") {
   if (gl::list_adapters().empty()) return;
   const Drawn drawn;
@@ -99,8 +118,7 @@ TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpe
   if (gl::list_adapters().empty()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
-  ProgramInTerminal program({"run", drawn.scene, "--device", "cpu", "--out", drawn.folder.path.string(), "--video", drawn.video,
-                             "--steps", "100000000"});
+  ProgramInTerminal program(drawn.endless());
   REQUIRE(program.has_shown_progress(3));
   const ProgramResult result = program.end_by(SIGINT);
   CAPTURE(result.output);
