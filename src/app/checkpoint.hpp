@@ -18,7 +18,7 @@ namespace pliant::app {
 
 /// Where the wall time goes.
 struct RunTimes {
-  Stopwatch stepping, measuring, writing, saving;
+  Stopwatch loading, building, stepping, measuring, writing, saving;
 };
 
 /// What a run knows beside its simulation.

@@ -44,7 +44,10 @@ class Run {
         checkpoints_(options, from ? std::move(from->lock) : nullptr),
         history_(from ? HistoryFile(folder_ / history_name, std::move(from->checkpoint.history))
                       : HistoryFile(folder_ / history_name)),
-        before_row_{progress_, history_.text().size()} {}
+        before_row_{progress_, history_.text().size()} {
+    progress_.times.loading.add(prepared.load_time);
+    progress_.times.building.add(prepared.build_time);
+  }
 
   int execute() {
     if (options_.timings) run_.simulation->time_passes();

@@ -8,6 +8,7 @@ class Stopwatch {
  public:
   void start() { begin_ = Clock::now(); }
   void stop() { total_ += Clock::now() - begin_; }
+  void add(const Stopwatch& other) { total_ += other.total_; }
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(total_).count(); }
 
   /// Times one call and returns what it returns.

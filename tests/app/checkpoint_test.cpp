@@ -249,6 +249,14 @@ TEST_CASE("a run begun by a pliant of another version or another commit goes on 
   }
 }
 
+TEST_CASE("the times of loading and building are sums over all parts of a run, as others are") {
+  const Begun begun;
+  const auto timings = [&] { return nlohmann::json::parse(read_text(begun.folder.path / "out/summary.json"))["timings_ms"]; };
+  const auto before = timings();
+  REQUIRE(begun.resume().exit_code == 0);
+  for (const char* part : {"load", "build"}) CHECK(timings()[part] > before[part]);
+}
+
 TEST_CASE("a run can go on in another folder, with the whole history") {
   const Begun begun;
   const auto out = begun.folder.path / "out", other = begun.folder.path / "other";
