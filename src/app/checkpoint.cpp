@@ -17,7 +17,7 @@ namespace pliant::app {
 namespace {
 
 // These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
-static_assert(checkpoint_version == 5 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
+static_assert(checkpoint_version == 6 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
                   sizeof(physics::Pace) == 160 && sizeof(RunProgress) == 280 && physics::slot_count == 3,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
@@ -50,9 +50,7 @@ bool is_here_or_gone(const std::filesystem::path& folder) {
   return folder == std::filesystem::current_path(failure) || !std::filesystem::is_directory(folder, failure);
 }
 
-bool names_device(const RunOptions& given) {
-  return given.device.kind != DeviceKind::automatic || given.device.gpu_index || given.device.precision;
-}
+bool names_device(const RunOptions& given) { return given.device.kind || given.device.gpu_index || given.device.precision; }
 
 void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
   const std::vector<std::uint64_t>&before = checkpoint.mesh_checksums, &now = run.mesh_checksums;
@@ -163,10 +161,10 @@ RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint
   if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
   if (!is_here_or_gone(checkpoint.working_folder)) options.base = checkpoint.working_folder;
   if (!given.out.empty()) options.out = options.base.empty() ? given.out : std::filesystem::absolute(given.out);
-  if (given.device.kind != DeviceKind::automatic || given.device.gpu_index) {
+  if (given.device.kind || given.device.gpu_index) {
     options.device.kind = given.device.kind;
     options.device.gpu_index = given.device.gpu_index;
-    if (given.device.kind != DeviceKind::cpu) options.device.precision.reset();  // a GPU has one of its own
+    if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) options.device.precision.reset();  // it has its own
   }
   if (given.device.precision) options.device.precision = given.device.precision;
   if (given.device.threads != 0) options.device.threads = given.device.threads;

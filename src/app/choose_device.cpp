@@ -4,6 +4,14 @@
 #include "device/gpu/gpu_device.hpp"
 
 namespace pliant::app {
+namespace {
+
+// Where none is asked for.
+bool may_be_gpu(const DeviceChoice& choice) {
+  return choice.kind.value_or(DeviceKind::automatic) == DeviceKind::automatic && choice.precision.value_or(32) == 32;
+}
+
+}  // namespace
 
 void expect_consistent(const DeviceChoice& choice) {
   const bool gpu = choice.kind == DeviceKind::gpu || choice.gpu_index;
@@ -22,15 +30,13 @@ bool has_hardware_gpu() {
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   expect_consistent(choice);
   const bool asked = choice.kind == DeviceKind::gpu || choice.gpu_index;
-  const bool found = choice.kind == DeviceKind::automatic && choice.precision.value_or(32) == 32 && !asked && has_hardware_gpu();
-  if (asked || found) return make_gpu_device(choice.gpu_index.value_or(0));
+  if (asked || (may_be_gpu(choice) && has_hardware_gpu())) return make_gpu_device(choice.gpu_index.value_or(0));
   return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& window) {
   expect_consistent(choice);
-  const bool fits = choice.kind == DeviceKind::automatic && choice.precision.value_or(32) == 32 && !window.adapter().is_software;
-  if (fits || choice.kind == DeviceKind::gpu) return make_gpu_device(window);
+  if ((may_be_gpu(choice) && !window.adapter().is_software) || choice.kind == DeviceKind::gpu) return make_gpu_device(window);
   return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 

@@ -11,10 +11,10 @@ namespace pliant::app {
 enum class DeviceKind { automatic, cpu, gpu };
 
 struct DeviceChoice {
-  DeviceKind kind = DeviceKind::automatic;
-  std::optional<int> gpu_index;  // of gl::list_adapters()
-  std::optional<int> precision;  // of the forces [bits]; empty: 32
-  unsigned threads = 0;          // 0: one a processor
+  std::optional<DeviceKind> kind;  // empty: automatic, or what a run had that is resumed
+  std::optional<int> gpu_index;    // of gl::list_adapters()
+  std::optional<int> precision;    // of the forces [bits]; empty: 32
+  unsigned threads = 0;            // 0: one a processor
 };
 
 [[nodiscard]] bool has_hardware_gpu();

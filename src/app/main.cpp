@@ -74,7 +74,7 @@ void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std
 }
 
 void add_device(CLI::App& command, app::DeviceChoice& choice) {
-  add_choice<app::DeviceKind>(
+  add_choice<std::optional<app::DeviceKind>>(
       command, "--device", choice.kind,
       {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
       "Where to simulate (default auto: a hardware GPU, else the CPU)");

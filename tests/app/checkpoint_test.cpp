@@ -204,12 +204,14 @@ TEST_CASE("a run is not resumed with other bodies") {
 TEST_CASE("a run goes on on another device or at another precision only if told to, with a warning") {
   const Begun begun;
   const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
-  begun.replace(device, std::string(device.size(), 'x'));
-  begun.check_refused(4, "its bits would differ");
-  const ProgramResult told = begun.resume(" --device cpu");
-  CHECK(told.exit_code == 0);
-  CHECK_THAT(told.output,
-             Catch::Contains("warning: up to step 100 the run was on xxx") && Catch::Contains("its bits differ from there on"));
+  for (const char* kind : {"auto", "cpu"}) {
+    begun.replace(device, std::string(device.size(), 'x'));
+    begun.check_refused(4, "its bits would differ");
+    const ProgramResult told = begun.resume(std::string(" --device ") + kind);
+    CHECK(told.exit_code == 0);
+    CHECK_THAT(told.output,
+               Catch::Contains("warning: up to step 100 the run was on xxx") && Catch::Contains("its bits differ from there on"));
+  }
   const ProgramResult whole = Begun().resume(" --precision 64");
   CHECK(whole.exit_code == 0);
   CHECK_THAT(whole.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
@@ -235,6 +237,12 @@ TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]"
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("at precision 64, and goes on on") && Catch::Contains("at precision 32"));
+}
+
+TEST_CASE("a run at precision 64 stays so on the device that fits best, which is the CPU") {
+  const ProgramResult result = Begun("icosphere:1", " --precision 64").resume(" --device auto");
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.empty());
 }
 
 TEST_CASE("a run begun by a pliant of another version or another commit goes on with a warning") {
