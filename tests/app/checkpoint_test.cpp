@@ -7,9 +7,9 @@
 
 #include "core/read_text.hpp"
 #include "core/version.hpp"
-#include "gl/context.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/file_lock.hpp"
+#include "support/has.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -89,7 +89,7 @@ TEST_CASE("a killed run is resumed with the options it had, in either precision 
 }
 
 TEST_CASE("a run on the GPU that is killed and resumed ends as one that is not, to the bit", "[gl][long]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   check_killed_run(verlet, " --device gpu --duration 3");
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("warnings stay with a run, however often it is resumed, and are told o
 }
 
 TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const ProgramResult result = Begun("icosphere:1", " --precision 64").resume(" --device gpu");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/read_text.hpp"
-#include "gl/context.hpp"
+#include "support/has.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/stand_in.hpp"
@@ -40,7 +40,7 @@ struct Drawn {
 const std::string recorder = "printf '%s\\n' \"$@\" > \"$0.arguments\"\ncat > \"$0.input\"\necho whole > \"$0.end\"\n";
 
 TEST_CASE("a video gets a picture a frame at the scene's size and rate, and no frames are written", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   const ProgramResult result = drawn.run();
@@ -55,7 +55,7 @@ TEST_CASE("a video gets a picture a frame at the scene's size and rate, and no f
 }
 
 TEST_CASE("where steps are longer than frames, a second of video is a second all the same", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   REQUIRE(drawn.run(" --set output.frame_rate=1000 --steps 10").exit_code == 0);
@@ -64,7 +64,7 @@ TEST_CASE("where steps are longer than frames, a second of video is a second all
 }
 
 TEST_CASE("without ffmpeg a run says so and writes PNG frames", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const ProgramResult result = drawn.run("", "PATH=" + drawn.bin().string() + " ");
   CAPTURE(result.output);
@@ -76,7 +76,7 @@ TEST_CASE("without ffmpeg a run says so and writes PNG frames", "[gl]") {
 }
 
 TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho some line >&2\necho no room left >&2\nexit 1\n");
   const ProgramResult result = drawn.run();
@@ -86,7 +86,7 @@ TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
 }
 
 TEST_CASE("a run that goes non-finite or is interrupted exits so, whatever became of its video", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho no room left >&2\nexit 1\n");
   const ProgramResult broken = drawn.run(
@@ -102,7 +102,7 @@ TEST_CASE("a run that goes non-finite or is interrupted exits so, whatever becam
 }
 
 TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning at once", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "head -c 20000 > /dev/null\necho no room left >&2\nexit 1\n");
   const ProgramResult result = drawn.run(" --steps 1000");
@@ -115,7 +115,7 @@ TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning 
 }
 
 TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpeg end by itself", "[gl]") {
-  if (gl::list_adapters().empty()) return;
+  if (!test::has_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   ProgramInTerminal program(drawn.endless());

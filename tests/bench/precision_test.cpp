@@ -13,9 +13,9 @@
 #include "bench/precision_cheapest.hpp"
 #include "bench/precision_report.hpp"
 #include "bench/precision_sweeps.hpp"
-#include "gl/context.hpp"
 #include "mesh/generators.hpp"
 #include "simulation/simulation.hpp"
+#include "support/has.hpp"
 #include "support/paths.hpp"
 
 namespace pliant::bench {
@@ -191,7 +191,7 @@ TEST_CASE("an adaptive row's error is near what its tolerance asks") {
 
 TEST_CASE("no adaptive row asks more than fp32 carries of it, on any device", "[gl]") {
   for (const char* device : {"cpu", "gpu"}) {
-    if (device == std::string("gpu") && gl::list_adapters().empty()) continue;
+    if (device == std::string("gpu") && !test::has_gl()) continue;
     double tightest = 1;
     for (const PrecisionRow& row : rows_of_tolerances(squashed_sphere(DampingLaw::none), {.device = device, .precision = 32})) {
       CAPTURE(device, row.method, row.tolerance);

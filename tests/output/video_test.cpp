@@ -6,6 +6,7 @@
 
 #include "core/read_text.hpp"
 #include "support/expect_error.hpp"
+#include "support/has.hpp"
 #include "support/scratch.hpp"
 #include "support/stand_in.hpp"
 
@@ -66,7 +67,7 @@ std::string probed(const std::filesystem::path& video) {
 }
 
 TEST_CASE("the ffmpeg that is installed makes a video of every picture, with even sizes, in every container") {
-  if (!VideoFile::has_encoder() || !find_program("ffprobe")) return;
+  if (!test::has("ffmpeg", VideoFile::has_encoder()) || !test::has("ffprobe", find_program("ffprobe").has_value())) return;
   const ScratchFolder folder;
   for (const std::string name : {"a.mp4", "a.mkv", "a.mov"}) {
     VideoFile video(folder.path / name, {7, 5, 50});
