@@ -111,6 +111,36 @@ void expect_no_output(const std::filesystem::path& file, const std::filesystem::
                   "name another place");
 }
 
+void take_out(RunOptions& run, const RunOptions& given) {
+  if (!given.out.empty()) run.out = run.base.empty() ? given.out : std::filesystem::absolute(given.out);
+}
+
+void take_device(RunOptions& run, const RunOptions& given) {
+  if (!given.device.kind && !given.device.gpu_index) return;
+  run.device.kind = given.device.kind;
+  run.device.gpu_index = given.device.gpu_index;
+  if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) run.device.precision.reset();  // it has its own
+}
+
+void take_threads(RunOptions& run, const RunOptions& given) {
+  if (given.device.threads != 0) run.device.threads = given.device.threads;
+}
+
+template <class T>
+void take(std::optional<T>& had, const std::optional<T>& given) {
+  if (given) had = given;
+}
+
+constexpr OptionBesideResume beside_resume[] = {
+    {"--out", take_out},
+    {"--checkpoint", [](auto& run, auto& given) { run.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint; }},
+    {"--checkpoint-every", [](auto& run, auto& given) { take(run.checkpoint_interval, given.checkpoint_interval); }},
+    {"--device", take_device},
+    {"--gpu", take_device},
+    {"--precision", [](auto& run, auto& given) { take(run.device.precision, given.device.precision); }},
+    {"--threads", take_threads},
+    {"--quiet", [](auto& run, auto& given) { run.quiet = given.quiet; }}};
+
 }  // namespace
 
 Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunProgress& progress, const std::string& history) {
@@ -153,23 +183,15 @@ Resumed load_resumed(const RunOptions& given) {
   return {std::move(checkpoint), goes_on_there ? std::move(lock) : nullptr};
 }
 
+std::span<const OptionBesideResume> options_beside_resume() { return beside_resume; }
+
 RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint) {
-  RunOptions options = checkpoint.options;
-  options.scene_text = checkpoint.scene_text;
-  options.resume = given.resume;
-  options.checkpoint = given.checkpoint.empty() ? given.resume : given.checkpoint;
-  if (given.checkpoint_interval) options.checkpoint_interval = given.checkpoint_interval;
-  if (!is_here_or_gone(checkpoint.working_folder)) options.base = checkpoint.working_folder;
-  if (!given.out.empty()) options.out = options.base.empty() ? given.out : std::filesystem::absolute(given.out);
-  if (given.device.kind || given.device.gpu_index) {
-    options.device.kind = given.device.kind;
-    options.device.gpu_index = given.device.gpu_index;
-    if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) options.device.precision.reset();  // it has its own
-  }
-  if (given.device.precision) options.device.precision = given.device.precision;
-  if (given.device.threads != 0) options.device.threads = given.device.threads;
-  options.quiet = given.quiet;
-  return options;
+  RunOptions run = checkpoint.options;
+  run.scene_text = checkpoint.scene_text;
+  run.resume = given.resume;
+  if (!is_here_or_gone(checkpoint.working_folder)) run.base = checkpoint.working_folder;
+  for (const OptionBesideResume& option : beside_resume) option.take(run, given);
+  return run;
 }
 
 void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& run) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,9 +62,15 @@ struct Resumed {
 /// Reads the file that `given` resumes. Throws Error: command_line while another run writes it, input when it is no checkpoint.
 [[nodiscard]] Resumed load_resumed(const RunOptions& given);
 
-/// The options by which the run goes on that `given` resumes: those it was begun with, but for where `given` names another
-/// device, precision, number of threads, place or interval. Relative places are in the folder that the run was begun in, or in
-/// this one where that is gone.
+/// An option that may stand beside --resume; any other one is refused.
+struct OptionBesideResume {
+  std::string_view name;
+  void (*take)(RunOptions& run, const RunOptions& given);  // puts what is given, if it is, for what the run was begun with
+};
+[[nodiscard]] std::span<const OptionBesideResume> options_beside_resume();
+
+/// The options by which the run goes on that `given` resumes: those it was begun with, but for those beside --resume. Relative
+/// places are in the folder that the run was begun in, or in this one where that is gone.
 [[nodiscard]] RunOptions resumed_options(const RunOptions& given, const Checkpoint& checkpoint);
 
 /// Puts the prepared run where the checkpoint stood, with the warnings that it had. Throws Error: input, when a mesh has changed;

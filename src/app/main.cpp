@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <iterator>
 #include <new>
 #include <utility>
 
 #include "app/bench_command.hpp"
+#include "app/checkpoint.hpp"
 #include "app/info_command.hpp"
 #include "app/run_command.hpp"
 #include "app/view_command.hpp"
@@ -89,61 +89,81 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
       ->take_all();
 }
 
-void add_run(CLI::App& program, app::RunOptions& options) {
-  CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
-  CLI::Option* scene = run->add_option("scene", options.scene, "Scene file (TOML)");
-  add_device(*run, options.device);
-  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")
-      ->transform(whole_number(0, 1000000));
-  CLI::Option* steps = run->add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
+void add_length(CLI::App& run, app::RunOptions& options) {
+  CLI::Option* steps = run.add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->transform(whole_number(0, 300'000'000));
-  run->add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
-  CLI::Option* time_step = run->add_option("--time-step", options.time_step, "Length of a step [s]");
-  time_step->check(number(1e-30, 1e30));
-  run->add_option("--tolerance", options.tolerance, "Largest error of a step, by which steps then find their length")
+  run.add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
+  CLI::Option* time_step = run.add_option("--time-step", options.time_step, "Length of a step [s]")->check(number(1e-30, 1e30));
+  run.add_option("--tolerance", options.tolerance, "Largest error of a step, by which steps then find their length")
       ->check(number(1e-14, 0.1))
       ->excludes(time_step)
       ->excludes(steps);
-  run->add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
-  add_overrides(*run, options.overrides);
-  run->add_option("--out", options.out, "Folder to write (default out/SCENE)")->check(not_empty());
-  add_choice<FrameFormat>(*run, "--frames", options.frames,
+  run.add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
+}
+
+void add_outputs(CLI::App& run, app::RunOptions& options) {
+  run.add_option("--out", options.out, "Folder to write (default out/SCENE)")->check(not_empty());
+  add_choice<FrameFormat>(run, "--frames", options.frames,
                           {{"none", FrameFormat::none},
                            {"png", FrameFormat::png},
                            {"obj", FrameFormat::obj},
                            {"ply", FrameFormat::ply},
                            {"vtk", FrameFormat::vtk}},
                           "What to write for each frame (default none)");
-  CLI::Option* video =
-      run->add_option("--video", options.video,
-                      "Video file to draw frames into: mp4, mkv or mov (needs ffmpeg; without it PNG frames are written)");
-  video->check(not_empty())->excludes(run->get_option("--frames"));
+  run.add_option("--video", options.video,
+                 "Video file to draw frames into: mp4, mkv or mov (needs ffmpeg; without it PNG frames are written)")
+      ->check(not_empty())
+      ->excludes(run.get_option("--frames"));
+}
+
+void add_checkpoints(CLI::App& run, app::RunOptions& options) {
   CLI::Option* checkpoint =
-      run->add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
+      run.add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
           ->check(not_empty());
-  CLI::Option* interval = run->add_option("--checkpoint-every", options.checkpoint_interval,
-                                          "Wall time between checkpoints [s]: how much work a crash may cost (default 300)");
-  interval->check(number(0, 1e9));
-  CLI::Option* resume = run->add_option("--resume", options.resume,
-                                        "Checkpoint to go on from, instead of a scene: the run is the one that was begun, to the "
-                                        "bit, and goes on writing checkpoints there");
-  resume->check(not_empty());
-  CLI::Option* timings =
-      run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little");
-  for (CLI::Option* option : {timings, video}) option->excludes(checkpoint);
+  checkpoint->excludes(run.get_option("--video"));
+  run.add_option("--checkpoint-every", options.checkpoint_interval,
+                 "Wall time between checkpoints [s]: how much work a crash may cost (default 300)")
+      ->check(number(0, 1e9));
+  run.add_option(
+         "--resume", options.resume,
+         "Checkpoint to go on from, instead of a scene: the run is the one that was begun, to the bit, and goes on writing "
+         "checkpoints there")
+      ->check(not_empty());
+}
+
+void refuse_beside_resume(CLI::App& run) {
+  CLI::Option* resume = run.get_option("--resume");
+  const auto allowed = app::options_beside_resume();
+  const auto is_refused = [&](const CLI::Option* option) {
+    return option != resume && option != run.get_help_ptr() &&
+           std::ranges::find(allowed, option->get_name(), &app::OptionBesideResume::name) == allowed.end();
+  };
+  for (CLI::Option* option : run.get_options(is_refused)) resume->excludes(option);
+}
+
+void expect_beginning(const CLI::App& run) {
+  const auto is_given = [&](const char* name) { return run.count(name) > 0; };
+  if (!is_given("scene") && !is_given("--resume")) throw CLI::RequiredError("scene, or --resume,");
+  if (is_given("--checkpoint-every") && !is_given("--checkpoint") && !is_given("--resume"))
+    throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
+}
+
+void add_run(CLI::App& program, app::RunOptions& options) {
+  CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
+  run->add_option("scene", options.scene, "Scene file (TOML)");
+  add_device(*run, options.device);
+  run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")
+      ->transform(whole_number(0, 1000000));
+  add_length(*run, options);
+  add_overrides(*run, options.overrides);
+  add_outputs(*run, options);
+  add_checkpoints(*run, options);
+  run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little")
+      ->excludes(run->get_option("--checkpoint"));
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
-  const auto is_refused = [run, resume](const CLI::Option* option) {
-    const auto* end = std::end(app::options_beside_resume);
-    return option != resume && option != run->get_help_ptr() &&
-           std::find(std::begin(app::options_beside_resume), end, option->get_name()) == end;
-  };
-  for (CLI::Option* option : run->get_options(is_refused)) resume->excludes(option);
-  run->callback([scene, resume, checkpoint, interval] {
-    if (scene->empty() && resume->empty()) throw CLI::RequiredError("scene, or --resume,");
-    if (!interval->empty() && checkpoint->empty() && resume->empty())
-      throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
-  });
+  refuse_beside_resume(*run);
+  run->callback([run] { expect_beginning(*run); });
 }
 
 void add_view(CLI::App& program, app::ViewOptions& options) {

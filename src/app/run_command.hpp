@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/choose_device.hpp"
@@ -42,10 +41,6 @@ struct RunOptions {
   bool check = false;                     // validate and estimate only
   bool quiet = false;
 };
-
-/// Those that may stand beside --resume, which resumed_options() in checkpoint.hpp follows; any other one is refused.
-inline constexpr std::string_view options_beside_resume[] = {"--out", "--checkpoint", "--checkpoint-every", "--device",
-                                                             "--gpu", "--precision",  "--threads",          "--quiet"};
 
 /// The scene's file, and where a run writes.
 [[nodiscard]] std::filesystem::path scene_of(const RunOptions& options);
