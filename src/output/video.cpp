@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "core/extension.hpp"
 #include "output/file.hpp"
 
 namespace pliant {
@@ -19,10 +17,8 @@ Error failed(const std::filesystem::path& path, const ProgramPipe::End& end) {
 
 // Others that ffmpeg knows have no H.264, or no good place for it; it says so only when it has begun the file.
 void expect_container(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* known : {".mp4", ".mkv", ".mov"})
-    if (ending == known) return;
+    if (extension_of(path) == known) return;
   throw Error(ErrorKind::command_line, path.string(), "is no place for H.264 by its ending", "name it .mp4, .mkv or .mov");
 }
 

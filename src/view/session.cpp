@@ -1,12 +1,12 @@
 #include "view/session.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "core/extension.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -15,11 +15,7 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a step or a frame, by which its time may seem to be later than a goal
 
-bool is_obj(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".obj";
-}
+bool is_obj(const std::filesystem::path& file) { return extension_of(file) == ".obj"; }
 
 SceneDescription lone_body(const std::filesystem::path& file) {
   SceneDescription scene;
