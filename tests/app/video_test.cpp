@@ -1,7 +1,11 @@
 // `pliant run --video`, with a script in ffmpeg's place.
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/read_text.hpp"
@@ -126,6 +130,19 @@ TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpe
   CHECK(read_text(drawn.bin() / "ffmpeg.end") == "whole\n");
   CHECK(drawn.input().size() > 0);
   CHECK(drawn.input().size() % picture_bytes == 0);
+}
+
+// It waits for its end, which comes with the last writer of a pipe: the test's own.
+TEST_CASE("Ctrl-C again a second later ends a run that waits for an ffmpeg without end", "[gl]") {
+  if (!test::has_gl()) return;
+  const Drawn drawn;
+  const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat \"$0.pipe\" > /dev/null\n");
+  const std::string pipe = (drawn.bin() / "ffmpeg.pipe").string();
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> writer(std::fopen(pipe.c_str(), "r+e"), std::fclose);
+  ProgramInTerminal program(drawn.endless());
+  REQUIRE(program.has_shown_progress(3));
+  CHECK(program.end_by_repeated(SIGINT).exit_code == 130);
 }
 
 TEST_CASE("a video goes with no other frames and with no checkpoint") {

@@ -1,5 +1,6 @@
 #include "support/program.hpp"
 
+#include <poll.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -73,6 +74,16 @@ ProgramResult ProgramInTerminal::end_by(int signal) {
   waitpid(child_, &status, 0);
   child_ = 0;
   return {exit_code_of(status), output_};
+}
+
+ProgramResult ProgramInTerminal::end_by_repeated(int signal) {
+  pollfd shown{terminal_, POLLIN, 0};
+  for (int silences = 0; silences < 600; ++silences) {
+    kill(-child_, signal);
+    while (poll(&shown, 1, 100) > 0)
+      if (!read_more()) return end_by(signal);  // it has ended
+  }
+  return end_by(SIGKILL);
 }
 
 std::string shipped_scene(const std::string& name) { return source_dir() + "/scenes/" + name + ".toml"; }

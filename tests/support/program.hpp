@@ -28,6 +28,8 @@ class ProgramInTerminal {
   [[nodiscard]] bool has_shown_progress(int times);
   /// Sends the signal as a terminal does, to the program and what it has started in its group, and waits for the end.
   ProgramResult end_by(int signal);
+  /// Sends it again and again, whenever the program has been silent for a moment. After a minute of that the program is killed.
+  ProgramResult end_by_repeated(int signal);
 
  private:
   bool read_more();
