@@ -1,6 +1,7 @@
 // Scenes that go on, back and back to the start, on every device and without a window.
 #include "view/session.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
@@ -209,6 +210,28 @@ TEST_CASE("settings change while a scene plays, from the state as it stands", "[
       CHECK(session.settings() == settings);
     });
   }
+}
+
+TEST_CASE("a change of settings begins all counts anew", "[gl]") {
+  LoadedScene scene = colliding();
+  const ModelBody& second = scene.start.model.bodies[1];
+  std::fill_n(scene.start.state.motion.begin() + 6 * second.first_vertex, 6 * second.vertex_count, 0.0);  // it needs no forces
+  on_every_device([&](Device& device) {
+    Session session(device, scene);
+    session.advance_toward(0.06, 100);
+    REQUIRE(session.report().force_evaluations > 0);
+    REQUIRE(session.report().forces_skipped > 0);
+    REQUIRE(session.report().frame_changes > 0);
+    Settings settings = session.settings();
+    settings.elasticity = 0.5;
+    session.change(settings);
+    const StepReport& report = session.report();
+    CHECK(report.steps == 0);
+    CHECK(report.force_evaluations == 0);
+    CHECK(report.pair_interactions == 0);
+    CHECK(report.forces_skipped == 0);
+    CHECK(report.frame_changes == 0);
+  });
 }
 
 TEST_CASE("changed settings are those of a scene that has them from the start") {
