@@ -48,6 +48,12 @@ Session::Session(Device& device, LoadedScene scene, std::size_t most_history_byt
 
 double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }
 
+std::optional<NonFinite> Session::non_finite() const {
+  std::optional<NonFinite> found = report_.non_finite;
+  if (found) found->step += base_step_;
+  return found;
+}
+
 std::uint64_t Session::next_frame() const {
   return static_cast<std::uint64_t>(std::floor(time() * plan_.frame_rate + rounding)) + 1;
 }

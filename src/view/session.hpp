@@ -50,10 +50,10 @@ class Session {
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const History& history() const { return history_; }
   [[nodiscard]] std::uint64_t step() const { return base_step_ + report_.steps; }
-  [[nodiscard]] const StepReport& report() const { return report_; }  // since the latest start, or change of settings
+  [[nodiscard]] const StepReport& report() const { return report_; }  // since the latest start or change of settings
   [[nodiscard]] double time() const;                                  // of the state [s]
   [[nodiscard]] const TimePlan& plan() const { return plan_; }
-  [[nodiscard]] const std::optional<NonFinite>& non_finite() const { return report_.non_finite; }
+  [[nodiscard]] std::optional<NonFinite> non_finite() const;  // its step counts as step() does
 
   /// Whether there is a step to make for the state at `time` [s]: the next one or, with a tolerance, the next frame, which is
   /// where steps end then whenever they are made. Never after a step that was not finite.

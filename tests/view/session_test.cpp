@@ -309,6 +309,19 @@ TEST_CASE("after a step that is not finite nothing is due, and one can go back b
   CHECK_FALSE(session.non_finite());
 }
 
+TEST_CASE("after a change of settings, too, a step that is not finite has the number that the session gives it") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, colliding());
+  session.advance_toward(0.02, 100);
+  REQUIRE(session.step() == 10);
+  Settings settings = session.settings();
+  settings.time_step = 1e30;
+  session.change(settings);
+  for (int k = 0; k < 10 && !session.non_finite(); ++k) session.step_once();
+  REQUIRE(session.non_finite());
+  CHECK(session.non_finite()->step == session.step());
+}
+
 TEST_CASE("an OBJ file is a scene of one body at rest") {
   const LoadedScene scene = load(source_dir() + "/meshes/teapot.obj");
   CHECK(scene.description.title == "teapot");
