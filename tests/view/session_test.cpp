@@ -290,6 +290,20 @@ TEST_CASE("a session's history stays within its memory") {
   CHECK(steps_back + 1 == static_cast<int>(session.history().size()));
 }
 
+TEST_CASE("going back over long ways between states leaves the older ones their room") {
+  const auto device = make_cpu_device(1, 32);
+  const std::size_t one = Session(*device, colliding()).history().bytes();
+  Session session(*device, colliding(), 50 * one);
+  for (const double time : {0.16, 0.32, 0.48}) {
+    session.advance_toward(time, 80);
+    session.record();
+  }
+  REQUIRE(session.step() == 240);
+  std::uint64_t steps_back = 0;
+  for (; session.step_back(); ++steps_back) CHECK(session.step() == 239 - steps_back);
+  CHECK(steps_back == 240);
+}
+
 TEST_CASE("after a step that is not finite nothing is due, and one can go back before it") {
   const auto device = make_cpu_device(1, 32);
   LoadedScene scene = colliding();
