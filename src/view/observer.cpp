@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/stopwatch.hpp"
+#include "core/thread_pool.hpp"
 
 namespace pliant::view {
 
@@ -18,12 +19,20 @@ void Observer::look(Session& session, double now) {
   if (now < next_ || session.non_finite()) return;
   Stopwatch watch;
   watch.start();
-  if (session.step() != steps_before_ || observation_.energy.values().empty()) {
-    measure_energy(session);
-    count(session);
-  }
+  if (!before_ || session.step() != before_->step) take_sample(session);
   watch.stop();
   next_ = now + std::max(interval, watch.seconds() / largest_share);
+}
+
+Observer::Counts Observer::count(Session& session) {
+  return {session.step(), session.report().reverted_vertices, session.stepping(), session.simulation().pass_seconds()};
+}
+
+void Observer::take_sample(Session& session) {
+  measure_energy(session);
+  const Counts after = count(session);
+  if (before_) note_steps(*before_, after);
+  before_ = after;
 }
 
 // On one thread: the others belong to the device.
@@ -37,25 +46,17 @@ void Observer::measure_energy(Session& session) {
   if (observation_.energy_is_known) observation_.energy.add(measured.energy());
 }
 
-void Observer::count(Session& session) {
-  const std::uint64_t steps = session.step(), reverted = session.report().reverted_vertices;
-  const bool goes_on = steps >= steps_before_ && reverted >= reverted_before_;
-  observation_.touching.add(goes_on ? static_cast<double>(reverted - reverted_before_) : 0);
-  if (steps > steps_before_) {
-    observation_.step_milliseconds = 1e3 * stepping_seconds_ / static_cast<double>(steps - steps_before_);
-    note_passes(session.simulation(), steps - steps_before_);
-  }
-  steps_before_ = steps;
-  reverted_before_ = reverted;
-  stepping_seconds_ = 0;
-}
-
-void Observer::note_passes(const Simulation& simulation, std::uint64_t steps) {
+void Observer::note_steps(const Counts& before, const Counts& after) {
+  const bool goes_on = after.step >= before.step && after.touching >= before.touching;
+  observation_.touching.add(goes_on ? static_cast<double>(after.touching - before.touching) : 0);
+  const auto steps = static_cast<double>(after.stepping.steps - before.stepping.steps);
+  if (steps == 0) return;
+  observation_.step_milliseconds = 1e3 * (after.stepping.seconds - before.stepping.seconds) / steps;
   observation_.passes.clear();
-  for (const auto& [name, seconds] : simulation.pass_seconds()) {
-    const double taken = seconds - pass_seconds_before_[name];
-    pass_seconds_before_[name] = seconds;
-    if (taken > 0) observation_.passes.push_back({std::string(name), 1e3 * taken / static_cast<double>(steps)});
+  for (const auto& [name, seconds] : after.pass_seconds) {
+    const auto earlier = before.pass_seconds.find(name);
+    const double taken = seconds - (earlier == before.pass_seconds.end() ? 0 : earlier->second);
+    if (taken > 0) observation_.passes.push_back({std::string(name), 1e3 * taken / steps});
   }
   std::ranges::sort(observation_.passes, std::ranges::greater(), &PassTime::milliseconds);
 }

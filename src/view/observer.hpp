@@ -1,11 +1,11 @@
 // What a viewer tells of a simulation: read back, measured and kept only while somebody looks.
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/thread_pool.hpp"
 #include "simulation/measure.hpp"
 #include "view/session.hpp"
 
@@ -30,9 +30,9 @@ struct PassTime {
 struct Observation {
   Series energy;                 // of all bodies [J]
   bool energy_is_known = true;   // else there are too many springs to measure it live
-  Series touching;               // vertices that contacts held back since the sample before
+  Series touching;               // vertices that contacts held back from one sample to the next
   std::vector<PassTime> passes;  // while they are timed
-  double step_milliseconds = 0;  // a step took, over the latest samples; 0: none was made
+  double step_milliseconds = 0;  // a step took, over the latest samples; 0: none was seen
 };
 
 class Observer {
@@ -40,22 +40,26 @@ class Observer {
   /// Takes a sample where the latest one is a tenth of a second old, or ten times as old as it took to take; `now` from any
   /// origin [s].
   void look(Session& session, double now);
-  /// So long stepping took [s].
-  void add_stepping(double seconds) { stepping_seconds_ += seconds; }
-  [[nodiscard]] const Observation& observation() const { return observation_; }
+  /// What happens before the next sample is not counted: nobody looked, or the simulation is another.
+  void count_anew() { before_.reset(); }
   /// Of another scene, or from another start.
   void forget() { *this = Observer(); }
+  [[nodiscard]] const Observation& observation() const { return observation_; }
 
  private:
+  struct Counts {  // all of them sums
+    std::uint64_t step = 0, touching = 0;
+    Stepping stepping;
+    std::map<std::string_view, double> pass_seconds;
+  };
+  [[nodiscard]] static Counts count(Session& session);
+  void take_sample(Session& session);
   void measure_energy(Session& session);
-  void count(Session& session);
-  void note_passes(const Simulation& simulation, std::uint64_t steps);
+  void note_steps(const Counts& before, const Counts& after);
 
   Observation observation_;
-  double next_ = 0;  // [s]
-  double stepping_seconds_ = 0;
-  std::uint64_t steps_before_ = 0, reverted_before_ = 0;
-  std::map<std::string_view, double> pass_seconds_before_;
+  double next_ = 0;               // [s]
+  std::optional<Counts> before_;  // at the latest sample; empty: the next one is the first
 };
 
 }  // namespace pliant::view

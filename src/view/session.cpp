@@ -72,13 +72,16 @@ void Session::advance_toward(double time, std::uint64_t most_steps) {
 }
 
 void Session::make_due_steps(double time, std::uint64_t most_steps) {
-  if (plan_.tolerance) {
-    report_ = simulation_->advance_toward(time_of_frame(next_frame()) - base_time_, most_steps);
-    return;
-  }
+  const std::uint64_t before = report_.steps;
+  report_ = stepping_.time([&] { return advance(time, most_steps); });
+  steps_made_ += report_.steps - before;
+}
+
+StepReport Session::advance(double time, std::uint64_t most_steps) {
+  if (plan_.tolerance) return simulation_->advance_toward(time_of_frame(next_frame()) - base_time_, most_steps);
   const double due = std::floor((time - base_time_) / plan_.time_step + rounding) - static_cast<double>(report_.steps);
   simulation_->advance(static_cast<std::uint64_t>(std::clamp(due, 1.0, static_cast<double>(most_steps))));
-  report_ = simulation_->report();
+  return simulation_->report();
 }
 
 void Session::step_once() {

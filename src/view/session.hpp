@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.hpp"
 #include "simulation/simulation.hpp"
 #include "view/history.hpp"
 
@@ -34,6 +35,12 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
+/// Steps that were made, those made anew on the way back among them.
+struct Stepping {
+  std::uint64_t steps = 0;
+  double seconds = 0;  // that they took [s]
+};
+
 /// Goes on beyond the scene's duration. Every call waits until the device has done it.
 class Session {
  public:
@@ -51,7 +58,8 @@ class Session {
   [[nodiscard]] const History& history() const { return history_; }
   [[nodiscard]] std::uint64_t step() const { return base_step_ + report_.steps; }
   [[nodiscard]] const StepReport& report() const { return report_; }  // since the latest start or change of settings
-  [[nodiscard]] double time() const;                                  // of the state [s]
+  [[nodiscard]] Stepping stepping() const { return {steps_made_, stepping_.seconds()}; }  // since the session began
+  [[nodiscard]] double time() const;                                                      // of the state [s]
   [[nodiscard]] const TimePlan& plan() const { return plan_; }
   [[nodiscard]] std::optional<NonFinite> non_finite() const;  // its step counts as step() does
 
@@ -88,6 +96,7 @@ class Session {
   [[nodiscard]] std::uint64_t next_frame() const;
   [[nodiscard]] double time_of_frame(std::uint64_t frame) const { return static_cast<double>(frame) / plan_.frame_rate; }
   void make_due_steps(double time, std::uint64_t most_steps);
+  [[nodiscard]] StepReport advance(double time, std::uint64_t most_steps);
   [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device, const State& from) const;
   void begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time);
   void adopt(const Settings& wanted);
@@ -104,6 +113,8 @@ class Session {
   History history_;
   std::optional<Pull> pull_;
   bool times_passes_ = false;
+  std::uint64_t steps_made_ = 0;
+  Stopwatch stepping_;
 };
 
 }  // namespace pliant::view

@@ -218,15 +218,13 @@ void Viewer::play() {
   device_->finish();
   playback_.begin(now(), session_->time());
   const std::uint64_t before = session_->step();
-  const double began = now();
-  double clock = began;
+  double clock = now();
   while (session_->is_due(playback_.goal()) && playback_.has_time(clock)) {
     session_->advance_toward(playback_.goal(), batch_.steps());
     const double since = std::exchange(clock, now());
     batch_.took(clock - since);
   }
   playback_.end(clock, session_->time(), !session_->is_due(playback_.goal()));
-  observer_.add_stepping(clock - began);
   if (session_->step() != before && clock - recorded_at_ > record_interval) {
     session_->record();
     recorded_at_ = clock;
@@ -268,6 +266,7 @@ void Viewer::switch_device() {
   session_->move_to(*other);
   device_ = std::move(other);
   make_room_for_positions();
+  observer_.count_anew();
   playback_.restart();
   message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);
 }
@@ -283,6 +282,7 @@ void Viewer::toggle_wireframe() { shows_.wireframe = !shows_.wireframe; }
 void Viewer::toggle_panel() {
   if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
   shows_panel_ = !shows_panel_;
+  observer_.count_anew();
   drawn_.reset();
 }
 
@@ -418,11 +418,16 @@ void Viewer::fulfil(const Wishes& wanted) {
   if (wanted.times_passes != before.times_passes) session_->time_passes(times_passes_ = wanted.times_passes);
   if (wanted.is_paused != before.is_paused) pause_or_go_on();
   if (wanted.is_on_gpu != before.is_on_gpu) try_to([this] { switch_device(); });
-  if (!(wanted.settings == before.settings)) try_to([&] { session_->change(wanted.settings); });
+  if (!(wanted.settings == before.settings)) try_to([&] { change(wanted.settings); });
   if (wanted.restarts) restart();
   if (wanted.steps) step_once();
   if (wanted.steps_back) step_back();
   if (wanted.scene) try_to([&] { open_file(*wanted.scene); });
+}
+
+void Viewer::change(const Settings& wanted) {
+  session_->change(wanted);
+  observer_.count_anew();
 }
 
 std::string Viewer::title() const {

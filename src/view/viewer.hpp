@@ -89,6 +89,7 @@ class Viewer {
   [[nodiscard]] Facts facts() const;
   [[nodiscard]] Wishes wishes() const;  // that are fulfilled
   void fulfil(const Wishes& wanted);
+  void change(const Settings& wanted);
   void tell();  // in the title, and in the report if there is one
   [[nodiscard]] std::string title() const;
 

@@ -39,6 +39,54 @@ TEST_CASE("an observer samples energy and contacts ten times a second") {
   CHECK(seen.passes.empty());
 }
 
+TEST_CASE("an observer counts from its first sample on, whatever happened before it looked") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, colliding());
+  Observer observer;
+  const auto step_until_touched = [&] {
+    const std::uint64_t before = session.report().reverted_vertices;
+    while (session.report().reverted_vertices == before) session.step_once();
+    return static_cast<float>(session.report().reverted_vertices - before);
+  };
+  session.time_passes(true);
+  step_until_touched();
+  observer.look(session, 0);
+  CHECK(observer.observation().energy.values().size() == 1);
+  CHECK(observer.observation().touching.values().empty());
+  CHECK(observer.observation().passes.empty());
+  CHECK(observer.observation().step_milliseconds == 0);
+  const float touched = step_until_touched();
+  observer.look(session, 1);
+  CHECK(observer.observation().touching.values() == std::vector{touched});
+  CHECK(observer.observation().step_milliseconds > 0);
+
+  observer.count_anew();
+  step_until_touched();
+  observer.look(session, 2);
+  CHECK(observer.observation().touching.values() == std::vector{touched});
+  const float touched_later = step_until_touched();
+  observer.look(session, 3);
+  CHECK(observer.observation().touching.values() == std::vector{touched, touched_later});
+}
+
+TEST_CASE("what steps take is told of single ones as well, and of those made anew on the way back") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, colliding());
+  session.advance_toward(0.1, 10);
+  REQUIRE(session.stepping().steps == 10);
+  const double seconds = session.stepping().seconds;
+  CHECK(seconds > 0);
+  REQUIRE(session.step_back());
+  CHECK(session.step() == 9);
+  CHECK(session.stepping().steps == 19);
+  CHECK(session.stepping().seconds > seconds);
+  Observer observer;
+  observer.look(session, 0);
+  session.step_once();
+  observer.look(session, 1);
+  CHECK(observer.observation().step_milliseconds == Approx(1e3 * session.stepping().seconds).epsilon(1));
+}
+
 TEST_CASE("passes are told while they are timed, the slowest first") {
   const auto device = make_cpu_device(2, 32);
   Session session(*device, colliding());
