@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/stopwatch.hpp"
 #include "core/thread_pool.hpp"
 
 namespace pliant::view {
@@ -14,14 +13,19 @@ void Series::add(double value) {
   values_.push_back(static_cast<float>(value));
 }
 
-void Observer::look(Session& session, double now) {
+void Observer::look(Session& session) {
   constexpr double interval = 0.1, largest_share = 0.1;  // [s], of the time
-  if (now < next_ || session.non_finite()) return;
-  Stopwatch watch;
-  watch.start();
+  const double began = clock_();
+  if (began < next_ || session.non_finite()) return;
   if (!before_ || session.step() != before_->step) take_sample(session);
-  watch.stop();
-  next_ = now + std::max(interval, watch.seconds() / largest_share);
+  const double ended = clock_();
+  next_ = began + std::max(interval, (ended - began) / largest_share);
+}
+
+void Observer::forget() {
+  observation_ = {};
+  before_.reset();
+  next_ = 0;
 }
 
 Observer::Counts Observer::count(Session& session) {

@@ -1,9 +1,11 @@
 // What a viewer tells of a simulation: read back, measured and kept only while somebody looks.
 #pragma once
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "simulation/measure.hpp"
@@ -37,13 +39,15 @@ struct Observation {
 
 class Observer {
  public:
-  /// Takes a sample where the latest one is a tenth of a second old, or ten times as old as it took to take; `now` from any
-  /// origin [s].
-  void look(Session& session, double now);
+  /// `clock` gives the time from any origin [s].
+  explicit Observer(std::function<double()> clock) : clock_(std::move(clock)) {}
+
+  /// Takes a sample where the latest one began a tenth of a second ago, or ten times as long ago as it took to take.
+  void look(Session& session);
   /// What happens before the next sample is not counted: nobody looked, or the simulation is another.
   void count_anew() { before_.reset(); }
   /// Of another scene, or from another start.
-  void forget() { *this = Observer(); }
+  void forget();
   [[nodiscard]] const Observation& observation() const { return observation_; }
 
  private:
@@ -57,6 +61,7 @@ class Observer {
   void measure_energy(Session& session);
   void note_steps(const Counts& before, const Counts& after);
 
+  std::function<double()> clock_;
   Observation observation_;
   double next_ = 0;               // [s]
   std::optional<Counts> before_;  // at the latest sample; empty: the next one is the first

@@ -92,7 +92,7 @@ std::string Viewer::help() {
 }
 
 Viewer::Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options)
-    : window_(window), device_(std::move(device)), make_device_(options.make_device), playback_(options.pace) {
+    : window_(window), device_(std::move(device)), make_device_(options.make_device), playback_(options.pace), observer_(now) {
   if (options.starts_paused) playback_.pause();
   open(std::move(scene));
   if (options.report.empty()) return;
@@ -373,7 +373,7 @@ void Viewer::present() {
 }
 
 void Viewer::draw_panel(double seconds) {
-  observer_.look(*session_, now());
+  observer_.look(*session_);
   Wishes wanted = wishes();
   panel_->draw(drawn_->size, seconds, facts(), wanted, shows_help_ ? help() : "");
   fulfil(wanted);

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 
 #include "support/collision_scene.hpp"
 
@@ -10,6 +11,18 @@ using namespace pliant;
 using namespace pliant::view;
 
 namespace {
+
+/// An observer whose clock stands where it is put.
+struct Watched {
+  double time = 0;
+  Observer observer{[this] { return time; }};
+
+  void look(Session& session, double at) {
+    time = at;
+    observer.look(session);
+  }
+  [[nodiscard]] const Observation& seen() const { return observer.observation(); }
+};
 
 LoadedScene colliding() {
   LoadedScene scene;
@@ -22,13 +35,13 @@ LoadedScene colliding() {
 TEST_CASE("an observer samples energy and contacts ten times a second") {
   const auto device = make_cpu_device(2, 32);
   Session session(*device, colliding());
-  Observer observer;
+  Watched watched;
   double touching = 0;
   for (int k = 0; k < 60; ++k) {
     session.step_once();
-    observer.look(session, 1000 + 0.02 * k);
+    watched.look(session, 1000 + 0.02 * k);
   }
-  const Observation& seen = observer.observation();
+  const Observation& seen = watched.seen();
   CHECK(seen.energy.values().size() >= 8);
   CHECK(seen.energy.values().size() <= 12);
   CHECK(seen.energy.values().front() ==
@@ -39,10 +52,28 @@ TEST_CASE("an observer samples energy and contacts ten times a second") {
   CHECK(seen.passes.empty());
 }
 
+TEST_CASE("samples take a tenth of the time at most, however long one takes") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, colliding());
+  constexpr double a_sample = 0.3;  // [s]
+  double time = 0;
+  bool is_sampling = false;  // what reads the clock again has taken a sample since
+  Observer observer([&] { return time += std::exchange(is_sampling, true) ? a_sample : 0; });
+  for (int k = 0; k < 300; ++k) {
+    session.step_once();
+    is_sampling = false;
+    observer.look(session);
+    time += 0.15;
+  }
+  const double sampling = a_sample * static_cast<double>(observer.observation().energy.values().size());
+  CHECK(sampling <= 0.1 * time + a_sample);
+  CHECK(sampling >= 0.09 * time);
+}
+
 TEST_CASE("an observer counts from its first sample on, whatever happened before it looked") {
   const auto device = make_cpu_device(2, 32);
   Session session(*device, colliding());
-  Observer observer;
+  Watched watched;
   const auto step_until_touched = [&] {
     const std::uint64_t before = session.report().reverted_vertices;
     while (session.report().reverted_vertices == before) session.step_once();
@@ -50,23 +81,23 @@ TEST_CASE("an observer counts from its first sample on, whatever happened before
   };
   session.time_passes(true);
   step_until_touched();
-  observer.look(session, 0);
-  CHECK(observer.observation().energy.values().size() == 1);
-  CHECK(observer.observation().touching.values().empty());
-  CHECK(observer.observation().passes.empty());
-  CHECK(observer.observation().step_milliseconds == 0);
+  watched.look(session, 0);
+  CHECK(watched.seen().energy.values().size() == 1);
+  CHECK(watched.seen().touching.values().empty());
+  CHECK(watched.seen().passes.empty());
+  CHECK(watched.seen().step_milliseconds == 0);
   const float touched = step_until_touched();
-  observer.look(session, 1);
-  CHECK(observer.observation().touching.values() == std::vector{touched});
-  CHECK(observer.observation().step_milliseconds > 0);
+  watched.look(session, 1);
+  CHECK(watched.seen().touching.values() == std::vector{touched});
+  CHECK(watched.seen().step_milliseconds > 0);
 
-  observer.count_anew();
+  watched.observer.count_anew();
   step_until_touched();
-  observer.look(session, 2);
-  CHECK(observer.observation().touching.values() == std::vector{touched});
+  watched.look(session, 2);
+  CHECK(watched.seen().touching.values() == std::vector{touched});
   const float touched_later = step_until_touched();
-  observer.look(session, 3);
-  CHECK(observer.observation().touching.values() == std::vector{touched, touched_later});
+  watched.look(session, 3);
+  CHECK(watched.seen().touching.values() == std::vector{touched, touched_later});
 }
 
 TEST_CASE("what steps take is told of single ones as well, and of those made anew on the way back") {
@@ -80,29 +111,29 @@ TEST_CASE("what steps take is told of single ones as well, and of those made ane
   CHECK(session.step() == 9);
   CHECK(session.stepping().steps == 19);
   CHECK(session.stepping().seconds > seconds);
-  Observer observer;
-  observer.look(session, 0);
+  Watched watched;
+  watched.look(session, 0);
   session.step_once();
-  observer.look(session, 1);
-  CHECK(observer.observation().step_milliseconds == Approx(1e3 * session.stepping().seconds).epsilon(1));
+  watched.look(session, 1);
+  CHECK(watched.seen().step_milliseconds == Approx(1e3 * session.stepping().seconds).epsilon(1));
 }
 
 TEST_CASE("passes are told while they are timed, the slowest first") {
   const auto device = make_cpu_device(2, 32);
   Session session(*device, colliding());
-  Observer observer;
+  Watched watched;
   session.time_passes(true);
   for (int k = 0; k < 3; ++k) {
     session.step_once();
-    observer.look(session, k);
+    watched.look(session, k);
   }
-  const std::vector<PassTime>& passes = observer.observation().passes;
+  const std::vector<PassTime>& passes = watched.seen().passes;
   REQUIRE(passes.size() > 3);
   for (std::size_t k = 1; k < passes.size(); ++k) CHECK(passes[k].milliseconds <= passes[k - 1].milliseconds);
   session.time_passes(false);
   session.step_once();
-  observer.look(session, 10);
-  CHECK(observer.observation().passes.empty());
+  watched.look(session, 10);
+  CHECK(watched.seen().passes.empty());
 }
 
 TEST_CASE("a series keeps the latest numbers, as many as a plot shows") {
