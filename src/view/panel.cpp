@@ -69,7 +69,7 @@ void play(const Facts& facts, Wishes& wishes) {
     say("paused");
   else
     say("{:.0f} pictures a second, {}", facts.pictures_per_second,
-        facts.slow_factor ? fmt::format("{:.2g} x real time", *facts.slow_factor) : "in step with real time");
+        facts.factor == 1 ? "in step with real time" : fmt::format("{:.2g} x real time", facts.factor));
   say_muted(facts.device);
   if (!facts.message.empty()) say_muted(facts.message);
 }

@@ -44,7 +44,7 @@ struct Facts {
   std::uint64_t step = 0, vertices = 0;
   double time = 0, time_step = 0, pictures_per_second = 0;  // [s]; time_step 0: a tolerance governs it
   std::optional<double> tolerance;
-  std::optional<double> slow_factor;
+  double factor = 1;           // simulated by real time
   unsigned deepest_level = 0;  // of the trees
   StepReport report;
   const Observation* observation = nullptr;

@@ -33,8 +33,8 @@ class Playback {
   /// The simulation has been put to another time: goes on from there.
   void restart() { in_stretch_ = false; }
 
-  /// Where the device does not keep up: simulated by real time, over half a second or more. Else empty.
-  [[nodiscard]] std::optional<double> slow_factor() const { return slow_factor_; }
+  /// Simulated by real time: the speed or, where the device does not keep up, what it was over half a second or more.
+  [[nodiscard]] double factor() const { return slow_factor_.value_or(pace_.speed); }
   [[nodiscard]] double speed() const { return pace_.speed; }
   void set_speed(double speed) { pace_.speed = speed; }
 

@@ -393,7 +393,7 @@ Facts Viewer::facts() const {
               .time_step = session_->plan().time_step,
               .pictures_per_second = picture_seconds_ > 0 ? 1 / picture_seconds_ : 0,
               .tolerance = session_->plan().tolerance,
-              .slow_factor = playback_.slow_factor(),
+              .factor = playback_.factor(),
               .deepest_level = session_->deepest_level(),
               .report = report,
               .observation = &observer_.observation()};
@@ -436,8 +436,8 @@ std::string Viewer::title() const {
     state = message_;
   else if (playback_.is_paused())
     state = fmt::format("paused at {:.4g} s", session_->time());
-  else if (const double factor = playback_.slow_factor().value_or(playback_.speed()); factor != 1)
-    state = fmt::format("{:.2g} x real time", factor);
+  else if (playback_.factor() != 1)
+    state = fmt::format("{:.2g} x real time", playback_.factor());
   return fmt::format("{} - pliant{}", session_->scene().title, state.empty() ? "" : fmt::format(" ({})", state));
 }
 
