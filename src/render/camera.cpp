@@ -17,15 +17,15 @@ glm::dvec3 up_for(const glm::dvec3& forward) {
   return std::abs(forward.y) > 0.999 * glm::length(forward) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
 }
 
-glm::dvec3 corner(const SceneBox& box, unsigned i) {
-  return {i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y, i & 4u ? box.high.z : box.low.z};
-}
-
 }  // namespace
 
 double SceneBox::radius() const {
   const double half_diagonal = glm::length(high - low) * 0.5;
   return half_diagonal > 0 ? half_diagonal : 1.0;
+}
+
+glm::dvec3 corner_of(const SceneBox& box, unsigned bits) {
+  return {bits & 1u ? box.high.x : box.low.x, bits & 2u ? box.high.y : box.low.y, bits & 4u ? box.high.z : box.low.z};
 }
 
 SceneBox box_around(std::span<const glm::dvec3> places) {
@@ -53,7 +53,7 @@ CameraDescription frame_from(const glm::dvec3& back, const SceneBox& box, double
   const double tangent = std::tan(glm::radians(field_of_view) * 0.5) * filled;
   double distance = box.radius() * 0.1;
   for (unsigned i = 0; i < 8; ++i) {
-    const glm::dvec3 p = corner(box, i) - box.centre();
+    const glm::dvec3 p = corner_of(box, i) - box.centre();
     const double half_height = std::max(std::abs(glm::dot(p, axes.up)), std::abs(glm::dot(p, axes.right)) / aspect);
     distance = std::max(distance, glm::dot(p, back) + half_height / tangent);
   }

@@ -16,6 +16,9 @@ struct SceneBox {
   [[nodiscard]] double radius() const;
 };
 
+/// The corner with each coordinate from above where its bit is set: x has the lowest of three.
+[[nodiscard]] glm::dvec3 corner_of(const SceneBox& box, unsigned bits);
+
 /// Around the places that are finite; the default box if there are none.
 [[nodiscard]] SceneBox box_around(std::span<const glm::dvec3> places);
 

@@ -13,12 +13,6 @@ void add_line(Lines& lines, const glm::dvec3& from, const glm::dvec3& to, const 
   lines.push_back({glm::vec4(to, 1.0), color});
 }
 
-/// The corner with each coordinate from above where its bit is set.
-glm::dvec3 corner_of(const render::SceneBox& box, unsigned bits) {
-  return {(bits & 1u) != 0 ? box.high.x : box.low.x, (bits & 2u) != 0 ? box.high.y : box.low.y,
-          (bits & 4u) != 0 ? box.high.z : box.low.z};
-}
-
 void add_box(Lines& lines, const render::SceneBox& box) {
   for (unsigned corner = 0; corner < 8; ++corner)
     for (const unsigned axis : {1u, 2u, 4u})
