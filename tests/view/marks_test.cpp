@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "support/collision_scene.hpp"
 
@@ -36,29 +37,55 @@ TEST_CASE("at the root's level there is a box a body, around all of it") {
   }
 }
 
-TEST_CASE("boxes at deeper levels are more and smaller, down to the leaves") {
+/// The box that 12 lines are the edges of, beginning at an end.
+render::SceneBox box_at(const Lines& lines, std::size_t first_end) {
+  std::vector<glm::dvec3> ends;
+  for (std::size_t end = first_end; end < first_end + 24; ++end) ends.emplace_back(glm::vec3(lines[end].place));
+  return render::box_around(ends);
+}
+
+TEST_CASE("boxes at deeper levels are more, and each is smaller than that above it, down to the leaves") {
   const Scene scene;
   std::size_t before = 0;
+  double radius_before = std::numeric_limits<double>::infinity();
   for (unsigned level = 0; level <= scene.forest.depth; ++level) {
     Lines lines;
     add_boxes(lines, scene.forest, scene.positions, level);
-    CHECK(lines.size() >= before);
+    CHECK(lines.size() > before);
     before = lines.size();
+    double radii = 0;
+    for (std::size_t end = 0; end < lines.size(); end += 24) radii += box_at(lines, end).radius();
+    const double radius = radii * 24 / static_cast<double>(lines.size());
+    CHECK(radius < radius_before);
+    radius_before = radius;
   }
   CHECK(before == 24 * scene.forest.leaves.size());
 }
 
-TEST_CASE("velocities are lines from the vertices, and contacts crosses at the touching ones") {
+TEST_CASE("velocities are lines from the vertices, as long as a tenth of a second's way") {
   const Scene scene;
+  const auto velocities = scene.start.state.world_velocities(scene.start.model);
   Lines lines;
-  add_velocities(lines, scene.positions, scene.start.state.world_velocities(scene.start.model));
-  CHECK(lines.size() == 2 * scene.positions.size());
-  CHECK(lines[1].place.x - lines[0].place.x > 0);  // the left body moves to the right
-  lines.clear();
-  add_contacts(lines, scene.start.model, scene.positions, std::vector<std::uint32_t>{3});
-  REQUIRE(lines.size() == 6);
-  for (std::size_t k = 0; k < 6; k += 2)
-    CHECK(glm::distance(glm::dvec3(lines[k].place + lines[k + 1].place) * 0.5, scene.positions[3]) < 1e-6);
+  add_velocities(lines, scene.positions, velocities);
+  REQUIRE(lines.size() == 2 * scene.positions.size());
+  for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+    CHECK(glm::distance(glm::dvec3(lines[2 * i].place), scene.positions[i]) < 1e-6);
+    CHECK(glm::distance(glm::dvec3(lines[2 * i + 1].place - lines[2 * i].place), 0.1 * velocities[i]) < 1e-6);
+  }
+}
+
+TEST_CASE("contacts are crosses at the touching vertices, a tenth of their body's radius wide") {
+  const Scene scene;
+  const auto last = static_cast<std::uint32_t>(scene.positions.size() - 1);
+  const std::vector<std::uint32_t> touching{3, last};
+  Lines lines;
+  add_contacts(lines, scene.start.model, scene.positions, touching);
+  REQUIRE(lines.size() == 6 * touching.size());
+  for (std::size_t k = 0; k < lines.size(); k += 2) {
+    const std::uint32_t vertex = touching[k / 6];
+    CHECK(glm::distance(glm::dvec3(lines[k].place + lines[k + 1].place) * 0.5, scene.positions[vertex]) < 1e-6);
+    CHECK(glm::distance(lines[k].place, lines[k + 1].place) == Approx(0.1 * scene.start.model.body_of(vertex).radius));
+  }
 }
 
 }  // namespace
