@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -212,13 +213,20 @@ void set_style() {
 /// What ImGui is to hear of next: a press that was let go between two pictures counts, too.
 struct Panel::Mouse {
   std::array<bool, 2> is_down{}, was_pressed{};
-  float bottom = 1e9f;  // of the panel, once it has been laid out
+  std::vector<ImRect> windows;  // of the latest picture [pixels]
 
+  void find_windows() {
+    windows.clear();
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+      if (window->Active && !window->Hidden) windows.push_back(window->Rect());
+  }
   /// ImGui itself knows only of the place at which the mouse was in the latest picture.
-  [[nodiscard]] bool is_over_panel() const {
-    const ImGuiIO& io = ImGui::GetIO();
-    const ImVec2 at = io.MousePos;
-    return io.WantCaptureMouse || (at.x >= margin && at.x < margin + width && at.y >= margin && at.y < bottom);
+  [[nodiscard]] bool is_over_window() const {
+    return std::ranges::any_of(windows, [](const ImRect& window) { return window.Contains(ImGui::GetIO().MousePos); });
+  }
+  /// An open list takes every press: one beside it closes it.
+  [[nodiscard]] bool takes_press() const {
+    return is_over_window() || (!windows.empty() && !ImGui::GetCurrentContext()->OpenPopupStack.empty());
   }
 };
 
@@ -244,7 +252,7 @@ bool Panel::takes(const gl::WindowEvent& event) {
   }
   if (const auto* pressed = std::get_if<gl::MousePressed>(&event)) {
     at(pressed->place);
-    if (!mouse_->is_over_panel()) return false;
+    if (!mouse_->takes_press()) return false;
     mouse_->is_down[static_cast<std::size_t>(pressed->button)] = mouse_->was_pressed[static_cast<std::size_t>(pressed->button)] =
         true;
     return true;
@@ -252,7 +260,7 @@ bool Panel::takes(const gl::WindowEvent& event) {
   if (const auto* released = std::get_if<gl::MouseReleased>(&event))
     return std::exchange(mouse_->is_down[static_cast<std::size_t>(released->button)], false);
   const auto* scrolled = std::get_if<gl::MouseScrolled>(&event);
-  if (scrolled == nullptr || !mouse_->is_over_panel()) return false;
+  if (scrolled == nullptr || !mouse_->is_over_window()) return false;
   io.MouseWheel += static_cast<float>(scrolled->notches);
   return true;
 }
@@ -270,6 +278,7 @@ void Panel::begin(const glm::uvec2& size, double seconds) {
 void Panel::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  mouse_->find_windows();
 }
 
 void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help) {
@@ -287,16 +296,22 @@ void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wis
   tell_of_work(facts, wishes);
   choose_look(facts, wishes.shows);
   ImGui::PopItemWidth();
-  if (!ImGui::IsWindowAppearing()) mouse_->bottom = margin + ImGui::GetWindowHeight();
+  const bool has_no_height_yet = ImGui::IsWindowAppearing();
   ImGui::End();
   show_help(size, help);
   end();
+  if (has_no_height_yet) mouse_->windows.emplace_back(margin, margin, margin + width, static_cast<float>(size.y));
 }
 
 void Panel::draw_help(const glm::uvec2& size, double seconds, const std::string& help) {
   begin(size, seconds);
   show_help(size, help);
   end();
+}
+
+void Panel::hide() {
+  mouse_->windows.clear();
+  mouse_->was_pressed = {};
 }
 
 }  // namespace pliant::view

@@ -58,12 +58,15 @@ class Panel {
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  /// Hears of the mouse. True where it is the panel's: over it, or dragging one of its widgets.
+  /// Hears of the mouse, also while nothing is shown. True where it is the panel's: pressed over what is shown, until it is let
+  /// go, or turned there.
   bool takes(const gl::WindowEvent& event);
   /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
   void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
   /// Draws the help alone.
   void draw_help(const glm::uvec2& size, double seconds, const std::string& help);
+  /// Nothing is shown until it draws again.
+  void hide();
 
  private:
   void begin(const glm::uvec2& size, double seconds);

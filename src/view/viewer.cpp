@@ -107,8 +107,7 @@ void Viewer::run() {
     const std::vector<gl::WindowEvent> events = next_events();
     if (events.empty() && playback_.is_paused() && owed_pictures_ == 0) continue;
     for (const gl::WindowEvent& event : events)
-      if (!window_.is_closed() && !(shows_panel_ && panel_->takes(event)))
-        std::visit([this](const auto& e) { handle(e); }, event);
+      if (!window_.is_closed() && !(panel_ && panel_->takes(event))) std::visit([this](const auto& e) { handle(e); }, event);
     if (window_.is_closed()) return;
     owed_pictures_ = !events.empty() && is_overlaid() ? pictures_after_an_event : std::max(owed_pictures_ - 1, 0);
     play();
@@ -280,15 +279,16 @@ void Viewer::frame_scene() {
 void Viewer::toggle_wireframe() { shows_.wireframe = !shows_.wireframe; }
 
 void Viewer::toggle_panel() {
-  if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
-  shows_panel_ = !shows_panel_;
+  toggle(shows_panel_);
   observer_.count_anew();
-  drawn_.reset();
 }
 
-void Viewer::toggle_help() {
+void Viewer::toggle_help() { toggle(shows_help_); }
+
+void Viewer::toggle(bool& is_shown) {
   if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
-  shows_help_ = !shows_help_;
+  is_shown = !is_shown;
+  if (!is_overlaid()) panel_->hide();
   drawn_.reset();
 }
 
@@ -451,6 +451,7 @@ void Viewer::tell() {
                                        {"step", session_->step()},
                                        {"time", session_->time()},
                                        {"paused", playback_.is_paused()},
+                                       {"speed", playback_.speed()},
                                        {"device", device_->info().kind},
                                        {"pulls", pull_.has_value()},
                                        {"wireframe", shows_.wireframe},
@@ -458,7 +459,8 @@ void Viewer::tell() {
                                        {"help", shows_help_},
                                        {"size", {size.x, size.y}},
                                        {"camera", described(camera_)},
-                                       {"title", shown_title_}};
+                                       {"title", shown_title_},
+                                       {"message", message_}};
   report_ << line.dump() << std::endl;
 }
 

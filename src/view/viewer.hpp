@@ -75,6 +75,7 @@ class Viewer {
   void toggle_wireframe();
   void toggle_panel();
   void toggle_help();
+  void toggle(bool& is_shown);  // one of the two
   void save_picture();
   void close();
   void open_file(const std::filesystem::path& file);

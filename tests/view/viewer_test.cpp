@@ -350,6 +350,51 @@ TEST_CASE("the panel and the help come and go, and what happens over them leaves
   }
 }
 
+// Where the panel has its widgets, in rows above all that wraps.
+constexpr glm::ivec2 reset_button(153, 70), speed_slider(100, 92);
+constexpr glm::ivec2 farther_right(40, 0);
+
+TEST_CASE("a widget that is held when the panel goes is let go by the mouse, whether the panel is back or not", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  viewed.press("Tab");
+  const Json before = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.xdotool(viewed.move_to(speed_slider) + "mousedown 1");
+  const Json pressed = viewed.await([](const Json& line) { return line["speed"] != 1; });
+  viewed.xdotool(viewed.move_to(speed_slider + farther_right));
+  const Json held = viewed.await([&](const Json& line) { return line["speed"] > pressed["speed"].get<double>(); });
+  viewed.press("Tab");
+  viewed.await([](const Json& line) { return !line["panel"]; });
+  viewed.xdotool(viewed.move_to(speed_slider) + "mouseup 1 key Tab " + viewed.move_to(speed_slider + 2 * farther_right));
+  for (std::uint64_t step = 1; step <= 4; ++step) {  // a few pictures
+    viewed.press("period");
+    const Json after = viewed.await(step_is(step));
+    CHECK(after["panel"].get<bool>());
+    CHECK(after["speed"] == held["speed"]);
+    CHECK(after["camera"] == before["camera"]);
+  }
+}
+
+TEST_CASE("what happens over the help leaves the scene alone, and beside it does not", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu", {"--set", "output.size=[1000, 300]"});
+  viewed.press("Tab");
+  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.press("Tab");
+  viewed.press("F1");
+  const Json before = viewed.await([](const Json& line) { return !line["panel"] && line["help"]; });
+  viewed.drag(1, {900, 100}, {850, 120});
+  viewed.xdotool("click 5");
+  viewed.press("period");
+  CHECK(viewed.await(step_is(1))["camera"] == before["camera"]);
+  viewed.drag(1, {60, 100}, {150, 120});  // where the panel was
+  viewed.await([&](const Json& line) { return line["camera"] != before["camera"]; });
+}
+
 TEST_CASE("a key that is held ends its work when it is let go, and only steps repeat", "[gl][long]") {
   if (is_skipped()) return;
   const VirtualDisplay display;
