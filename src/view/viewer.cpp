@@ -102,6 +102,7 @@ Viewer::Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene s
 }
 
 void Viewer::run() {
+  draw();
   tell();
   while (!window_.is_closed()) {
     const std::vector<gl::WindowEvent> events = next_events();
@@ -112,6 +113,7 @@ void Viewer::run() {
     owed_pictures_ = !events.empty() && is_overlaid() ? pictures_after_an_event : std::max(owed_pictures_ - 1, 0);
     play();
     draw();
+    fulfil();
     tell();
   }
 }
@@ -138,7 +140,8 @@ void Viewer::open(LoadedScene scene) {
   make_room_for_positions();
   camera_ = options.camera;
   drawn_.reset();
-  draw();  // the first picture takes a while, since shaders are compiled; no time is to go by
+  shown_.reset();
+  if (window_.framebuffer_size().x != 0) draw_bodies(look());  // takes a while, since shaders are compiled; no time is to go by
   playback_.restart();
 }
 
@@ -289,12 +292,14 @@ void Viewer::toggle(bool& is_shown) {
   if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
   is_shown = !is_shown;
   if (!is_overlaid()) panel_->hide();
-  drawn_.reset();
+  shown_.reset();
 }
 
 void Viewer::save_picture() {
-  if (!drawn_) draw();
-  if (!drawn_) throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
+  const Look wanted = look();
+  if (wanted.size.x == 0)
+    throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
+  draw_bodies(wanted);
   const std::filesystem::path name = free_picture_name(session_->scene().file.stem().string());
   write_png(name, renderer_->read());
   message_ = "saved " + name.string();
@@ -306,16 +311,20 @@ void Viewer::close() { window_.close(); }
 
 Viewer::Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
 
-// A picture that would be the one before is not drawn.
+// What is shown already is not shown again, but for what lies over it.
 void Viewer::draw() {
   has_repeated_ = false;
   const Look wanted = look();
-  is_up_to_date_ = wanted.size.x == 0 || drawn_ == wanted;
-  if (!is_up_to_date_) draw_bodies(wanted);
-  if (wanted.size.x != 0 && (!is_up_to_date_ || is_overlaid())) present();
+  is_up_to_date_ = wanted.size.x == 0 || shown_ == wanted;
+  if (wanted.size.x == 0 || (is_up_to_date_ && !is_overlaid())) return;
+  draw_bodies(wanted);
+  present();
+  shown_ = wanted;
 }
 
+// A picture that would be the one before is not drawn.
 void Viewer::draw_bodies(const Look& wanted) {
+  if (drawn_ == wanted) return;
   renderer_->resize(wanted.size);
   renderer_->set_camera(camera_);
   renderer_->set_fill(shows_.wireframe ? render::Fill::wireframe : render::Fill::surface);
@@ -374,9 +383,8 @@ void Viewer::present() {
 
 void Viewer::draw_panel(double seconds) {
   observer_.look(*session_);
-  Wishes wanted = wishes();
-  panel_->draw(drawn_->size, seconds, facts(), wanted, shows_help_ ? help() : "");
-  fulfil(wanted);
+  wanted_ = wishes();
+  panel_->draw(drawn_->size, seconds, facts(), *wanted_, shows_help_ ? help() : "");
 }
 
 Facts Viewer::facts() const {
@@ -411,8 +419,9 @@ Wishes Viewer::wishes() const {
           .scene = {}};
 }
 
-void Viewer::fulfil(const Wishes& wanted) {
-  const Wishes before = wishes();
+void Viewer::fulfil() {
+  if (!wanted_) return;
+  const Wishes before = wishes(), wanted = *std::exchange(wanted_, std::nullopt);
   shows_ = wanted.shows;
   playback_.set_speed(wanted.speed);
   if (wanted.times_passes != before.times_passes) session_->time_passes(times_passes_ = wanted.times_passes);

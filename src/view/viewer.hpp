@@ -62,7 +62,7 @@ class Viewer {
   void handle(const gl::MouseMoved& event);
   void handle(const gl::MouseScrolled& event);
   void handle(const gl::FilesDropped& event);
-  void handle(const gl::PictureNeeded&) { drawn_.reset(); }
+  void handle(const gl::PictureNeeded&) { shown_.reset(); }
   void try_to(const std::function<void()>& wish);
   void play();
   void tell_if_broken();
@@ -89,7 +89,7 @@ class Viewer {
   void draw_panel(double seconds);
   [[nodiscard]] Facts facts() const;
   [[nodiscard]] Wishes wishes() const;  // that are fulfilled
-  void fulfil(const Wishes& wanted);
+  void fulfil();
   void change(const Settings& wanted);
   void tell();  // in the title, and in the report if there is one
   [[nodiscard]] std::string title() const;
@@ -120,7 +120,9 @@ class Viewer {
   double recorded_at_ = 0;                         // the latest state to go back to [s]
   bool has_repeated_ = false;                      // a key that is held has done its work since the latest picture
   bool is_up_to_date_ = false;                     // there was nothing to draw anew
-  std::optional<Look> drawn_;                      // the latest picture; empty: it is to be drawn again
+  std::optional<Look> drawn_;                      // the latest picture; empty: there is none of this scene
+  std::optional<Look> shown_;                      // what the window shows; empty: it is to be shown again
+  std::optional<Wishes> wanted_;                   // in the latest picture, if it had the panel and they are not fulfilled
   double presented_at_ = 0, picture_seconds_ = 0;  // between pictures, on average [s]
   int owed_pictures_ = 0;                          // for the panel to follow what it was done to
   bool times_passes_ = false;

@@ -113,7 +113,7 @@ class Viewed {
   /// Whether the window shows the picture; it may still be on its way to the display.
   bool shows(const render::Image& picture) const {
     for (int look = 0; look < 200; ++look)
-      if (const render::Image seen = display_.picture_of(window_); seen.width == picture.width && seen.pixels == picture.pixels)
+      if (const render::Image seen = display_.picture_of(window_); seen.width == picture.width && are_alike(seen, picture))
         return true;
     return false;
   }
