@@ -33,6 +33,8 @@ struct Wishes {
   Shows shows;
   std::optional<std::filesystem::path> scene;  // to be opened
   bool restarts = false, steps = false, steps_back = false;
+
+  bool operator==(const Wishes&) const = default;
 };
 
 /// What the panel tells.

@@ -422,12 +422,14 @@ Wishes Viewer::wishes() const {
 void Viewer::fulfil() {
   if (!wanted_) return;
   const Wishes before = wishes(), wanted = *std::exchange(wanted_, std::nullopt);
+  if (wanted == before) return;
+  message_.clear();
   shows_ = wanted.shows;
   playback_.set_speed(wanted.speed);
   if (wanted.times_passes != before.times_passes) session_->time_passes(times_passes_ = wanted.times_passes);
   if (wanted.is_paused != before.is_paused) pause_or_go_on();
   if (wanted.is_on_gpu != before.is_on_gpu) try_to([this] { switch_device(); });
-  if (!(wanted.settings == before.settings)) try_to([&] { change(wanted.settings); });
+  if (wanted.settings != before.settings) try_to([&] { change(wanted.settings); });
   if (wanted.restarts) restart();
   if (wanted.steps) step_once();
   if (wanted.steps_back) step_back();

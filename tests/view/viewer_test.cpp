@@ -377,6 +377,21 @@ TEST_CASE("a widget that is held when the panel goes is let go by the mouse, whe
   }
 }
 
+TEST_CASE("what was told of a breakdown is gone when the panel goes back to the start", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu", {"--set", "simulation.time_step=1e30", "--set", "body.body1.stretch=[0.8, 1, 1]"});
+  viewed.press("Tab");
+  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.press("period");
+  CHECK_THAT(viewed.await(step_is(1))["message"].get<std::string>(), Catch::Contains("non-finite"));
+  viewed.xdotool(viewed.move_to(reset_button) + "click 1");
+  const Json restarted = viewed.await(step_is(0));
+  CHECK(restarted["message"] == "");
+  CHECK(restarted["title"] == "Small - pliant (paused at 0 s)");
+}
+
 TEST_CASE("what happens over the help leaves the scene alone, and beside it does not", "[gl][long]") {
   if (is_skipped()) return;
   const VirtualDisplay display;
