@@ -118,8 +118,9 @@ void Viewer::run() {
   }
 }
 
-// Where anything is missing, the scene before stays.
+// Where anything is missing, the scene before stays: all that can fail comes first.
 void Viewer::open(LoadedScene scene) {
+  std::vector<std::filesystem::path> scenes = scenes_beside(scene.description.file);
   auto session = std::make_unique<Session>(*device_, std::move(scene));
   render::RenderOptions options =
       render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
@@ -129,15 +130,16 @@ void Viewer::open(LoadedScene scene) {
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
+  gl::Buffer copied_positions = room_for_positions(session->model());
   shows_.colors = session->scene().output.coloring == Coloring::deformation ? Colors::deformation : Colors::body;
   top_speed_ = top_speed_of(*session, options.scene);
   renderer_ = std::move(renderer);
+  copied_positions_ = std::move(copied_positions);
   session_ = std::move(session);
+  scenes_ = std::move(scenes);
   pull_.reset();
   observer_.forget();
-  scenes_ = scenes_beside(session_->scene().file);
   session_->time_passes(times_passes_);
-  make_room_for_positions();
   camera_ = options.camera;
   drawn_.reset();
   shown_.reset();
@@ -145,10 +147,10 @@ void Viewer::open(LoadedScene scene) {
   playback_.restart();
 }
 
-void Viewer::make_room_for_positions() {
-  const bool is_drawn_in_place = gpu::context_of(*device_) != nullptr;
-  const std::size_t bytes = session_->model().rest_positions.size() * sizeof(glm::vec4);
-  copied_positions_ = is_drawn_in_place ? gl::Buffer() : gl::Buffer(bytes, "drawn positions");
+// Of a device that is not the window's.
+gl::Buffer Viewer::room_for_positions(const Model& model) const {
+  if (gpu::context_of(*device_) != nullptr) return {};
+  return {model.rest_positions.size() * sizeof(glm::vec4), "drawn positions"};
 }
 
 // In a pause there is nothing to draw but what events ask for.
@@ -267,7 +269,7 @@ void Viewer::switch_device() {
   std::unique_ptr<Device> other = make_device_(device_->info().kind == "gpu" ? "cpu" : "gpu");
   session_->move_to(*other);
   device_ = std::move(other);
-  make_room_for_positions();
+  copied_positions_ = room_for_positions(session_->model());
   observer_.count_anew();
   playback_.restart();
   message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);

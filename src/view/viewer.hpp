@@ -54,7 +54,7 @@ class Viewer {
   };
 
   void open(LoadedScene scene);
-  void make_room_for_positions();
+  [[nodiscard]] gl::Buffer room_for_positions(const Model& model) const;
   [[nodiscard]] std::vector<gl::WindowEvent> next_events();
   void handle(const gl::KeyPressed& event);
   void handle(const gl::MousePressed& event);
