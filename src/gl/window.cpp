@@ -166,6 +166,12 @@ Context& Window::context() { return impl_->context; }
 
 glm::uvec2 Window::framebuffer_size() const { return impl_->framebuffer_size; }
 
+float Window::scale() const {
+  float across = 1, down = 1;
+  glfwGetWindowContentScale(impl_->window, &across, &down);
+  return across;
+}
+
 std::vector<WindowEvent> Window::poll_events() {
   glfwPollEvents();
   return std::exchange(impl_->events, {});

@@ -54,6 +54,8 @@ class Window {
   [[nodiscard]] Context& context();
   /// [pixels]; 0 x 0 while there is nothing to draw into, as when minimised.
   [[nodiscard]] glm::uvec2 framebuffer_size() const;
+  /// How much larger than on a usual display its user wants what is drawn, such as 2: the window was made larger so itself.
+  [[nodiscard]] float scale() const;
   /// What happened since the last call.
   [[nodiscard]] std::vector<WindowEvent> poll_events();
   /// The same, but waits until something happens or `seconds` have gone by.

@@ -9,13 +9,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "dynamics/integrator.hpp"
 
 namespace pliant::view {
 namespace {
 
-constexpr float margin = 10, width = 330, plot_height = 56;  // [pixels at usual density]
+constexpr float margin = 10, width = 330, plot_height = 56, text_height = 13;  // [pixels of a usual display]
+
+/// What is so large on a usual display, on this one; while a picture is made [pixels].
+float scaled(float pixels) { return pixels * ImGui::GetFontSize() / text_height; }
 
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {
@@ -55,7 +59,7 @@ void choose_device(Wishes& wishes) {
 }
 
 void play(const Facts& facts, Wishes& wishes) {
-  if (ImGui::Button(wishes.is_paused ? "play" : "pause", {60, 0})) wishes.is_paused = !wishes.is_paused;
+  if (ImGui::Button(wishes.is_paused ? "play" : "pause", {scaled(60), 0})) wishes.is_paused = !wishes.is_paused;
   ImGui::SameLine();
   wishes.steps_back = ImGui::Button("<");
   ImGui::SameLine();
@@ -131,7 +135,7 @@ void plot(const char* id, const Series& series, const std::string& text) {
   const float low = values.empty() ? 0 : std::min(0.0f, *std::ranges::min_element(values));
   if (high <= low) high = low + 1;
   ImGui::PlotLines(id, values.data(), static_cast<int>(values.size()), 0, text.c_str(), low, high * 1.15f,
-                   {ImGui::GetContentRegionAvail().x, plot_height});
+                   {ImGui::GetContentRegionAvail().x, scaled(plot_height)});
 }
 
 void plot_energy(const Observation& seen) {
@@ -153,9 +157,9 @@ void tell_of_work(const Facts& facts, Wishes& wishes) {
   ImGui::Checkbox("time each pass (slower)", &wishes.times_passes);
   for (const PassTime& pass : facts.observation->passes) say("{:>9.4f} ms  {}", pass.milliseconds, pass.name);
   const StepReport& report = facts.report;
-  say("forces     {:>10} made {:>10} skipped", report.force_evaluations, report.forces_skipped);
-  say("body pairs {:>26} skipped", report.body_pairs_skipped);
-  say("tree refits{:>26} skipped", report.refits_skipped);
+  say("forces     {:>8} made {:>8} skipped", report.force_evaluations, report.forces_skipped);
+  say("body pairs {:>22} skipped", report.body_pairs_skipped);
+  say("tree refits{:>22} skipped", report.refits_skipped);
 }
 
 void choose_level(unsigned deepest, std::optional<unsigned>& level) {
@@ -192,20 +196,24 @@ void choose_look(const Facts& facts, Shows& shows) {
 
 void show_help(const glm::uvec2& size, const std::string& help) {
   if (help.empty()) return;
-  ImGui::SetNextWindowPos({static_cast<float>(size.x) - margin, margin}, ImGuiCond_Always, {1, 0});
+  ImGui::SetNextWindowPos({static_cast<float>(size.x) - scaled(margin), scaled(margin)}, ImGuiCond_Always, {1, 0});
   ImGui::Begin("Keys and mouse", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
   ImGui::TextUnformatted(help.c_str());
   ImGui::End();
 }
 
-void set_style() {
+void set_style(float scale) {
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = style.FrameRounding = style.GrabRounding = 4;
   style.WindowBorderSize = 0;
   style.Colors[ImGuiCol_WindowBg] = {0.07f, 0.08f, 0.10f, 0.88f};
   style.Colors[ImGuiCol_PlotLines] = {0.95f, 0.62f, 0.25f, 1};
+  style.ScaleAllSizes(scale);
+  ImFontConfig font;
+  font.SizePixels = std::round(text_height * scale);
+  ImGui::GetIO().Fonts->AddFontDefault(&font);
 }
 
 }  // namespace
@@ -230,11 +238,11 @@ struct Panel::Mouse {
   }
 };
 
-Panel::Panel() : mouse_(std::make_unique<Mouse>()) {
+Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
-  set_style();
+  set_style(scale);
   ImGui_ImplOpenGL3_Init("#version 450");
 }
 
@@ -283,11 +291,12 @@ void Panel::end() {
 
 void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help) {
   begin(size, seconds);
-  ImGui::SetNextWindowPos({margin, margin});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, static_cast<float>(size.y) - 2 * margin});
+  const ImRect place(scaled(margin), scaled(margin), scaled(margin + width), static_cast<float>(size.y) - scaled(margin));
+  ImGui::SetNextWindowPos(place.Min);
+  ImGui::SetNextWindowSize({place.GetWidth(), 0});
+  ImGui::SetNextWindowSizeConstraints({place.GetWidth(), 0}, place.GetSize());
   ImGui::Begin((facts.title + "###panel").c_str(), nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
-  ImGui::PushItemWidth(-95);
+  ImGui::PushItemWidth(-scaled(95));
   choose_scene(facts, wishes);
   play(facts, wishes);
   edit_bodies(facts, wishes);
@@ -300,7 +309,7 @@ void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wis
   ImGui::End();
   show_help(size, help);
   end();
-  if (has_no_height_yet) mouse_->windows.emplace_back(margin, margin, margin + width, static_cast<float>(size.y));
+  if (has_no_height_yet) mouse_->windows.push_back(place);
 }
 
 void Panel::draw_help(const glm::uvec2& size, double seconds, const std::string& help) {

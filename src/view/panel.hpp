@@ -54,8 +54,8 @@ struct Facts {
 
 class Panel {
  public:
-  /// Needs a current gl::Context while it lives. One at a time.
-  Panel();
+  /// All it draws is `scale` times as large as on a usual display. Needs a current gl::Context while it lives. One at a time.
+  explicit Panel(float scale);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;

@@ -291,7 +291,7 @@ void Viewer::toggle_panel() {
 void Viewer::toggle_help() { toggle(shows_help_); }
 
 void Viewer::toggle(bool& is_shown) {
-  if (panel_ == nullptr) panel_ = std::make_unique<Panel>();
+  if (panel_ == nullptr) panel_ = std::make_unique<Panel>(window_.scale());
   is_shown = !is_shown;
   if (!is_overlaid()) panel_->hide();
   shown_.reset();

@@ -131,6 +131,12 @@ void VirtualDisplay::drop(const std::filesystem::path& file, const std::string& 
   (void)run("/usr/bin/python3 " + source_dir() + "/tests/support/drop_file.py " + window + " " + file.string());
 }
 
+void VirtualDisplay::make_dense() const {
+  (void)run(
+      "/usr/bin/python3 -c 'from Xlib import X, Xatom, display; here = display.Display(); "
+      "here.screen().root.change_property(Xatom.RESOURCE_MANAGER, Xatom.STRING, 8, b\"Xft.dpi: 192\"); here.sync()'");
+}
+
 VirtualDisplay::VirtualDisplay()
     : server_(std::make_unique<Child>(
           std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"})) {

@@ -46,6 +46,8 @@ class VirtualDisplay {
   [[nodiscard]] std::string run(const std::string& command) const;
   /// Drops a file on a window, as a file manager would.
   void drop(const std::filesystem::path& file, const std::string& window) const;
+  /// Says to programs from here on that there are twice as many dots per inch as usual.
+  void make_dense() const;
   /// What a window shows.
   [[nodiscard]] render::Image picture_of(const std::string& window) const;
 

@@ -410,6 +410,20 @@ TEST_CASE("what happens over the help leaves the scene alone, and beside it does
   viewed.await([&](const Json& line) { return line["camera"] != before["camera"]; });
 }
 
+TEST_CASE("on a dense display the panel is larger", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  display.make_dense();
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  viewed.press("Tab");
+  const Json before = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  CHECK(before["size"] == Json{640, 480});
+  viewed.drag(1, {400, 450}, {500, 440});  // to the right of where it would end
+  viewed.press("period");
+  CHECK(viewed.await(step_is(1))["camera"] == before["camera"]);
+}
+
 TEST_CASE("a key that is held ends its work when it is let go, and only steps repeat", "[gl][long]") {
   if (is_skipped()) return;
   const VirtualDisplay display;
