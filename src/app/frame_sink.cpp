@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "device/gpu/gpu_device.hpp"
-#include "gl/objects.hpp"
 #include "output/png.hpp"
+#include "render/drawn_buffers.hpp"
 #include "render/frame_renderer.hpp"
 
 namespace pliant::app {
@@ -31,34 +31,25 @@ std::unique_ptr<gl::Context> context_for_drawing() {
 
 }  // namespace
 
-/// Draws from the simulation's own buffer on a GPU device; from a copy of the positions on the CPU.
+/// Draws on the GPU device's context, or on its own beside a CPU device.
 class FrameSink::Painter {
  public:
-  explicit Painter(PreparedRun& run) : run_(run) {
-    const bool on_gpu = gpu::context_of(*run.device) != nullptr;
-    if (!on_gpu) {
-      own_context_ = context_for_drawing();
-      copy_ = gl::Buffer(run.start.model.rest_positions.size() * sizeof(glm::vec4), "drawn positions");
-    }
-    renderer_ = std::make_unique<render::FrameRenderer>(run.start.model, render::options_for(box_of(run), run.scene.output));
-  }
+  explicit Painter(PreparedRun& run)
+      : run_(run),
+        own_context_(gpu::context_of(*run.device) == nullptr ? context_for_drawing() : nullptr),
+        renderer_(run.start.model, render::options_for(box_of(run), run.scene.output)) {}
 
   render::Image paint() {
-    if (own_context_) {
-      const std::vector<glm::vec4> positions = run_.simulation->world_positions();
-      copy_.write(0, std::as_bytes(std::span(positions)));
-      renderer_->draw(copy_.id(), 0);
-    } else {
-      renderer_->draw(gpu::gl_buffer_of(*run_.device, run_.simulation->position_buffer()), run_.simulation->first_position());
-    }
-    return renderer_->read();
+    const render::DrawnBuffer positions = buffers_.positions(*run_.device, *run_.simulation);
+    renderer_.draw(positions.id, positions.first_vertex);
+    return renderer_.read();
   }
 
  private:
   PreparedRun& run_;
   std::unique_ptr<gl::Context> own_context_;
-  gl::Buffer copy_;
-  std::unique_ptr<render::FrameRenderer> renderer_;
+  render::DrawnBuffers buffers_;
+  render::FrameRenderer renderer_;
 };
 
 FrameSink::FrameSink(PreparedRun& run, FrameTargets targets) : run_(run), targets_(std::move(targets)), count_(targets_.first) {

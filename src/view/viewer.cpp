@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "device/gpu/gpu_device.hpp"
 #include "output/png.hpp"
 #include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
@@ -130,11 +129,9 @@ void Viewer::open(LoadedScene scene) {
   if (!session->scene().output.camera)
     options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
   auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
-  gl::Buffer copied_positions = room_for_positions(session->model());
   shows_.colors = session->scene().output.coloring == Coloring::deformation ? Colors::deformation : Colors::body;
   top_speed_ = top_speed_of(*session, options.scene);
   renderer_ = std::move(renderer);
-  copied_positions_ = std::move(copied_positions);
   session_ = std::move(session);
   scenes_ = std::move(scenes);
   pull_.reset();
@@ -145,12 +142,6 @@ void Viewer::open(LoadedScene scene) {
   shown_.reset();
   if (window_.framebuffer_size().x != 0) draw_bodies(look());  // takes a while, since shaders are compiled; no time is to go by
   playback_.restart();
-}
-
-// Of a device that is not the window's.
-gl::Buffer Viewer::room_for_positions(const Model& model) const {
-  if (gpu::context_of(*device_) != nullptr) return {};
-  return {model.rest_positions.size() * sizeof(glm::vec4), "drawn positions"};
 }
 
 // In a pause there is nothing to draw but what events ask for.
@@ -269,7 +260,6 @@ void Viewer::switch_device() {
   std::unique_ptr<Device> other = make_device_(device_->info().kind == "gpu" ? "cpu" : "gpu");
   session_->move_to(*other);
   device_ = std::move(other);
-  copied_positions_ = room_for_positions(session_->model());
   observer_.count_anew();
   playback_.restart();
   message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);
@@ -332,28 +322,16 @@ void Viewer::draw_bodies(const Look& wanted) {
   renderer_->set_fill(shows_.wireframe ? render::Fill::wireframe : render::Fill::surface);
   renderer_->set_coloring(shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body);
   renderer_->set_speeds(speeds());
-  Simulation& simulation = session_->simulation();
-  if (gpu::context_of(*device_) != nullptr) {
-    renderer_->draw(gpu::gl_buffer_of(*device_, simulation.position_buffer()), simulation.first_position());
-  } else {
-    const std::vector<glm::vec4> positions = simulation.world_positions();
-    copied_positions_.write(0, std::as_bytes(std::span(positions)));
-    renderer_->draw(copied_positions_.id(), 0);
-  }
+  const render::DrawnBuffer positions = buffers_.positions(*device_, session_->simulation());
+  renderer_->draw(positions.id, positions.first_vertex);
   collect_lines();
   drawn_ = wanted;
 }
 
 std::optional<render::Speeds> Viewer::speeds() {
   if (shows_.colors != Colors::speed) return {};
-  Simulation& simulation = session_->simulation();
-  if (gpu::context_of(*device_) != nullptr)
-    return render::Speeds{gpu::gl_buffer_of(*device_, simulation.motion_buffer()), simulation.first_position(), top_speed_};
-  const State state = simulation.state();
-  const auto bytes = std::as_bytes(std::span(state.motion));
-  if (copied_motions_.size() != bytes.size()) copied_motions_ = gl::Buffer(bytes.size(), "drawn motions");
-  copied_motions_.write(0, bytes);
-  return render::Speeds{copied_motions_.id(), 0, top_speed_};
+  const render::DrawnBuffer motions = buffers_.motions(*device_, session_->simulation());
+  return render::Speeds{motions.id, motions.first_vertex, top_speed_};
 }
 
 // The state visits the CPU for these, if they are wanted.

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "device/device.hpp"
-#include "gl/objects.hpp"
 #include "gl/window.hpp"
+#include "render/drawn_buffers.hpp"
 #include "render/frame_renderer.hpp"
 #include "view/marks.hpp"
 #include "view/observer.hpp"
@@ -54,7 +54,6 @@ class Viewer {
   };
 
   void open(LoadedScene scene);
-  [[nodiscard]] gl::Buffer room_for_positions(const Model& model) const;
   [[nodiscard]] std::vector<gl::WindowEvent> next_events();
   void handle(const gl::KeyPressed& event);
   void handle(const gl::MousePressed& event);
@@ -101,9 +100,8 @@ class Viewer {
   BatchSize batch_;
   std::unique_ptr<Session> session_;
   std::unique_ptr<render::FrameRenderer> renderer_;
-  gl::Buffer copied_positions_;  // of a device that is not the window's
-  gl::Buffer copied_motions_;    // likewise, while bodies are coloured by their speed
-  double top_speed_ = 1;         // of the colour scale [m/s]
+  render::DrawnBuffers buffers_;
+  double top_speed_ = 1;  // of the colour scale [m/s]
   CameraDescription camera_;
   Shows shows_;
   Lines lines_;  // over the latest picture
