@@ -9,21 +9,10 @@
 
 #include "gl/window.hpp"
 #include "scene/scene_description.hpp"
+#include "view/look.hpp"
 #include "view/observer.hpp"
 
 namespace pliant::view {
-
-enum class Colors { body, deformation, speed };
-
-/// What is drawn over the bodies, and how they are.
-struct Shows {
-  bool wireframe = false;
-  Colors colors = Colors::body;
-  bool velocities = false, contacts = false;
-  std::optional<unsigned> tree_level;  // whose boxes are drawn; the root is 0
-
-  bool operator==(const Shows&) const = default;
-};
 
 /// What the panel can ask for. It changes what it is given, and nothing else.
 struct Wishes {

@@ -54,6 +54,7 @@ class Session {
   [[nodiscard]] const SceneDescription& scene() const { return scene_.description; }
   [[nodiscard]] const Model& model() const { return scene_.start.model; }
   [[nodiscard]] const State& start() const { return scene_.start.state; }
+  [[nodiscard]] Device& device() const { return *device_; }
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const History& history() const { return history_; }
   [[nodiscard]] std::uint64_t step() const { return base_step_ + report_.steps; }

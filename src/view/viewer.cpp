@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -38,13 +38,6 @@ std::vector<std::filesystem::path> scenes_beside(const std::filesystem::path& fi
     if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
   std::ranges::sort(scenes);
   return scenes;
-}
-
-// The fastest vertex at the start, or one that crosses the scene in two seconds.
-double top_speed_of(const Session& session, const render::SceneBox& box) {
-  double top = box.radius();
-  for (const glm::dvec3& velocity : session.start().world_velocities(session.model())) top = std::max(top, glm::length(velocity));
-  return top;
 }
 
 std::filesystem::path free_picture_name(const std::string& stem) {
@@ -117,30 +110,25 @@ void Viewer::run() {
   }
 }
 
-// Where anything is missing, the scene before stays: all that can fail comes first.
+// Where anything is missing, the scene before stays: all that can fail comes first. The first picture is part of that, and takes
+// a while, since shaders are compiled.
 void Viewer::open(LoadedScene scene) {
   std::vector<std::filesystem::path> scenes = scenes_beside(scene.description.file);
   auto session = std::make_unique<Session>(*device_, std::move(scene));
-  render::RenderOptions options =
-      render::options_for(render::box_around(session->start().world_positions(session->model())), session->scene().output);
-  options.size = at_least_a_pixel(window_.framebuffer_size());
-  options.pictures_per_clear = render::most_pictures_per_clear;
-  options.detail = render::live_detail(window_.context().adapter().is_software);
-  if (!session->scene().output.camera)
-    options.camera = render::frame_scene(options.scene, static_cast<double>(options.size.x) / options.size.y);
-  auto renderer = std::make_unique<render::FrameRenderer>(session->model(), options);
-  shows_.colors = session->scene().output.coloring == Coloring::deformation ? Colors::deformation : Colors::body;
-  top_speed_ = top_speed_of(*session, options.scene);
-  renderer_ = std::move(renderer);
+  const glm::uvec2 size = at_least_a_pixel(window_.framebuffer_size());
+  auto view = std::make_unique<SceneView>(*session, size, render::live_detail(window_.context().adapter().is_software));
+  Shows shows = shows_;
+  shows.colors = session->scene().output.coloring == Coloring::deformation ? Colors::deformation : Colors::body;
+  view->draw({.step = 0, .camera = view->first_camera(), .size = size, .shows = shows});
+  session->time_passes(times_passes_);
+  view_ = std::move(view);
   session_ = std::move(session);
   scenes_ = std::move(scenes);
+  shows_ = shows;
+  camera_ = view_->first_camera();
   pull_.reset();
   observer_.forget();
-  session_->time_passes(times_passes_);
-  camera_ = options.camera;
-  drawn_.reset();
   shown_.reset();
-  if (window_.framebuffer_size().x != 0) draw_bodies(look());  // takes a while, since shaders are compiled; no time is to go by
   playback_.restart();
 }
 
@@ -291,9 +279,9 @@ void Viewer::save_picture() {
   const Look wanted = look();
   if (wanted.size.x == 0)
     throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
-  draw_bodies(wanted);
+  view_->draw(wanted);
   const std::filesystem::path name = free_picture_name(session_->scene().file.stem().string());
-  write_png(name, renderer_->read());
+  write_png(name, view_->picture());
   message_ = "saved " + name.string();
   fmt::print("{}\n", message_);
   std::fflush(stdout);
@@ -301,7 +289,7 @@ void Viewer::save_picture() {
 
 void Viewer::close() { window_.close(); }
 
-Viewer::Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
+Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
 
 // What is shown already is not shown again, but for what lies over it.
 void Viewer::draw() {
@@ -309,62 +297,26 @@ void Viewer::draw() {
   const Look wanted = look();
   is_up_to_date_ = wanted.size.x == 0 || shown_ == wanted;
   if (wanted.size.x == 0 || (is_up_to_date_ && !is_overlaid())) return;
-  draw_bodies(wanted);
-  present();
+  view_->draw(wanted);
+  present(wanted.size);
   shown_ = wanted;
 }
 
-// A picture that would be the one before is not drawn.
-void Viewer::draw_bodies(const Look& wanted) {
-  if (drawn_ == wanted) return;
-  renderer_->resize(wanted.size);
-  renderer_->set_camera(camera_);
-  renderer_->set_fill(shows_.wireframe ? render::Fill::wireframe : render::Fill::surface);
-  renderer_->set_coloring(shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body);
-  renderer_->set_speeds(speeds());
-  const render::DrawnBuffer positions = buffers_.positions(*device_, session_->simulation());
-  renderer_->draw(positions.id, positions.first_vertex);
-  collect_lines();
-  drawn_ = wanted;
-}
-
-std::optional<render::Speeds> Viewer::speeds() {
-  if (shows_.colors != Colors::speed) return {};
-  const render::DrawnBuffer motions = buffers_.motions(*device_, session_->simulation());
-  return render::Speeds{motions.id, motions.first_vertex, top_speed_};
-}
-
-// The state visits the CPU for these, if they are wanted.
-void Viewer::collect_lines() {
-  lines_.clear();
-  if (!shows_.velocities && !shows_.contacts && !shows_.tree_level) return;
-  Simulation& simulation = session_->simulation();
-  const State state = simulation.state();
-  const std::vector<glm::dvec3> positions = state.world_positions(session_->model());
-  if (shows_.tree_level) add_boxes(lines_, simulation.collider().forest(), positions, *shows_.tree_level);
-  if (shows_.velocities) add_velocities(lines_, positions, state.world_velocities(session_->model()));
-  if (shows_.contacts) add_contacts(lines_, session_->model(), positions, simulation.touching_vertices());
-}
-
-void Viewer::present() {
+void Viewer::present(const glm::uvec2& size) {
   const double at = now(), seconds = at - std::exchange(presented_at_, at);
   picture_seconds_ += 0.1 * (std::min(seconds, 1.0) - picture_seconds_);
-  renderer_->copy_to_window();
-  if (!lines_.empty()) {
-    if (!overlay_) overlay_.emplace();
-    overlay_->draw(lines_, camera_, drawn_->size);
-  }
+  view_->show();
   if (shows_panel_)
-    draw_panel(seconds);
+    draw_panel(size, seconds);
   else if (shows_help_)
-    panel_->draw_help(drawn_->size, seconds, help());
+    panel_->draw_help(size, seconds, help());
   window_.swap();
 }
 
-void Viewer::draw_panel(double seconds) {
+void Viewer::draw_panel(const glm::uvec2& size, double seconds) {
   observer_.look(*session_);
   wanted_ = wishes();
-  panel_->draw(drawn_->size, seconds, facts(), *wanted_, shows_help_ ? help() : "");
+  panel_->draw(size, seconds, facts(), *wanted_, shows_help_ ? help() : "");
 }
 
 Facts Viewer::facts() const {

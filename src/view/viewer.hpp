@@ -10,13 +10,11 @@
 
 #include "device/device.hpp"
 #include "gl/window.hpp"
-#include "render/drawn_buffers.hpp"
-#include "render/frame_renderer.hpp"
-#include "view/marks.hpp"
 #include "view/observer.hpp"
 #include "view/panel.hpp"
 #include "view/pick.hpp"
 #include "view/playback.hpp"
+#include "view/scene_view.hpp"
 #include "view/session.hpp"
 
 namespace pliant::view {
@@ -44,14 +42,6 @@ class Viewer {
   struct Command;
   /// The one list of keys.
   [[nodiscard]] static std::span<const Command> commands();
-  /// What a picture depends on.
-  struct Look {
-    std::uint64_t step = 0;
-    CameraDescription camera;
-    glm::uvec2 size{0};
-    Shows shows;
-    bool operator==(const Look&) const = default;
-  };
 
   void open(LoadedScene scene);
   [[nodiscard]] std::vector<gl::WindowEvent> next_events();
@@ -81,11 +71,8 @@ class Viewer {
   [[nodiscard]] bool is_overlaid() const { return shows_panel_ || shows_help_; }
   [[nodiscard]] Look look() const;
   void draw();
-  void draw_bodies(const Look& wanted);
-  [[nodiscard]] std::optional<render::Speeds> speeds();
-  void collect_lines();
-  void present();
-  void draw_panel(double seconds);
+  void present(const glm::uvec2& size);
+  void draw_panel(const glm::uvec2& size, double seconds);
   [[nodiscard]] Facts facts() const;
   [[nodiscard]] Wishes wishes() const;  // that are fulfilled
   void fulfil();
@@ -99,13 +86,9 @@ class Viewer {
   Playback playback_;
   BatchSize batch_;
   std::unique_ptr<Session> session_;
-  std::unique_ptr<render::FrameRenderer> renderer_;
-  render::DrawnBuffers buffers_;
-  double top_speed_ = 1;  // of the colour scale [m/s]
+  std::unique_ptr<SceneView> view_;
   CameraDescription camera_;
   Shows shows_;
-  Lines lines_;  // over the latest picture
-  std::optional<render::LineOverlay> overlay_;
   std::unique_ptr<Panel> panel_;  // once it has been asked for
   bool shows_panel_ = false, shows_help_ = false;
   Observer observer_;
@@ -118,7 +101,6 @@ class Viewer {
   double recorded_at_ = 0;                         // the latest state to go back to [s]
   bool has_repeated_ = false;                      // a key that is held has done its work since the latest picture
   bool is_up_to_date_ = false;                     // there was nothing to draw anew
-  std::optional<Look> drawn_;                      // the latest picture; empty: there is none of this scene
   std::optional<Look> shown_;                      // what the window shows; empty: it is to be shown again
   std::optional<Wishes> wanted_;                   // in the latest picture, if it had the panel and they are not fulfilled
   double presented_at_ = 0, picture_seconds_ = 0;  // between pictures, on average [s]

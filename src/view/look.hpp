@@ -1,0 +1,32 @@
+// What a picture of a session depends on.
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "scene/scene_description.hpp"
+
+namespace pliant::view {
+
+enum class Colors { body, deformation, speed };
+
+/// What is drawn over the bodies, and how they are.
+struct Shows {
+  bool wireframe = false;
+  Colors colors = Colors::body;
+  bool velocities = false, contacts = false;
+  std::optional<unsigned> tree_level;  // whose boxes are drawn; the root is 0
+
+  bool operator==(const Shows&) const = default;
+};
+
+struct Look {
+  std::uint64_t step = 0;
+  CameraDescription camera;
+  glm::uvec2 size{0};  // [pixels]
+  Shows shows;
+
+  bool operator==(const Look&) const = default;
+};
+
+}  // namespace pliant::view
