@@ -351,8 +351,40 @@ TEST_CASE("the panel and the help come and go, and what happens over them leaves
 }
 
 // Where the panel has its widgets, in rows above all that wraps.
-constexpr glm::ivec2 reset_button(153, 70), speed_slider(100, 92);
+constexpr glm::ivec2 scene_list(120, 46), first_in_list(60, 70), play_button(48, 70), back_button(93, 70), step_button(116, 70),
+    reset_button(153, 70), gpu_button(240, 70), speed_slider(100, 92);
 constexpr glm::ivec2 farther_right(40, 0);
+
+TEST_CASE("the panel's buttons do what keys do, and its list opens the scenes beside", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  std::ofstream(folder.path / "another.toml") << "[[body]]\nmesh = \"icosphere:1\"\n";
+  Viewed viewed(display, folder, "cpu");
+  const auto click = [&](const glm::ivec2& at) { viewed.xdotool(viewed.move_to(at) + "click 1"); };
+  viewed.press("Tab");
+  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  click(step_button);
+  viewed.await(step_is(1));
+  click(step_button);
+  viewed.await(step_is(2));
+  click(back_button);
+  viewed.await(step_is(1));
+  click(gpu_button);
+  viewed.await([](const Json& line) { return line["device"] == "gpu"; });
+  click(play_button);
+  viewed.await([](const Json& line) { return !line["paused"] && line["step"] > 1; });
+  click(play_button);
+  viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+  click(reset_button);
+  viewed.await(step_is(0));
+  click(scene_list);
+  viewed.await([](const Json&) { return true; });
+  click(first_in_list);
+  const Json opened = viewed.await([](const Json& line) { return !line["scene"].get<std::string>().ends_with("small.toml"); });
+  CHECK_THAT(opened["scene"].get<std::string>(), Catch::EndsWith("another.toml"));
+  CHECK(opened["panel"].get<bool>());
+}
 
 TEST_CASE("a widget that is held when the panel goes is let go by the mouse, whether the panel is back or not", "[gl][long]") {
   if (is_skipped()) return;
