@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <vector>
 
 #include "gl/context.hpp"
 #include "render/sphere_pictures.hpp"
@@ -13,22 +14,64 @@ using namespace pliant;
 using namespace pliant::render;
 using namespace pliant::test;
 
+namespace {
+
+/// Directions of a plane at right angles to each other: `across` runs up towards the light.
+struct Tilt {
+  glm::dvec3 along, across, normal;
+};
+
+/// `sine` is of the light's height above the plane, which is turned from the light towards the camera.
+Tilt tilted(double sine) {
+  const glm::dvec3 along = glm::normalize(glm::cross(to_light, front.eye)), towards_eye = glm::cross(along, to_light);
+  const glm::dvec3 normal = sine * to_light + std::sqrt(1 - sine * sine) * towards_eye;
+  return {along, glm::cross(normal, along), normal};
+}
+
+/// A white square about the origin, from -1 to 1 along both directions.
+Subject plate(const Tilt& tilt) {
+  const auto& [along, across, normal] = tilt;
+  Subject subject;
+  subject.model.bodies.emplace_back();
+  subject.model.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (const glm::dvec3& corner : {-along - across, along - across, along + across, across - along}) {
+    subject.model.rest_positions.emplace_back(glm::vec3(corner), 0.0f);
+    subject.world.emplace_back(glm::vec3(corner), 1.0f);
+  }
+  return subject;
+}
+
+/// But for its rim.
+std::vector<glm::dvec3> places_on(const Tilt& tilt) {
+  std::vector<glm::dvec3> places;
+  for (int i = -15; i <= 15; ++i) {
+    for (int j = -15; j <= 15; ++j) places.push_back(0.06 * i * tilt.along + 0.06 * j * tilt.across);
+  }
+  return places;
+}
+
+/// How much brighter or darker a body is at some of its places than where nothing casts shadows: far beside the shadow map.
+int shadow_on_itself(const Subject& body, const std::vector<glm::dvec3>& places, double half_box) {
+  RenderOptions options = without_ground(), elsewhere = options;
+  const glm::dvec3 aside(4 * half_box, 0, 4 * half_box);  // at right angles to the light
+  options.scene = {glm::dvec3(-half_box), glm::dvec3(half_box)};
+  elsewhere.scene = {options.scene.low + aside, options.scene.high + aside};
+  const Image image = draw(body, options), without_shadows = draw(body, elsewhere);
+  int largest = 0;
+  for (const glm::dvec3& place : places)
+    largest = std::max(largest, std::abs(brightness_at(image, place) - brightness_at(without_shadows, place)));
+  return largest;
+}
+
+}  // namespace
+
 TEST_CASE("a body darkens the ground around it and never brightens it", "[gl]") {
   const gl::Context context(0);
   RenderOptions options = without_ground();
   options.ground_height = -1.1;
-  const Subject subject = sphere({0, 0, 0});
-  const Image shadowed = draw(subject, options), empty = draw({}, options);
-  const Silhouette body{draw(subject)};
-  int darkest = 0, brightest = 0;
-  for (std::size_t i = 0; i < shadowed.pixels.size(); ++i) {
-    if (body.near(static_cast<int>(i / 3 % picture_size.x), static_cast<int>(i / 3 / picture_size.x))) continue;
-    const int change = int{shadowed.pixels[i]} - int{empty.pixels[i]};
-    darkest = std::min(darkest, change);
-    brightest = std::max(brightest, change);
-  }
-  CHECK(darkest < -40);
-  CHECK(brightest <= 1);
+  const GroundChange change = change_of_ground(sphere({0, 0, 0}), options);
+  CHECK(change.darkest > 40);
+  CHECK(change.brightest <= 1);
 }
 
 TEST_CASE("the ground is darker in a body's shadow than at the shadow's mirror image on the lit side", "[gl]") {
@@ -46,16 +89,7 @@ TEST_CASE("a camera from far away with a narrow view sees the shadow as one near
   const auto contrast = [&](double times) {
     const double slope = std::tan(glm::radians(front.field_of_view) / 2) / times;
     options.camera = {front.eye * times, front.target, 2 * glm::degrees(std::atan(slope))};
-    RenderOptions floating = options;
-    floating.ground_height.reset();
-    const Image empty = draw({}, options), image = draw(sphere({0, 0, 0}), options);
-    const Silhouette body{draw(sphere({0, 0, 0}), floating), floating};
-    int darkest = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-      if (body.near(static_cast<int>(i / 3 % picture_size.x), static_cast<int>(i / 3 / picture_size.x))) continue;
-      darkest = std::max(darkest, empty.pixels[i] - image.pixels[i]);
-    }
-    return darkest;
+    return change_of_ground(sphere({0, 0, 0}), options).darkest;
   };
   CHECK(contrast(20) > contrast(1) / 2);
 }
@@ -91,11 +125,72 @@ TEST_CASE("a body is darker where another stands between it and the light", "[gl
   CHECK(brightness_at(draw(together(lower, sphere(glm::dvec3(0.5, -0.5, 0) + 3.0 * to_light)), options), lit) < alone - 60);
 }
 
+TEST_CASE("a body casts its shadow from however far beyond the light's box", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {{-1, -1, -1}, {1, 1, 1}};
+  const Subject lower = sphere({0, 0, 0});
+  const int alone = brightness_at(draw(lower, options), to_light);
+  for (const double distance : {3.0, 10.0, 100.0}) {
+    CAPTURE(distance);
+    CHECK(brightness_at(draw(together(lower, sphere(distance * to_light)), options), to_light) < alone - 60);
+  }
+}
+
+TEST_CASE("a round body alone is as bright as where nothing casts shadows", "[gl]") {
+  const gl::Context context(0);
+  std::vector<glm::dvec3> facing_light = places_seen();  // flat triangles shade each other where the light is lower
+  std::erase_if(facing_light, [](const glm::dvec3& place) { return glm::dot(place, to_light) < 0.1; });
+  for (const double half_box : {1.0, 2.0, 6.0}) {  // from fine texels of the shadow map to coarse ones
+    CAPTURE(half_box);
+    CHECK(shadow_on_itself(sphere({0, 0, 0}), facing_light, half_box) <= 6);
+  }
+}
+
+TEST_CASE("a flat body alone is as bright as where nothing casts shadows, down to a light 6 degrees above it", "[gl]") {
+  const gl::Context context(0);
+  for (const double sine : {0.8, 0.3, 0.15, 0.1}) {
+    CAPTURE(sine);
+    CHECK(shadow_on_itself(plate(tilted(sine)), places_on(tilted(sine)), 1) <= 3);
+  }
+}
+
+TEST_CASE("a sheet casts its shadow on another that is close behind it", "[gl]") {
+  const gl::Context context(0);
+  const Tilt tilt = tilted(0.5);
+  const double gap = 0.05;  // [m], a dozen texels of the shadow map: what keeps bodies from shadowing themselves is less
+  Subject sheet = scaled(plate(tilt), 0.3f);
+  for (auto& p : sheet.world) p += glm::vec4(gap * tilt.normal, 0);
+  RenderOptions options = without_ground();
+  options.scene = {glm::dvec3(-1), glm::dvec3(1)};
+  options.camera.field_of_view = 8;
+  const Image image = draw(together(plate(tilt), sheet), options);
+  // Beyond the sheet's edge, in the middle of what a light 30 degrees above shadows on the side away from it.
+  const glm::dvec3 strip = tilt.across * (0.3 + 0.5 * gap * std::sqrt(3.0));
+  CHECK(brightness_at(image, -strip, options.camera) < brightness_at(image, strip, options.camera) - 60);
+}
+
+TEST_CASE("a body hides a part of the sky from the ground beside it, and less from ground farther away", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  const Image image = draw(sphere({0, 0, 0}), options), empty = draw({}, options);
+  const auto darkened = [&](double distance) {
+    const glm::dvec3 place = glm::dvec3(-0.7, 0, 0.7) * distance + glm::dvec3(0, -1.1, 0);  // the key light reaches it
+    return brightness_at(empty, place) - brightness_at(image, place);
+  };
+  CHECK(darkened(1) > 15);
+  CHECK(darkened(3) < darkened(1) / 3);
+}
+
 TEST_CASE("a body is darker in the cleft beside another, though the light reaches it", "[gl]") {
   const gl::Context context(0);
-  const Subject left = sphere({-1, 0, 0});
   const glm::dvec3 in_cleft(-0.12, 0, 0.475), far_side(-1.9, 0, 0.43);
-  const Image alone = draw(left), beside = draw(together(left, sphere({1, 0, 0})));
-  CHECK(brightness_at(beside, in_cleft) < brightness_at(alone, in_cleft) - 8);
-  CHECK(std::abs(brightness_at(beside, far_side) - brightness_at(alone, far_side)) <= 3);
+  for (const double shade : {0.0, 1.0}) {  // black: what it mirrors; white: nearly all is what it scatters
+    const Subject left = sphere({-1, 0, 0}, glm::dvec3(shade));
+    const Image alone = draw(left), beside = draw(together(left, sphere({1, 0, 0})));
+    CAPTURE(shade);
+    CHECK(brightness_at(beside, in_cleft) < brightness_at(alone, in_cleft) - (shade > 0 ? 20 : 8));
+    CHECK(std::abs(brightness_at(beside, far_side) - brightness_at(alone, far_side)) <= 3);
+  }
 }

@@ -52,6 +52,12 @@ Subject scaled(Subject subject, float factor) {
   return subject;
 }
 
+std::vector<glm::dvec3> places_seen() {
+  std::vector<glm::dvec3> places = generate_mesh("icosphere:4").positions;
+  std::erase_if(places, [](const glm::dvec3& p) { return glm::dot(p, glm::normalize(front.eye - p)) < 0.25; });
+  return places;
+}
+
 RenderOptions without_ground() {
   RenderOptions options;
   options.size = picture_size;
@@ -123,10 +129,35 @@ PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescriptio
   return box;
 }
 
-int brightness_at(const Image& image, const glm::dvec3& place, const CameraDescription& camera) {
+glm::ivec2 pixel_of(const glm::dvec3& place, const CameraDescription& camera) {
   const PixelBox at = pinhole_box({glm::vec4(place, 1)}, camera);
-  const std::size_t first = 3 * (static_cast<std::size_t>(at.top) * image.width + static_cast<std::size_t>(at.left));
+  return {at.left, at.top};
+}
+
+int brightness(const Image& image, const glm::ivec2& pixel) {
+  const std::size_t first =
+      std::size_t{3} * (static_cast<std::size_t>(pixel.y) * image.width + static_cast<std::size_t>(pixel.x));
   return image.pixels[first] + image.pixels[first + 1] + image.pixels[first + 2];
+}
+
+int brightness_at(const Image& image, const glm::dvec3& place, const CameraDescription& camera) {
+  return brightness(image, pixel_of(place, camera));
+}
+
+GroundChange change_of_ground(const Subject& subject, const RenderOptions& with_ground) {
+  RenderOptions floating = with_ground;
+  floating.ground_height.reset();
+  const Image image = draw(subject, with_ground), empty = draw({}, with_ground);
+  const Silhouette body{draw(subject, floating), floating};
+  GroundChange change;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    if (body.near(static_cast<int>(i / 3 % picture_size.x), static_cast<int>(i / 3 / picture_size.x))) continue;
+    const int darker = empty.pixels[i] - image.pixels[i];
+    change.darkest = std::max(change.darkest, darker);
+    change.brightest = std::max(change.brightest, -darker);
+    change.sum += darker;
+  }
+  return change;
 }
 
 }  // namespace pliant::test

@@ -29,6 +29,8 @@ struct Subject {
 [[nodiscard]] Subject together(Subject a, const Subject& b);
 /// About the mean of its vertices.
 [[nodiscard]] Subject scaled(Subject subject, float factor);
+/// All over the part of a unit sphere about the origin that `front` sees, but for its rim. Such a place is its own normal.
+[[nodiscard]] std::vector<glm::dvec3> places_seen();
 
 [[nodiscard]] render::RenderOptions without_ground();
 /// A subject to be drawn more than once. Needs a current context while it lives.
@@ -60,7 +62,19 @@ struct PixelBox {
 [[nodiscard]] PixelBox box_of(const Silhouette& silhouette);
 /// A pinhole camera by similar triangles.
 [[nodiscard]] PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescription& camera);
-/// Sum of a pixel's red, green and blue, where a camera sees a place.
+/// Where a camera sees a place, from the top left.
+[[nodiscard]] glm::ivec2 pixel_of(const glm::dvec3& place, const CameraDescription& camera = front);
+/// Sum of a pixel's red, green and blue.
+[[nodiscard]] int brightness(const render::Image& image, const glm::ivec2& pixel);
+/// The same where a camera sees a place.
 [[nodiscard]] int brightness_at(const render::Image& image, const glm::dvec3& place, const CameraDescription& camera = front);
+
+/// What a body changes of the ground beside it, of 255.
+struct GroundChange {
+  int darkest = 0, brightest = 0;  // of any channel of any pixel
+  double sum = 0;                  // of all, positive where darker
+};
+
+[[nodiscard]] GroundChange change_of_ground(const Subject& subject, const render::RenderOptions& with_ground);
 
 }  // namespace pliant::test
