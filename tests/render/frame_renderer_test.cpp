@@ -47,6 +47,21 @@ TEST_CASE("a picture is drawn anew for every draw and camera, and shows nothing 
   CHECK(seen_from(front) == first);
 }
 
+TEST_CASE("lights and shadows stay where they are when a camera is set", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  Drawing drawing(sphere({0, 0, 0}), options);
+  const CameraDescription behind{{0, 1, -7}, {0, 0, 0}, 40};
+  drawing.renderer.set_camera(behind);
+  const Image image = drawing.picture();
+  const auto left_of_right = [&](const glm::dvec3& right) {
+    return brightness_at(image, {-right.x, right.y, right.z}, behind) - brightness_at(image, right, behind);
+  };
+  CHECK(left_of_right({0.8, 0.4, -0.4}) > 60);   // on the body
+  CHECK(left_of_right({1.3, -1.1, -0.5}) > 60);  // on the ground, in the shadow
+}
+
 TEST_CASE("where depths are seldom cleared a picture shows nothing of earlier ones", "[gl]") {
   const gl::Context context(0);
   RenderOptions seldom = without_ground();
