@@ -90,7 +90,6 @@ double seconds_of(Device& device, Drawing& drawing, std::uint64_t steps, bool dr
 }
 
 std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
-  seconds_of(device, drawing, 1, true);  // builds the kernels
   const double steps_of_a_picture = a_sixtieth / seconds_of(device, drawing, 1, false);
   if (steps_of_a_picture < 1) return std::nullopt;
   std::vector<double> with, without;
@@ -105,6 +104,8 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
   const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
   Drawing drawing(device, what, options_for(what, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
+  seconds_of(device, drawing, 1, true);  // builds the kernels
+  drawing.restart();
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   PassTimes passes = median_passes(device, drawing, frames);
   return {.scene = what.name,
