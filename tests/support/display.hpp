@@ -26,6 +26,7 @@ class Child {
   std::string read_line();
   /// Reads until the end, for a minute at most, and gives the exit code.
   int wait_for_end();
+  [[nodiscard]] pid_t id() const { return id_; }
 
  private:
   bool read_more();

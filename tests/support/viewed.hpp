@@ -1,0 +1,95 @@
+// `pliant view` in a real window, driven through X by keys and mouse. Nothing here waits for a time: the program reports each
+// picture, and a test reads until what it did shows.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "support/display.hpp"
+#include "support/pictures.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant::test {
+
+using Json = nlohmann::json;
+
+inline glm::dvec3 place(const Json& json) { return {json[0], json[1], json[2]}; }
+inline glm::dvec3 eye_from_target(const Json& line) { return place(line["camera"]["eye"]) - place(line["camera"]["target"]); }
+
+inline bool has_turned_by_a_quarter(const Json& before, const Json& after) {
+  const glm::dvec3 old = eye_from_target(before);
+  return glm::distance(eye_from_target(after), glm::dvec3(-old.z, old.y, old.x)) < 1e-6 * glm::length(old);
+}
+
+/// The program in its window. Leaks are not looked for: the driver's libraries leave some when they are unloaded with the window,
+/// after which no suppression knows their names.
+class Viewed {
+ public:
+  /// Paused, with a small scene, or that with more options.
+  Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const std::string& device,
+         const std::vector<std::string>& more = {});
+
+  /// Runs commands of it.
+  void xdotool(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
+  [[nodiscard]] std::string move_to(const glm::ivec2& at) const {
+    return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
+  }
+  void press(const std::string& key) const { xdotool("key " + key); }
+  void drag(int button, const glm::ivec2& from, const glm::ivec2& to) const {
+    xdotool(move_to(from) + "mousedown " + std::to_string(button) + " " + move_to(to) + "mouseup " + std::to_string(button));
+  }
+  void click(const glm::ivec2& at) const { xdotool(move_to(at) + "click 1"); }
+  void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
+  /// Reads reports until one is as wanted.
+  Json await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most = std::chrono::minutes(2));
+  std::string await_text(const std::string& beginning) {
+    for (;;)
+      if (std::string line = program_.read_line(); line.starts_with(beginning)) return line;
+  }
+  /// The picture that the program saves.
+  render::Image saved_picture();
+  /// Whether the window shows the picture; it may still be on its way to the display.
+  [[nodiscard]] bool shows(const render::Image& picture) const;
+  [[nodiscard]] bool shows_another(const render::Image& picture) const;
+  const std::string& window() const { return window_; }
+  Child& program() { return program_; }
+
+ private:
+  const VirtualDisplay& display_;
+  std::filesystem::path folder_;
+  Child program_;
+  std::string window_;  // its number
+};
+
+inline auto step_is(std::uint64_t step) {
+  return [step](const Json& line) { return line["step"] == step; };
+}
+inline auto size_is(unsigned width, unsigned height) {
+  return [=](const Json& line) { return line["size"] == Json{width, height}; };
+}
+
+/// The pixels of the red body: how many there are, and where they are on average.
+struct Reddish {
+  explicit Reddish(const render::Image& image) {
+    for (std::size_t i = 0; i < image.pixels.size() / 3; ++i) {
+      if (image.pixels[3 * i] <= 2 * image.pixels[3 * i + 2]) continue;
+      ++count;
+      sum += glm::dvec2(i % image.width, i / image.width);
+    }
+  }
+  [[nodiscard]] glm::ivec2 centre() const { return sum / static_cast<double>(count); }
+  long count = 0;
+  glm::dvec2 sum{0.0};
+};
+
+/// What such a program says of itself.
+inline constexpr const char* built_without = "built without the viewer";
+
+/// Says why no window can be tested here, if so, and fails under CI.
+[[nodiscard]] bool is_skipped();
+
+}  // namespace pliant::test
