@@ -75,6 +75,24 @@ TEST_CASE("where depths are seldom cleared a picture shows nothing of earlier on
   }
 }
 
+TEST_CASE("where depths are seldom cleared bodies leave no shadows behind", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {glm::dvec3(-1), glm::dvec3(1)};
+  options.ground_height = -1.1;
+  RenderOptions seldom = options;
+  seldom.pictures_per_clear = 3;
+  const Subject lower = sphere({0, 0, 0});
+  Drawing always(together(lower, lower), options), seldom_cleared(together(lower, lower), seldom);
+  for (int k = 0; k < 8; ++k) {  // the other body is near, far beyond the light's box, or not before the light at all
+    const glm::dvec3 places[] = {2.5 * to_light, 10.0 * to_light, {3, 0.5, 0}};
+    const Subject both = together(lower, sphere(places[k % 3]));
+    CAPTURE(k);
+    for (Drawing* drawing : {&always, &seldom_cleared}) drawing->positions.write(0, std::as_bytes(std::span(both.world)));
+    CHECK(are_alike(always.picture(), seldom_cleared.picture()));
+  }
+}
+
 TEST_CASE("a resized renderer draws what one of that size would, bit for bit", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0.4, 0, 0});
