@@ -26,6 +26,7 @@ class History {
   void clear();
   [[nodiscard]] std::size_t size() const { return snapshots_.size(); }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] std::size_t most_bytes() const { return most_bytes_; }
 
  private:
   std::size_t most_bytes_, bytes_ = 0;

@@ -220,7 +220,7 @@ void set_style(float scale) {
 
 /// What ImGui is to hear of next: a press that was let go between two pictures counts, too.
 struct Panel::Mouse {
-  std::array<bool, 2> is_down{}, was_pressed{};
+  std::array<bool, 2> is_down{};
   std::vector<ImRect> windows;  // of the latest picture [pixels]
 
   void find_windows() {
@@ -261,9 +261,7 @@ bool Panel::takes(const gl::WindowEvent& event) {
   if (const auto* pressed = std::get_if<gl::MousePressed>(&event)) {
     at(pressed->place);
     if (!mouse_->takes_press()) return false;
-    mouse_->is_down[static_cast<std::size_t>(pressed->button)] = mouse_->was_pressed[static_cast<std::size_t>(pressed->button)] =
-        true;
-    return true;
+    return mouse_->is_down[static_cast<std::size_t>(pressed->button)] = true;
   }
   if (const auto* released = std::get_if<gl::MouseReleased>(&event))
     return std::exchange(mouse_->is_down[static_cast<std::size_t>(released->button)], false);
@@ -277,8 +275,7 @@ void Panel::begin(const glm::uvec2& size, double seconds) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.1));
-  for (std::size_t button = 0; button < 2; ++button)
-    io.MouseDown[button] = mouse_->is_down[button] || std::exchange(mouse_->was_pressed[button], false);
+  std::ranges::copy(mouse_->is_down, io.MouseDown);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }
@@ -318,9 +315,8 @@ void Panel::draw_help(const glm::uvec2& size, double seconds, const std::string&
   end();
 }
 
-void Panel::hide() {
-  mouse_->windows.clear();
-  mouse_->was_pressed = {};
-}
+void Panel::hide() { mouse_->windows.clear(); }
+
+std::size_t Panel::window_count() const { return mouse_->windows.size(); }
 
 }  // namespace pliant::view

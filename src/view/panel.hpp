@@ -49,8 +49,8 @@ class Panel {
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  /// Hears of the mouse, also while nothing is shown. True where it is the panel's: pressed over what is shown, until it is let
-  /// go, or turned there.
+  /// Hears of the mouse, also while nothing is shown; of one press or release a picture. True where it is the panel's: pressed
+  /// over what is shown, until it is let go, or turned there.
   bool takes(const gl::WindowEvent& event);
   /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
   void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
@@ -58,6 +58,8 @@ class Panel {
   void draw_help(const glm::uvec2& size, double seconds, const std::string& help);
   /// Nothing is shown until it draws again.
   void hide();
+  /// Of the latest picture: itself, the help, an open list.
+  [[nodiscard]] std::size_t window_count() const;
 
  private:
   void begin(const glm::uvec2& size, double seconds);

@@ -6,17 +6,6 @@
 namespace pliant::view {
 namespace {
 
-render::RenderOptions options_of(const Session& session, const glm::uvec2& size, render::Detail detail) {
-  const OutputDescription& output = session.scene().output;
-  render::RenderOptions options =
-      render::options_for(render::box_around(session.start().world_positions(session.model())), output);
-  options.size = size;
-  options.detail = detail;
-  options.pictures_per_clear = render::most_pictures_per_clear;
-  if (!output.camera) options.camera = render::frame_scene(options.scene, static_cast<double>(size.x) / size.y);
-  return options;
-}
-
 // The fastest vertex at the start, or one that crosses the scene in two seconds.
 double top_speed_of(const Session& session, const render::SceneBox& box) {
   double top = box.radius();
@@ -28,7 +17,7 @@ double top_speed_of(const Session& session, const render::SceneBox& box) {
 
 SceneView::SceneView(Session& session, const glm::uvec2& size, render::Detail detail)
     : session_(session),
-      options_(options_of(session, size, detail)),
+      options_(render::live_options(session.model(), session.start(), session.scene().output, size, detail)),
       top_speed_(top_speed_of(session, options_.scene)),
       renderer_(session.model(), options_) {}
 

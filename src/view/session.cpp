@@ -94,11 +94,12 @@ void Session::record() {
   if (!report_.non_finite) history_.record({step(), simulation_->save()});
 }
 
-// Of a long way only the end is kept: what lies before is made anew when it is reached, and leaves older states their room.
+// Of a long way only the end is kept: what lies before is made anew when it is reached, and leaves older states their room, half
+// of all there is if states are large.
 bool Session::step_back() {
-  constexpr std::uint64_t most_kept = 32;
   const Snapshot* found = history_.before(step());
   if (found == nullptr) return false;
+  const std::uint64_t most_kept = std::clamp<std::uint64_t>(history_.most_bytes() / 2 / found->bytes(), 1, 32);
   const std::uint64_t wanted = step() - 1;
   const std::optional<Pull> pulled = std::exchange(pull_, std::nullopt);
   go_to(found->saved);

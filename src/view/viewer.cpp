@@ -97,12 +97,12 @@ void Viewer::run() {
   draw();
   tell();
   while (!window_.is_closed()) {
-    const std::vector<gl::WindowEvent> events = next_events();
-    if (events.empty() && playback_.is_paused() && owed_pictures_ == 0) continue;
-    for (const gl::WindowEvent& event : events)
-      if (!window_.is_closed() && !(panel_ && panel_->takes(event))) std::visit([this](const auto& e) { handle(e); }, event);
+    await_events();
+    const bool had_events = !events_.empty();
+    if (!had_events && playback_.is_paused() && owed_pictures_ == 0) continue;
+    handle_events();
     if (window_.is_closed()) return;
-    owed_pictures_ = !events.empty() && is_overlaid() ? pictures_after_an_event : std::max(owed_pictures_ - 1, 0);
+    owed_pictures_ = had_events && is_overlaid() ? pictures_after_an_event : std::max(owed_pictures_ - 1, 0);
     play();
     draw();
     fulfil();
@@ -133,9 +133,23 @@ void Viewer::open(LoadedScene scene) {
 }
 
 // In a pause there is nothing to draw but what events ask for.
-std::vector<gl::WindowEvent> Viewer::next_events() {
-  if (playback_.is_paused()) return window_.wait_for_events(owed_pictures_ > 0 ? a_picture : a_while);
-  return is_up_to_date_ ? window_.wait_for_events(a_picture) : window_.poll_events();
+void Viewer::await_events() {
+  const bool is_paused = playback_.is_paused(), waits = events_.empty() && (is_paused || is_up_to_date_);
+  const double longest = is_paused && owed_pictures_ == 0 ? a_while : a_picture;
+  std::ranges::move(waits ? window_.wait_for_events(longest) : window_.poll_events(), std::back_inserter(events_));
+}
+
+// ImGui looks at the mouse once a picture: of what it is to hear, a picture has one press or release, and the rest waits.
+void Viewer::handle_events() {
+  bool is_heard = false;
+  while (!events_.empty() && !window_.is_closed() && !is_heard) {
+    const gl::WindowEvent event = std::move(events_.front());
+    events_.pop_front();
+    if (panel_ == nullptr || !panel_->takes(event))
+      std::visit([this](const auto& e) { handle(e); }, event);
+    else
+      is_heard = std::holds_alternative<gl::MousePressed>(event) || std::holds_alternative<gl::MouseReleased>(event);
+  }
 }
 
 void Viewer::handle(const gl::KeyPressed& event) {
@@ -369,8 +383,12 @@ void Viewer::fulfil() {
 }
 
 void Viewer::change(const Settings& wanted) {
+  const bool is_broken = session_->non_finite().has_value();
   session_->change(wanted);
-  observer_.count_anew();
+  if (is_broken)
+    observer_.forget();  // it is at its start again
+  else
+    observer_.count_anew();
 }
 
 std::string Viewer::title() const {
@@ -400,6 +418,7 @@ void Viewer::tell() {
                                        {"wireframe", shows_.wireframe},
                                        {"panel", shows_panel_},
                                        {"help", shows_help_},
+                                       {"windows", panel_ == nullptr ? 0 : panel_->window_count()},
                                        {"size", {size.x, size.y}},
                                        {"camera", described(camera_)},
                                        {"title", shown_title_},

@@ -1,5 +1,6 @@
 // Shows a session in a window: events in, pictures out.
 #pragma once
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -44,7 +45,8 @@ class Viewer {
   [[nodiscard]] static std::span<const Command> commands();
 
   void open(LoadedScene scene);
-  [[nodiscard]] std::vector<gl::WindowEvent> next_events();
+  void await_events();
+  void handle_events();
   void handle(const gl::KeyPressed& event);
   void handle(const gl::MousePressed& event);
   void handle(const gl::MouseReleased& event);
@@ -92,6 +94,7 @@ class Viewer {
   std::unique_ptr<Panel> panel_;  // once it has been asked for
   bool shows_panel_ = false, shows_help_ = false;
   Observer observer_;
+  std::deque<gl::WindowEvent> events_;         // not handled yet
   std::vector<std::filesystem::path> scenes_;  // beside the one that is shown
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
