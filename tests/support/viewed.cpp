@@ -67,14 +67,20 @@ Viewed::Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const
   xdotool("windowfocus --sync " + window_);
 }
 
-Json Viewed::await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most) {
+std::string Viewed::await_line(const std::function<bool(const std::string&)>& is_wanted, std::chrono::minutes at_most) {
   const auto began = std::chrono::steady_clock::now();
-  while (std::chrono::steady_clock::now() - began <= at_most) {
-    const std::string line = program_.read_line();
-    if (!line.starts_with('{')) continue;
-    if (const Json report = Json::parse(line); is_wanted(report)) return report;
-  }
-  throw std::runtime_error("no picture was as wanted");
+  while (std::chrono::steady_clock::now() - began <= at_most)
+    if (std::string line = program_.read_line(); is_wanted(line)) return line;
+  throw std::runtime_error("no line was as wanted");
+}
+
+Json Viewed::await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most) {
+  const auto is_wanted_report = [&](const std::string& line) { return line.starts_with('{') && is_wanted(Json::parse(line)); };
+  return Json::parse(await_line(is_wanted_report, at_most));
+}
+
+std::string Viewed::await_text(const std::string& beginning) {
+  return await_line([&](const std::string& line) { return line.starts_with(beginning); }, std::chrono::minutes(2));
 }
 
 render::Image Viewed::saved_picture() {

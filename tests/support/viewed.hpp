@@ -46,10 +46,8 @@ class Viewed {
   void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted.
   Json await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most = std::chrono::minutes(2));
-  std::string await_text(const std::string& beginning) {
-    for (;;)
-      if (std::string line = program_.read_line(); line.starts_with(beginning)) return line;
-  }
+  /// Reads lines until one begins so.
+  std::string await_text(const std::string& beginning);
   /// The picture that the program saves.
   render::Image saved_picture();
   /// Whether the window shows the picture; it may still be on its way to the display.
@@ -59,6 +57,8 @@ class Viewed {
   Child& program() { return program_; }
 
  private:
+  std::string await_line(const std::function<bool(const std::string&)>& is_wanted, std::chrono::minutes at_most);
+
   const VirtualDisplay& display_;
   std::filesystem::path folder_;
   Child program_;
