@@ -97,18 +97,28 @@ Checkpoint load_checkpoint(const std::filesystem::path& file) {
   }
 }
 
-// One file by two names, too, whether or not there is one yet.
+// Whether or not there is a file yet.
+std::filesystem::path full_place(const std::filesystem::path& path) {
+  std::error_code failure;
+  return std::filesystem::weakly_canonical(place_behind(path), failure);
+}
+
+// One file by two names, too.
 bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code failure;
-  const auto full_place = [&](const auto& path) { return std::filesystem::weakly_canonical(place_behind(path), failure); };
   return full_place(a) == full_place(b) || std::filesystem::equivalent(a, b, failure);
 }
 
-void expect_no_output(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  for (const char* name : output_names)
-    if (is_same_place(file, folder / name))
-      throw Error(ErrorKind::command_line, "--checkpoint " + file.string(), fmt::format("is where the run writes {}", name),
+void expect_no_output(const std::filesystem::path& file, const RunOptions& options) {
+  const auto expect_other = [&](bool is_other, const char* written) {
+    if (!is_other)
+      throw Error(ErrorKind::command_line, "--checkpoint " + file.string(), fmt::format("is where the run writes {}", written),
                   "name another place");
+  };
+  const std::filesystem::path folder = folder_of(options);
+  for (const char* name : output_names) expect_other(!is_same_place(file, folder / name), name);
+  expect_other(options.frames == FrameFormat::none || full_place(file).parent_path() != full_place(folder / "frames"),
+               "its frames");
 }
 
 void take_out(RunOptions& run, const RunOptions& given) {
@@ -175,7 +185,7 @@ Checkpoint checkpoint_from(std::string_view bytes) {
 
 // The lock comes first: what a run writes there at its end would be lost to one that had read what it wrote before.
 Resumed load_resumed(const RunOptions& given) {
-  const bool goes_on_there = given.checkpoint.empty() || is_same_place(given.checkpoint, given.resume);
+  const bool goes_on_there = given.checkpoint.empty() || full_place(given.checkpoint) == full_place(given.resume);
   std::unique_ptr<FileLock> lock;
   if (std::error_code failure; std::filesystem::exists(given.resume, failure))
     lock = std::make_unique<FileLock>(given.resume, goes_on_there ? FileLock::For::writing : FileLock::For::reading);
@@ -210,7 +220,7 @@ CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<Fi
       lock_(std::move(lock)),
       interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
   if (!is_wanted()) return;
-  expect_no_output(file_, folder_of(options));
+  expect_no_output(file_, options);
   if (!lock_) lock_ = std::make_unique<FileLock>(file_);
   expect_place_for_checkpoint(file_);
 }
