@@ -17,16 +17,6 @@ namespace {
 constexpr int marked_frames = 21, quick_marked_frames = 3;
 constexpr double a_sixtieth = 1.0 / 60;  // [s]
 
-render::RenderOptions options_for(const StepCase& what, const glm::uvec2& size, render::Detail detail) {
-  OutputDescription output = what.output;
-  output.size = size;
-  const std::vector<glm::dvec3> world = what.start.state.world_positions(what.start.model);
-  render::RenderOptions options = render::options_for(render::box_around(world), output);
-  options.detail = detail;
-  options.pictures_per_clear = render::most_pictures_per_clear;
-  return options;
-}
-
 // A scene that is drawn from the buffers in which it is simulated.
 class Drawing {
  public:
@@ -96,13 +86,13 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
   for (int round = 0; round < rounds; ++round)
     for (const bool draws : {false, true})
       (draws ? with : without).push_back(seconds_of(device, drawing, static_cast<std::uint64_t>(steps_of_a_picture), draws));
-  return (median(std::move(with)) - median(std::move(without))) / a_sixtieth;
+  return share_lost(median(std::move(with)), median(std::move(without)));
 }
 
 DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
   const Model& model = what.start.model;
   const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
-  Drawing drawing(device, what, options_for(what, options.size, detail));
+  Drawing drawing(device, what, render::live_options(model, what.start.state, what.output, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
   seconds_of(device, drawing, 1, true);  // builds the kernels
   drawing.restart();
@@ -122,6 +112,10 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
 }
 
 }  // namespace
+
+double share_lost(double seconds_with_picture, double seconds_without) {
+  return (seconds_with_picture - seconds_without) / a_sixtieth;
+}
 
 DrawResult bench_draw(const DrawOptions& options, const Progress& progress) {
   StepCases all = load_step_cases(options.scenes, options.quick);

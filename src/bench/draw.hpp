@@ -20,6 +20,10 @@ struct DrawOptions {
   bool quick = false;
 };
 
+/// The share of its steps per second that a scene loses to 60 pictures a second, if the same steps take so long with a picture
+/// and without [s].
+[[nodiscard]] double share_lost(double seconds_with_picture, double seconds_without);
+
 /// The members' names are the keys of the file; a pass `shadow` has the key `shadow_milliseconds`.
 struct DrawRow {
   std::string scene;
@@ -30,8 +34,7 @@ struct DrawRow {
   std::uint32_t width = 0, height = 0;        // [pixels]
   double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
   double fastest_milliseconds_per_frame = 0;  // the fastest batch
-  /// The share of its steps per second that a scene loses to 60 pictures a second, between steps from its start on; empty where a
-  /// picture or a step alone takes longer than a sixtieth of a second.
+  /// share_lost, from the start on; empty where a picture or a step alone takes longer than a sixtieth of a second.
   std::optional<double> steps_lost;
   std::vector<std::pair<std::string, double>> milliseconds;  // of each pass, medians of frames drawn with a mark after each
 };

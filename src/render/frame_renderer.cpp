@@ -326,6 +326,15 @@ RenderOptions options_for(const SceneBox& box, const OutputDescription& output) 
   return options;
 }
 
+RenderOptions live_options(const Model& model, const State& start, OutputDescription output, const glm::uvec2& size,
+                           Detail detail) {
+  output.size = size;
+  RenderOptions options = options_for(box_around(start.world_positions(model)), output);
+  options.detail = detail;
+  options.pictures_per_clear = most_pictures_per_clear;
+  return options;
+}
+
 FrameRenderer::FrameRenderer(const Model& model, const RenderOptions& options) {
   PLIANT_EXPECT(options.size.x > 0 && options.size.y > 0);
   PLIANT_EXPECT(options.pictures_per_clear >= 1 && options.pictures_per_clear <= most_pictures_per_clear);

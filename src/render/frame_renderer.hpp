@@ -45,6 +45,10 @@ struct Speeds {
 /// The options for a scene: its camera, or one that frames the box, and its ground, or one below the box.
 [[nodiscard]] RenderOptions options_for(const SceneBox& box, const OutputDescription& output);
 
+/// Likewise for a scene as it starts, in pictures of this size [pixels] that follow one another at once.
+[[nodiscard]] RenderOptions live_options(const Model& model, const State& start, OutputDescription output, const glm::uvec2& size,
+                                         Detail detail);
+
 /// Hears the name of each pass once it is queued, so that its time can be taken.
 using PassObserver = std::function<void(const char* pass)>;
 

@@ -1,6 +1,7 @@
 // Lights and maps fitted to a scene's box.
 #include "render/studio.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -46,7 +47,8 @@ Studio studio_for(const RenderOptions& options) {
   // The maps of the ground lie under the scene and reach out to where its shadows fall.
   const double height = *options.ground_height - double{studio.centre.y};
   const glm::dvec3 away = key * (height / key.y);
-  studio.ground = glm::vec4(0.5 * away.x, height, 0.5 * away.z, 2.2 * scene.radius());
+  const double half_side = std::max(2.2 * scene.radius(), 0.5 * std::hypot(away.x, away.z) + 1.6 * scene.radius());
+  studio.ground = glm::vec4(0.5 * away.x, height, 0.5 * away.z, half_side);
   studio.above_projection = above_projection_for(studio.ground, studio.centre.w);
   return studio;
 }

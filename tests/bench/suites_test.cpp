@@ -213,6 +213,16 @@ TEST_CASE("drawing is timed for every scene, frame and pass", "[gl]") {
   CHECK(told.done.back() == 1);
 }
 
+TEST_CASE("a millisecond a picture costs 6 % of all steps, and the table says so") {
+  CHECK(share_lost(0.011, 0.010) == Approx(0.06));
+  DrawResult result;
+  result.rows.resize(2);
+  result.rows[0].steps_lost = 0.0625;
+  CHECK_THAT(to_table(result), Catch::Contains("steps lost") && Catch::Contains(" 6.2 %") && Catch::Contains("  -\n"));
+  const std::string json = to_json({}, DrawOptions{}, result);
+  CHECK_THAT(json, Catch::Contains("\"steps_lost\":0.0625") && Catch::Contains("\"steps_lost\":null"));
+}
+
 TEST_CASE("a scene without a step is left out, and a note says so") {
   const test::ScratchFolder folder;
   std::ofstream(folder.path / "still.toml") << "[simulation]\ntime_step = 0.01\nduration = 0\n[[body]]\nmesh = \"icosphere:1\"\n";

@@ -7,6 +7,8 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "render/frame_renderer.hpp"
+
 using namespace pliant;
 using namespace pliant::render;
 
@@ -101,4 +103,21 @@ TEST_CASE("a camera's axes are those of its picture") {
     CHECK(std::abs(project(to_clip, axes.up * 0.1).x) < 1e-12);
     CHECK(project(to_clip, axes.back * 0.1).z < project(to_clip, {0, 0, 0}).z);
   }
+}
+
+TEST_CASE("a picture has its scene's size, camera, colouring and ground, or ones that fit its box") {
+  const SceneBox box{{-1, 2, -1}, {1, 4, 1}};
+  const RenderOptions fitted = options_for(box, {});
+  CHECK(fitted.ground_height == ground_below(box));
+  CHECK(fitted.camera.target == frame_scene(box, 16.0 / 9).target);
+  OutputDescription asked;
+  asked.size = {64, 48};
+  asked.camera = CameraDescription{{7, 8, 9}, {1, 2, 3}, 50};
+  asked.coloring = Coloring::deformation;
+  asked.ground_height = -5;
+  const RenderOptions given = options_for(box, asked);
+  CHECK(given.size == asked.size);
+  CHECK(given.camera.eye == glm::dvec3(7, 8, 9));
+  CHECK(given.coloring == Coloring::deformation);
+  CHECK(given.ground_height == -5.0);
 }
