@@ -127,14 +127,21 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return *this;
 }
 
+// By way of copies that the GPU makes, in their order: NVIDIA's driver 580 takes no account of indirect dispatches. It answers
+// glGetNamedBufferSubData from a copy of its own, which it does not renew after one, and glNamedBufferSubData may write before
+// one that is still to run.
 void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
+  if (data.empty()) return;
+  const auto size = static_cast<GLsizeiptr>(data.size());
+  GLuint copy = 0;
+  glCreateBuffers(1, &copy);
+  glNamedBufferStorage(copy, size, data.data(), 0);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glNamedBufferSubData(id_, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()), data.data());
+  glCopyNamedBufferSubData(copy, id_, 0, static_cast<GLintptr>(first_byte), size);
+  glDeleteBuffers(1, &copy);
 }
 
-// By way of a copy that the GPU makes: NVIDIA's driver 580 answers glGetNamedBufferSubData from a copy of its own, which it does
-// not renew after an indirect dispatch.
 void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
   const auto size = static_cast<GLsizeiptr>(data.size());
