@@ -45,8 +45,13 @@ bool slide(const char* label, double& value, double low, double high, const char
 
 void choose_scene(const Facts& facts, Wishes& wishes) {
   if (!ImGui::BeginCombo("scene", facts.scene.filename().c_str())) return;
-  for (const std::filesystem::path& scene : facts.scenes)
-    if (ImGui::Selectable(scene.filename().c_str(), scene == facts.scene)) wishes.scene = scene;
+  for (const std::filesystem::path& scene : facts.scenes) {  // a label would end at "##"
+    ImGui::PushID(scene.c_str());
+    if (ImGui::Selectable("##scene", scene == facts.scene)) wishes.scene = scene;
+    ImGui::SameLine(0, 0);
+    ImGui::TextUnformatted(scene.filename().c_str());
+    ImGui::PopID();
+  }
   ImGui::EndCombo();
 }
 
@@ -76,11 +81,10 @@ void play(const Facts& facts, Wishes& wishes) {
     say("{:.0f} pictures a second, {}", facts.pictures_per_second,
         facts.factor == 1 ? "in step with real time" : fmt::format("{:.2g} x real time", facts.factor));
   say_muted(facts.device);
-  if (!facts.message.empty()) say_muted(facts.message);
 }
 
 void edit_body(const std::string& name, Material& material) {
-  if (!ImGui::TreeNode(name.c_str())) return;
+  if (!ImGui::TreeNode("body", "%s", name.c_str())) return;
   slide("stiffness", material.stiffness, 0.01, 1e5, "%.4g N/m");
   slide("mass", material.vertex_mass, 1e-3, 1e3, "%.4g kg");
   slide("damping", material.damping, 0, 100, "%.4g kg/s");
@@ -194,6 +198,22 @@ void choose_look(const Facts& facts, Shows& shows) {
   choose_level(facts.deepest_level, shows.tree_level);
 }
 
+// At the picture's bottom right, where it moves nothing.
+void show_message(const glm::uvec2& size, const std::string& message) {
+  if (message.empty()) return;
+  const ImVec2 corner(static_cast<float>(size.x) - scaled(margin), static_cast<float>(size.y) - scaled(margin));
+  ImGui::SetNextWindowPos(corner, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowSize({std::min(scaled(width), corner.x - scaled(margin)), 0});
+  ImGui::Begin("message", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushStyleColor(ImGuiCol_Text, {1, 0.72f, 0.35f, 1});
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(message.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::End();
+}
+
 void show_help(const glm::uvec2& size, const std::string& help) {
   if (help.empty()) return;
   ImGui::SetNextWindowPos({static_cast<float>(size.x) - scaled(margin), scaled(margin)}, ImGuiCond_Always, {1, 0});
@@ -226,7 +246,8 @@ struct Panel::Mouse {
   void find_windows() {
     windows.clear();
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-      if (window->Active && !window->Hidden) windows.push_back(window->Rect());
+      if (window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0)
+        windows.push_back(window->Rect());
   }
   /// ImGui itself knows only of the place at which the mouse was in the latest picture.
   [[nodiscard]] bool is_over_window() const {
@@ -304,6 +325,7 @@ void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wis
   ImGui::PopItemWidth();
   const bool has_no_height_yet = ImGui::IsWindowAppearing();
   ImGui::End();
+  show_message(size, facts.message);
   show_help(size, help);
   end();
   if (has_no_height_yet) mouse_->windows.push_back(place);

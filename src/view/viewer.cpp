@@ -53,7 +53,8 @@ struct Viewer::Command {
   std::string_view key;  // as gl::KeyPressed names it
   std::string_view help;
   void (Viewer::*execute)();
-  bool repeats = false;  // while the key is held, once a picture
+  bool repeats = false;        // while the key is held, once a picture
+  bool keeps_message = false;  // so that it can be read there
 };
 
 std::span<const Viewer::Command> Viewer::commands() {
@@ -65,8 +66,8 @@ std::span<const Viewer::Command> Viewer::commands() {
       {"F", "frame the scene", &Viewer::frame_scene},
       {"D", "go on on the other device, CPU or GPU", &Viewer::switch_device},
       {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
-      {"tab", "the panel, or none", &Viewer::toggle_panel},
-      {"F1", "this help, or none", &Viewer::toggle_help},
+      {"tab", "the panel, or none", &Viewer::toggle_panel, false, true},
+      {"F1", "this help, or none", &Viewer::toggle_help, false, true},
       {"F12", "save the picture as PNG in the current folder", &Viewer::save_picture},
       {"escape", "quit", &Viewer::close},
   };
@@ -129,6 +130,7 @@ void Viewer::open(LoadedScene scene) {
   pull_.reset();
   observer_.forget();
   shown_.reset();
+  is_breakdown_told_ = false;
   playback_.restart();
 }
 
@@ -156,7 +158,7 @@ void Viewer::handle(const gl::KeyPressed& event) {
   const auto command = std::ranges::find(commands(), event.name, &Command::key);
   if (command == commands().end()) return;
   if (event.is_repeat && (!command->repeats || std::exchange(has_repeated_, true))) return;
-  message_.clear();
+  if (!command->keeps_message) message_.clear();
   try_to([&] { (this->*command->execute)(); });
 }
 
@@ -233,6 +235,7 @@ void Viewer::tell_if_broken() {
   if (!session_->non_finite()) return;
   playback_.pause();
   message_ = describe_breakdown(*session_->non_finite(), session_->plan(), session_->model());
+  if (std::exchange(is_breakdown_told_, true)) return;
   fmt::print(stderr, "pliant: {}\n", message_);
 }
 
@@ -252,6 +255,7 @@ void Viewer::step_back() {
 
 void Viewer::restart() {
   session_->restart();
+  is_breakdown_told_ = false;
   observer_.forget();
   playback_.restart();
 }
@@ -385,10 +389,9 @@ void Viewer::fulfil() {
 void Viewer::change(const Settings& wanted) {
   const bool is_broken = session_->non_finite().has_value();
   session_->change(wanted);
-  if (is_broken)
-    observer_.forget();  // it is at its start again
-  else
-    observer_.count_anew();
+  if (!is_broken) return observer_.count_anew();
+  is_breakdown_told_ = false;  // it is at its start again
+  observer_.forget();
 }
 
 std::string Viewer::title() const {

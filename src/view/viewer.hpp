@@ -99,6 +99,7 @@ class Viewer {
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
   std::string message_;          // shown in the title until the next key or wish
+  bool is_breakdown_told_ = false;
   std::string shown_title_;
   std::uint64_t picture_ = 0;
   double recorded_at_ = 0;                         // the latest state to go back to [s]
