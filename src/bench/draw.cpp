@@ -28,6 +28,7 @@ class Drawing {
 
   void restart() { simulation_.restore(start_); }
   void step(std::uint64_t steps) { simulation_.advance(steps); }
+  [[nodiscard]] bool is_broken() { return simulation_.report().non_finite.has_value(); }
   void draw(const render::PassObserver& after_pass = {}) {
     renderer_.draw(gpu::gl_buffer_of(device_, simulation_.position_buffer()), simulation_.first_position(), after_pass);
   }
@@ -86,6 +87,7 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
   for (int round = 0; round < rounds; ++round)
     for (const bool draws : {false, true})
       (draws ? with : without).push_back(seconds_of(device, drawing, static_cast<std::uint64_t>(steps_of_a_picture), draws));
+  if (drawing.is_broken()) return std::nullopt;
   return share_lost(median(std::move(with)), median(std::move(without)));
 }
 

@@ -34,7 +34,8 @@ struct DrawRow {
   std::uint32_t width = 0, height = 0;        // [pixels]
   double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
   double fastest_milliseconds_per_frame = 0;  // the fastest batch
-  /// share_lost, from the start on; empty where a picture or a step alone takes longer than a sixtieth of a second.
+  /// share_lost, from the start on; empty where a picture or a step alone takes longer than a sixtieth of a second, or
+  /// steps became non-finite.
   std::optional<double> steps_lost;
   std::vector<std::pair<std::string, double>> milliseconds;  // of each pass, medians of frames drawn with a mark after each
 };

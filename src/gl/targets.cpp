@@ -15,7 +15,8 @@ namespace {
 
 [[noreturn]] void refuse(const glm::uvec2& size, std::string_view label, const std::string& why) {
   throw Error(ErrorKind::device, "GPU memory",
-              fmt::format("the texture \"{}\" has {} x {} pixels: {}", label, size.x, size.y, why), "lower output.size");
+              fmt::format("the texture \"{}\" has {} x {} pixels: {}", label, size.x, size.y, why),
+              "ask for a smaller picture: output.size, or --size");
 }
 
 void expect_within_limit(const glm::uvec2& size, std::string_view label) {
