@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -21,10 +22,28 @@ std::filesystem::path checked_place(const std::filesystem::path& path) {
   return place_behind(path);
 }
 
-std::filesystem::path beside(const std::filesystem::path& place) {
+bool is_no_plain_file(const std::filesystem::path& place) {
   std::error_code failure;
-  if (std::filesystem::exists(place, failure) && !std::filesystem::is_regular_file(place, failure)) return place;
-  return std::filesystem::path(place) += ".tmp";
+  return std::filesystem::exists(place, failure) && !std::filesystem::is_regular_file(place, failure);
+}
+
+void make_folder_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
+  if (failure) throw unwritable(path, "its folder can't be made");
+}
+
+// Makes an empty file of a name that none had: what stands beside the place is someone's own, or another program's.
+std::filesystem::path new_file_beside(const std::filesystem::path& place) {
+  const std::string first = place.string() + ".tmp-" + std::to_string(getpid());
+  std::string name = first;
+  int file = -1;
+  for (int number = 2; (file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) < 0 && errno == EEXIST;
+       ++number)
+    name = first + "-" + std::to_string(number);
+  if (file < 0) throw unwritable(place, "can't be written");
+  ::close(file);
+  return name;
 }
 
 // Devices and some file systems can't; what they hold is as safe as they make it.
@@ -55,9 +74,7 @@ void expect_replaceable(const std::filesystem::path& path) {
 }
 
 OutputFile::OutputFile(const std::filesystem::path& path, Begin begin) : path_(path) {
-  std::error_code failure;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
-  require(!failure, "its folder can't be made");
+  make_folder_of(path);
   stream_.open(path, begin == Begin::at_end ? std::ios::binary | std::ios::app : std::ios::binary);
   require(stream_.good(), "can't be written");
 }
@@ -78,44 +95,44 @@ void OutputFile::require(bool good, const char* problem) const {
 
 void expect_writable(const std::filesystem::path& path) { const WholeFile trial(path); }
 
-WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), written_(beside(place_)) {
-  if (written_ == place_) return;
-  { const OutputFile trial(written_); }
+WholeFile::WholeFile(const std::filesystem::path& path) : place_(checked_place(path)), is_direct_(is_no_plain_file(place_)) {
+  if (is_direct_) return;
+  make_folder_of(place_);
+  const std::filesystem::path trial = new_file_beside(place_);
   std::error_code failure;
-  std::filesystem::remove(written_, failure);
-  if (failure) throw unwritable(written_, "can't be removed");
+  std::filesystem::remove(trial, failure);
+  if (failure) throw unwritable(trial, "can't be removed");
 }
 
-void WholeFile::close() {
-  write_out();
-  move();
-}
+void WholeFile::close() { move(write_out()); }
 
 void WholeFile::close_on_disk() {
-  write_out();
-  sync_to_disk(written_);
-  move();
+  const std::filesystem::path written = write_out();
+  sync_to_disk(written);
+  move(written);
   sync_to_disk(place_.has_parent_path() ? place_.parent_path() : ".");  // the place's new name
 }
 
-void WholeFile::write_out() const {
+std::filesystem::path WholeFile::write_out() const {
+  const std::filesystem::path written = is_direct_ ? place_ : new_file_beside(place_);
   try {
-    OutputFile file(written_);
+    OutputFile file(written);
     file.write(bytes_);
     file.close();
   } catch (const Error&) {
     std::error_code ignored;
-    if (written_ != place_) std::filesystem::remove(written_, ignored);
+    if (!is_direct_) std::filesystem::remove(written, ignored);
     throw;
   }
+  return written;
 }
 
-void WholeFile::move() const {
-  if (written_ == place_) return;
+void WholeFile::move(const std::filesystem::path& written) const {
+  if (is_direct_) return;
   std::error_code failure, ignored;
-  std::filesystem::rename(written_, place_, failure);
+  std::filesystem::rename(written, place_, failure);
   if (!failure) return;
-  std::filesystem::remove(written_, ignored);
+  std::filesystem::remove(written, ignored);
   throw unwritable(place_, "can't be replaced");
 }
 

@@ -37,13 +37,13 @@ class OutputFile {
   std::ofstream stream_;
 };
 
-/// A file that appears as a whole or not at all: close() writes it beside its place, as PATH.tmp, and moves it there. Until then
-/// there is nothing that a program which is killed would leave behind. What is no plain file, such as /dev/stdout, is written to
-/// directly.
+/// A file that appears as a whole or not at all: close() writes it beside its place, as PATH.tmp-PROCESS or another name that no
+/// file has, and moves it there. Until then there is nothing that a program which is killed would leave behind. What is no plain
+/// file, such as /dev/stdout, is written to directly.
 class WholeFile {
  public:
-  /// Creates the folders that are missing, and tries PATH.tmp; leaves alone what stands at `path`. Throws Error (command_line)
-  /// where one may not write.
+  /// Creates the folders that are missing, and tries to make a file there; leaves alone what stands at `path`. Throws Error
+  /// (command_line) where one may not write.
   explicit WholeFile(const std::filesystem::path& path);
 
   void write(std::string_view bytes) { bytes_ += bytes; }
@@ -53,9 +53,10 @@ class WholeFile {
   void close_on_disk();
 
  private:
-  void write_out() const;
-  void move() const;
-  std::filesystem::path place_, written_;  // the same where it is written directly
+  [[nodiscard]] std::filesystem::path write_out() const;  // says where
+  void move(const std::filesystem::path& written) const;
+  std::filesystem::path place_;
+  bool is_direct_;
   std::string bytes_;
 };
 

@@ -1,7 +1,12 @@
 // Files that appear as a whole.
 #include "output/file.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "core/read_text.hpp"
 #include "support/expect_error.hpp"
@@ -9,6 +14,10 @@
 
 namespace pliant {
 namespace {
+
+std::ptrdiff_t count_in(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+}
 
 TEST_CASE("a whole file replaces what stood there when it is closed, and not before") {
   const test::ScratchFolder folder;
@@ -21,7 +30,26 @@ TEST_CASE("a whole file replaces what stood there when it is closed, and not bef
     file.close();
     CHECK(read_text(path) == text);
   }
-  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  CHECK(count_in(path.parent_path()) == 1);
+}
+
+TEST_CASE("what stands beside a whole file's place, whatever its name, is left as it is") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file.txt", text = folder.path / "text";
+  const std::string own = path.string() + ".tmp-" + std::to_string(getpid());
+  std::ofstream(text) << "precious";
+  std::ofstream(path.string() + ".tmp") << "precious";
+  std::filesystem::create_symlink(text, own);
+  std::filesystem::create_symlink("none", own + "-2");
+  WholeFile file(path);
+  file.write("text");
+  file.close();
+  CHECK(read_text(path) == "text");
+  CHECK(read_text(text) == "precious");
+  CHECK(read_text(path.string() + ".tmp") == "precious");
+  CHECK(std::filesystem::read_symlink(own) == text);
+  CHECK(std::filesystem::is_symlink(own + "-2"));
+  CHECK(count_in(folder.path) == 5);
 }
 
 TEST_CASE("a whole file that is never closed leaves no trace") {
@@ -30,7 +58,7 @@ TEST_CASE("a whole file that is never closed leaves no trace") {
   std::ofstream(path) << "earlier";
   { WholeFile(path).write("half"); }
   CHECK(read_text(path) == "earlier");
-  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  CHECK(count_in(folder.path) == 1);
 }
 
 TEST_CASE("a whole file that waits for the disk is the same file") {
@@ -41,7 +69,7 @@ TEST_CASE("a whole file that waits for the disk is the same file") {
   file.write("later");
   file.close_on_disk();
   CHECK(read_text(path) == "later");
-  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  CHECK(count_in(folder.path) == 1);
   WholeFile nowhere("/dev/null");
   CHECK_NOTHROW(nowhere.close_on_disk());
 }
@@ -100,7 +128,7 @@ TEST_CASE("a whole file whose place was taken meanwhile is an error, and leaves 
   std::filesystem::create_directory(path);
   check_says(error_of([&] { file.close(); }), {"a.json", "can't be replaced"});
   CHECK(std::filesystem::is_directory(path));
-  CHECK_FALSE(std::filesystem::exists(path.string() + ".tmp"));
+  CHECK(count_in(folder.path) == 1);
 }
 
 TEST_CASE("a folder can't be replaced by a file") {
