@@ -18,12 +18,33 @@ namespace {
 bool is_at(const std::filesystem::path& path, int file) {
   struct stat there {
   }, here{};
-  return stat(path.c_str(), &there) == 0 && fstat(file, &here) == 0 && there.st_dev == here.st_dev && there.st_ino == here.st_ino;
+  return lstat(path.c_str(), &there) == 0 && fstat(file, &here) == 0 && there.st_dev == here.st_dev &&
+         there.st_ino == here.st_ino;
 }
 
-// An open file with the lock; -1 where none can be made.
+// Pliant's are; anything else is someone's own.
+bool is_empty_file(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0;
+}
+
+Error in_the_way(const std::filesystem::path& lock) {
+  return {ErrorKind::command_line, lock.string(), "is no lock of pliant's, which would stand there",
+          "move it, or name another place"};
+}
+
+// -1 where there is none and none can be made. What stands there is neither followed nor changed.
+int opened(const std::filesystem::path& lock) {
+  const int file = open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  std::error_code failure;
+  if (file < 0 && std::filesystem::exists(std::filesystem::symlink_status(lock, failure))) throw in_the_way(lock);
+  if (file < 0 || is_empty_file(file)) return file;
+  close(file);
+  throw in_the_way(lock);
+}
+
 int locked(const std::filesystem::path& lock, const std::filesystem::path& path, int operation) {
-  const int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  const int file = opened(lock);
   if (file < 0 || flock(file, operation | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
   close(file);
   throw Error(ErrorKind::command_line, path.string(), "is in use by another run", "wait for its end, or name another place");
@@ -49,7 +70,8 @@ FileLock::FileLock(const std::filesystem::path& path, For use) {
 FileLock::~FileLock() {
   if (file_ < 0) return;
   std::error_code ignored;
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(lock_, ignored);  // before it is let go: no other one's
+  const bool is_alone = flock(file_, LOCK_EX | LOCK_NB) == 0;
+  if (is_alone && is_at(lock_, file_) && is_empty_file(file_)) std::filesystem::remove(lock_, ignored);  // before it is let go
   close(file_);
 }
 

@@ -340,6 +340,21 @@ TEST_CASE("a checkpoint in the place of one of the run's outputs exits with 2, b
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
+TEST_CASE("what stands where a checkpoint's lock would be exits with 2, and is left as it is") {
+  const ScratchFolder folder;
+  const auto checkpoint = folder.path / "c", lock = folder.path / "c.lock", out = folder.path / "out";
+  std::filesystem::rename(scene_in(folder, verlet), lock);
+  const std::string before = read_text(lock);
+  const ProgramResult result = run_program("run " + lock.string() + " --device cpu --quiet --duration 0.1 --out " + out.string() +
+                                           " --checkpoint " + checkpoint.string());
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.output, Catch::Contains("c.lock: is no lock of pliant's"));
+  CHECK(read_text(lock) == before);
+  CHECK_FALSE(std::filesystem::exists(checkpoint));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
 TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and changes no file") {
   const ScratchFolder folder;
   const std::string scene = scene_in(folder, verlet).string(), checkpoint = (folder.path / "run.checkpoint").string();

@@ -1,11 +1,16 @@
 // Two at once.
 #include "output/file_lock.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "core/read_text.hpp"
 #include "support/expect_error.hpp"
 #include "support/scratch.hpp"
 
@@ -56,6 +61,47 @@ TEST_CASE("a lock that a program has left behind when it was killed is no obstac
   const test::ScratchFolder folder;
   std::ofstream(folder.path / "file.lock") << "";
   CHECK_NOTHROW(FileLock(folder.path / "file"));
+}
+
+TEST_CASE("what is no empty file in a lock's place is left as it is, and there is no lock without it") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file", lock = folder.path / "file.lock", text = folder.path / "text";
+  std::ofstream(text) << "precious";
+  const std::pair<const char*, std::function<void()>> obstacles[] = {
+      {"file", [&] { std::ofstream(lock) << "precious"; }},
+      {"folder", [&] { std::filesystem::create_directory(lock); }},
+      {"pipe", [&] { REQUIRE(mkfifo(lock.c_str(), 0600) == 0); }},
+      {"link to a file", [&] { std::filesystem::create_symlink(text, lock); }},
+      {"link to nothing", [&] { std::filesystem::create_symlink("none", lock); }}};
+  for (const auto& [what, make] : obstacles) {
+    CAPTURE(what);
+    make();
+    const auto before = std::filesystem::symlink_status(lock).type();
+    for (const auto use : {FileLock::For::writing, FileLock::For::reading}) {
+      const Error error = error_of([&] { FileLock(path, use); });
+      CHECK(error.kind() == ErrorKind::command_line);
+      check_says(error, {"file.lock", "no lock of pliant's"});
+    }
+    CHECK(std::filesystem::symlink_status(lock).type() == before);
+    if (before == std::filesystem::file_type::regular) CHECK(read_text(lock) == "precious");
+    std::filesystem::remove(lock);
+  }
+  CHECK(read_text(text) == "precious");
+  CHECK_FALSE(std::filesystem::exists(folder.path / "none"));
+}
+
+TEST_CASE("a lock that was written to, or replaced by another file, stays") {
+  const test::ScratchFolder folder;
+  const auto path = folder.path / "file", lock = folder.path / "file.lock";
+  for (const bool is_replaced : {false, true}) {
+    {
+      const FileLock held(path);
+      if (is_replaced) std::filesystem::remove(lock);
+      std::ofstream(lock) << (is_replaced ? "" : "precious");
+    }
+    CHECK(std::filesystem::exists(lock));
+    std::filesystem::remove(lock);
+  }
 }
 
 TEST_CASE("what can't be a place has no lock, nor does the current folder get one") {
