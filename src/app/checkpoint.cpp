@@ -75,9 +75,15 @@ void expect_device(const RunOptions& given, const Checkpoint& before, const Prep
               "take the device of before, or ask for this one by --device or --precision");
 }
 
+bool is_over(const PreparedRun& run) {
+  const StepReport report = run.simulation->report();
+  return run.plan.tolerance ? report.time >= run.plan.duration : report.steps >= run.plan.steps;
+}
+
 // Those that the run had stay with it.
 void add_warnings(const Checkpoint& before, PreparedRun& run) {
   run.warnings = before.warnings;
+  if (is_over(run)) return;  // there are no bits to differ
   const std::uint64_t step = run.simulation->report().steps;
   if (device_of(before) != device_of(run))
     run.warnings.push_back(fmt::format("up to step {} the run was on {}, and goes on on {}: its bits differ from there on", step,

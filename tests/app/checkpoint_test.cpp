@@ -118,15 +118,14 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   check_same_run(whole, part);
 }
 
-// A checkpoint of a run that was over soon, in the middle of it.
+// A run that was over soon, and its checkpoint of the end.
 struct Begun {
   ScratchFolder folder;
   std::string checkpoint = (folder.path / "run.checkpoint").string();
   explicit Begun(const std::string& mesh = "icosphere:1", const std::string& options = "") {
-    const std::string scene = scene_in(folder, verlet + "\n", mesh).string();
-    const ProgramResult result =
-        run_program("run " + scene + " --device cpu --duration 0.2 --quiet --checkpoint-every 0" + " --checkpoint " + checkpoint +
-                    " --out " + (folder.path / "out").string() + options);
+    const std::string scene = scene_in(folder, "time_step = 0.002\nintegrator = \"verlet\"\nduration = 0.2", mesh).string();
+    const ProgramResult result = run_program("run " + scene + " --device cpu --quiet --checkpoint-every 0" + " --checkpoint " +
+                                             checkpoint + " --out " + (folder.path / "out").string() + options);
     CAPTURE(result.output);
     REQUIRE(result.exit_code == 0);
   }
@@ -150,6 +149,8 @@ struct Begun {
     REQUIRE(at != std::string::npos);
     write_checkpoint(checkpoint, content.replace(at, now.size(), now));
   }
+  // As if the run were to last longer: steps are left.
+  void lengthen() const { replace("duration = 0.2", "duration = 0.3"); }
 };
 
 TEST_CASE("a run has a checkpoint of its own from its start on, whatever stood there, and a resumed one, too") {
@@ -202,9 +203,10 @@ TEST_CASE("a run is not resumed with other bodies") {
 }
 
 TEST_CASE("a run goes on on another device or at another precision only if told to, with a warning") {
-  const Begun begun;
-  const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
-  for (const char* kind : {"cpu", "auto"}) {  // auto may go on on a GPU, whose name the next one would not find
+  for (const char* kind : {"cpu", "auto"}) {
+    const Begun begun;
+    begun.lengthen();
+    const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
     begun.replace(device, std::string(device.size(), 'x'));
     begun.check_refused(4, "its bits would differ");
     const ProgramResult told = begun.resume(std::string(" --device ") + kind);
@@ -212,9 +214,22 @@ TEST_CASE("a run goes on on another device or at another precision only if told 
     CHECK_THAT(told.output,
                Catch::Contains("warning: up to step 100 the run was on xxx") && Catch::Contains("its bits differ from there on"));
   }
-  const ProgramResult whole = Begun().resume(" --precision 64");
-  CHECK(whole.exit_code == 0);
-  CHECK_THAT(whole.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+  const Begun begun;
+  begun.lengthen();
+  const ProgramResult more = begun.resume(" --precision 64");
+  CHECK(more.exit_code == 0);
+  CHECK_THAT(more.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+}
+
+TEST_CASE("a run that is over has no bits that differ elsewhere: resuming it warns of none") {
+  for (const std::string length : {"", " --tolerance 1e-5 --integrator vern8"}) {
+    const Begun begun("icosphere:1", length);
+    begun.replace(commit(), std::string(commit().size(), '9'));
+    const ProgramResult result = begun.resume(" --precision 64");
+    CHECK(result.exit_code == 0);
+    CHECK(result.output.empty());
+    CHECK(account_in(begun.folder.path / "out")["warnings"].empty());
+  }
 }
 
 TEST_CASE("warnings stay with a run, however often it is resumed, and are told once") {
@@ -222,6 +237,7 @@ TEST_CASE("warnings stay with a run, however often it is resumed, and are told o
   const auto warnings = [&] { return account_in(begun.folder.path / "out")["warnings"]; };
   const auto before = warnings();
   REQUIRE(before.size() == 1);  // of an integrator that can't meet it
+  begun.lengthen();
   REQUIRE(begun.resume(" --precision 64").exit_code == 0);
   const auto after = warnings();
   REQUIRE(after.size() == 2);
@@ -233,7 +249,9 @@ TEST_CASE("warnings stay with a run, however often it is resumed, and are told o
 
 TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]") {
   if (!test::has_gl()) return;
-  const ProgramResult result = Begun("icosphere:1", " --precision 64").resume(" --device gpu");
+  const Begun begun("icosphere:1", " --precision 64");
+  begun.lengthen();
+  const ProgramResult result = begun.resume(" --device gpu");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("at precision 64, and goes on on") && Catch::Contains("at precision 32"));
@@ -246,15 +264,18 @@ TEST_CASE("a run at precision 64 stays so on the device that fits best, which is
 }
 
 TEST_CASE("a run begun by a pliant of another version or another commit goes on with a warning") {
-  const Begun begun;
-  CHECK(begun.resume().output.empty());
   for (const std::string& part : {version(), commit()}) {
+    const Begun begun;
+    begun.lengthen();
     const std::string other(part.size(), '9');
     begun.replace(part, other);
     const ProgramResult result = begun.resume();
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.output, Catch::Contains("the run was by pliant") && Catch::Contains(other));
   }
+  const Begun same;
+  same.lengthen();
+  CHECK(same.resume().output.empty());
 }
 
 TEST_CASE("the times of loading and building are sums over all parts of a run, as others are") {
