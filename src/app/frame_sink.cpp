@@ -52,6 +52,8 @@ class FrameSink::Painter {
   render::FrameRenderer renderer_;
 };
 
+std::string counted(int count, const char* thing) { return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s"); }
+
 FrameSink::FrameSink(PreparedRun& run, FrameTargets targets) : run_(run), targets_(std::move(targets)), count_(targets_.first) {
   if (targets_.format == FrameFormat::png || !targets_.video.empty()) painter_ = std::make_unique<Painter>(run);
   if (!targets_.video.empty()) video_ = std::make_unique<VideoFile>(targets_.video, video_format_of(run));
@@ -81,7 +83,8 @@ void FrameSink::write_to_video() {
     ++count_;
   } catch (const Error& error) {
     lost_video_ = error;
-    run_.warnings.push_back(fmt::format("the video ends here, after {} frames, and the run goes on: {}", count_, error.what()));
+    run_.warnings.push_back(
+        fmt::format("the video ends here, after {}, and the run goes on: {}", counted(count_, "frame"), error.what()));
     fmt::print(stderr, "pliant: warning: {}\n", run_.warnings.back());
   }
 }

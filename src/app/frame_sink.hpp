@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/prepared_run.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,9 @@ struct FrameTargets {
   std::filesystem::path video;   // a file instead of these; empty: none
   int first = 0;                 // number of the first frame
 };
+
+/// "1 frame", "2 frames".
+[[nodiscard]] std::string counted(int count, const char* thing);
 
 class FrameSink {
  public:

@@ -189,9 +189,9 @@ class Run {
   void show_frames() const {
     if (options_.quiet || frames_.count() == 0) return;
     if (options_.video.empty())
-      fmt::print("frames:  {} ({} files)\n", (folder_ / "frames").string(), frames_.count());
+      fmt::print("frames:  {} ({})\n", (folder_ / "frames").string(), counted(frames_.count(), "file"));
     else
-      fmt::print("video:   {} ({} frames)\n", options_.video.string(), frames_.count());
+      fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
   }
 
   void write_end() {

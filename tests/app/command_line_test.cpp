@@ -89,6 +89,14 @@ TEST_CASE("a step longer than a frame gives one frame and one row of history, ho
     CHECK(read_text(folder.path / "0.01/frames/frame_0000.obj") != read_text(folder.path / "0.01/frames" / frame));
 }
 
+TEST_CASE("a run of one frame says that it is one") {
+  const ScratchFolder folder;
+  const std::string options = " --device cpu --frames obj --out " + folder.path.string() + " --steps ";
+  const std::string scene = small_scene(folder).string();
+  CHECK_THAT(run_program("run " + scene + options + "0").output, Catch::Contains("frames (1 file)\n"));
+  CHECK_THAT(run_program("run " + scene + options + "100").output, Catch::Contains(" files)\n"));
+}
+
 TEST_CASE("a picture too large for the driver or its memory exits with 4 before any step", "[gl]") {
   if (!test::has_gl() || !gl::list_adapters().front().is_software) return;  // a large GPU has room
   const ScratchFolder folder;
