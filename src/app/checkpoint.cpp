@@ -224,6 +224,7 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock)
     : file_(options.checkpoint),
       lock_(std::move(lock)),
+      has_one_(lock_ != nullptr),  // the one that it goes on from
       interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
   if (!is_wanted()) return;
   expect_no_output(file_, options);
@@ -234,9 +235,13 @@ CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<Fi
 void CheckpointKeeper::write(const Checkpoint& checkpoint) {
   try {
     write_checkpoint(file_, to_bytes(checkpoint));
+    has_one_ = true;
+    problem_.clear();
   } catch (const Error& error) {
-    fmt::print(stderr, "pliant: warning: no checkpoint is written: {}; the run goes on, and the checkpoint before it stays\n",
-               error.what());
+    if (problem_ != error.what())
+      fmt::print(stderr, "pliant: warning: no checkpoint is written: {}; the run goes on, and {}\n", error.what(),
+                 has_one_ ? "the checkpoint before it stays" : "has no checkpoint yet");
+    problem_ = error.what();
   }
   latest_ = Clock::now();
 }

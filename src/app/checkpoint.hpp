@@ -86,13 +86,15 @@ class CheckpointKeeper {
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
   [[nodiscard]] bool is_due() const { return is_wanted() && Clock::now() - latest_ >= interval_; }
-  /// Where it can't be written the run goes on, with a warning, and the checkpoint before stays.
+  /// Where it can't be written the run goes on, and the checkpoint before stays. A warning says so, once for one reason.
   void write(const Checkpoint& checkpoint);
 
  private:
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;
   std::unique_ptr<FileLock> lock_;
+  bool has_one_;         // of this run
+  std::string problem_;  // of the latest one; empty: none
   std::chrono::duration<double> interval_;
   Clock::time_point latest_ = Clock::now();
 };

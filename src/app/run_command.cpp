@@ -2,6 +2,7 @@
 #include "app/run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -194,13 +195,22 @@ class Run {
       fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
   }
 
+  // The summary is small: it may fit where the state does not.
   void write_end() {
-    const Model& model = run_.start.model;
-    write_final_state(folder_ / final_state_name, model, state_.world_positions(model), state_.world_velocities(model));
+    const std::optional<Error> lost = write_state();
     write_summary(folder_ / summary_name, summary_of(status()));
     if (!options_.quiet) show_end(status());
     if (const auto what = instability_of(status()))
       fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
+    if (lost) throw *lost;
+  }
+
+  std::optional<Error> write_state() const try {
+    const Model& model = run_.start.model;
+    write_final_state(folder_ / final_state_name, model, state_.world_positions(model), state_.world_velocities(model));
+    return {};
+  } catch (const Error& error) {
+    return error;
   }
 
   const RunOptions& options_;
@@ -228,6 +238,8 @@ void expect_folder(const std::filesystem::path& folder) {
     existing = (missing = existing).parent_path();
   if (!std::filesystem::is_directory(existing, failure))
     throw Error(ErrorKind::command_line, existing.string(), "is no folder", "name another place by --out");
+  if (missing.empty() && access(existing.c_str(), W_OK | X_OK) != 0)
+    throw Error(ErrorKind::command_line, existing.string(), "can't be written", "name another place by --out");
   if (missing.empty()) return;
   std::filesystem::create_directory(missing, failure);
   if (failure) throw Error(ErrorKind::command_line, missing.string(), "this folder can't be made", "name another place by --out");

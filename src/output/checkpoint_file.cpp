@@ -34,8 +34,6 @@ void expect_version(std::uint32_t version, const std::filesystem::path& path) {
 }
 
 bool has_other_content(const std::filesystem::path& path) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) return false;
   std::string begin(magic.size(), '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
@@ -45,6 +43,7 @@ bool has_other_content(const std::filesystem::path& path) {
 }  // namespace
 
 void expect_place_for_checkpoint(const std::filesystem::path& path) {
+  expect_plain_or_none(path);
   if (has_other_content(path))
     throw Error(ErrorKind::command_line, path.string(), "is no checkpoint, and would be replaced by one", "name another place");
   expect_writable(path);

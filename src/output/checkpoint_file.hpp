@@ -10,7 +10,8 @@ namespace pliant {
 /// To be raised whenever what a checkpoint holds changes: fields, their order, or the device's structs.
 inline constexpr std::uint32_t checkpoint_version = 6;
 
-/// Throws Error (command_line) where one may not write a checkpoint: also where a file stands that is none, for it would be lost.
+/// Throws Error (command_line) where one may not write a checkpoint: also where anything stands that is none, for it would be
+/// lost.
 void expect_place_for_checkpoint(const std::filesystem::path& path);
 
 /// Replaces `path` as a whole once the disk holds the new one. Throws Error (command_line) where it can't; `path` is then as it

@@ -57,7 +57,7 @@ void HistoryFile::append(const HistoryRow& row) {
 void write_final_state(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions,
                        std::span<const glm::dvec3> velocities) {
   PLIANT_EXPECT(positions.size() == model.vertex_count() && velocities.size() == model.vertex_count());
-  OutputFile file(path);
+  WholeFile file(path);
   file.write("body,vertex,x,y,z,vx,vy,vz\n");
   for (std::size_t body = 0; body < model.bodies.size(); ++body) {
     for (std::uint32_t vertex = 0; vertex < model.bodies[body].vertex_count; ++vertex) {

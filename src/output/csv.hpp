@@ -41,7 +41,8 @@ class HistoryFile {
   std::string text_;
 };
 
-/// final_state.csv: a row a vertex, numbered within its body; world positions [m] and velocities [m/s].
+/// final_state.csv: a row a vertex, numbered within its body; world positions [m] and velocities [m/s]. It appears as a whole.
+/// Throws Error (command_line) when it can't be written.
 void write_final_state(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions,
                        std::span<const glm::dvec3> velocities);
 

@@ -73,6 +73,11 @@ void expect_replaceable(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, failure) || access(path.c_str(), W_OK) != 0) throw unwritable(path, "can't be written");
 }
 
+void expect_plain_or_none(const std::filesystem::path& path) {
+  if (is_no_plain_file(path))
+    throw Error(ErrorKind::command_line, path.string(), "is no plain file, and can't be replaced by one", "name another place");
+}
+
 OutputFile::OutputFile(const std::filesystem::path& path, Begin begin) : path_(path) {
   make_folder_of(path);
   stream_.open(path, begin == Begin::at_end ? std::ios::binary | std::ios::app : std::ios::binary);

@@ -14,6 +14,10 @@ namespace pliant {
 /// Throws Error (command_line) where a folder stands at `path`, or a file that one may not write.
 void expect_replaceable(const std::filesystem::path& path);
 
+/// Throws Error (command_line) where anything but a plain file stands at `path`, or behind a link there: to open a pipe may take
+/// for ever.
+void expect_plain_or_none(const std::filesystem::path& path);
+
 /// Makes the folders that are missing, and a file beside `path`, which it removes. Throws Error (command_line) where one may not
 /// write.
 void expect_writable(const std::filesystem::path& path);

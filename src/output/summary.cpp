@@ -80,7 +80,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"skipped", object(summary.skipped)},
                      {"timings_ms", timings_json(summary)},
                      {"version", summary.version}};
-  OutputFile file(path);
+  WholeFile file(path);
   file.write(json.dump(2, ' ', false, Json::error_handler_t::replace));  // replace: a path need not be UTF-8
   file.write("\n");
   file.close();

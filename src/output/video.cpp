@@ -74,6 +74,7 @@ bool VideoFile::has_encoder() { return find_program("ffmpeg").has_value(); }
 
 VideoFile::VideoFile(const std::filesystem::path& path, const VideoFormat& format) : path_(path), format_(format) {
   expect_container(path);
+  expect_plain_or_none(path);
   expect_writable(path);
   encoder_.emplace(encoder(), arguments_for(path, format));
 }

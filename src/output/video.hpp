@@ -20,8 +20,8 @@ class VideoFile {
   [[nodiscard]] static bool has_encoder();
 
   /// H.264 in the container that the path's ending names: mp4, mkv or mov. Creates the folders that are missing, and replaces
-  /// an existing file. Throws Error (command_line) for another ending, where the file can't be written, or ffmpeg can't be
-  /// started.
+  /// an existing file. Throws Error (command_line) for another ending, where the file can't be written or is no plain one, or
+  /// ffmpeg can't be started.
   VideoFile(const std::filesystem::path& path, const VideoFormat& format);
 
   /// Expects a picture of the format's size. Throws Error (command_line), with ffmpeg's last lines, when it takes no more.

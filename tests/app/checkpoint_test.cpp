@@ -1,4 +1,7 @@
 // Runs that are killed, interrupted or copied, and taken up again.
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
@@ -376,6 +379,22 @@ TEST_CASE("what stands where a checkpoint's lock would be exits with 2, and is l
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
+// The shell's own end of a run that waits for a reader: 124.
+TEST_CASE("a pipe is no place for a checkpoint: that exits with 2, and at once") {
+  const ScratchFolder folder;
+  const auto pipe = folder.path / "pipe", out = folder.path / "out";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const ProgramResult result =
+      run_program("run " + scene_in(folder, verlet).string() + " --device cpu --quiet --duration 0.1 --out " + out.string() +
+                      " --checkpoint " + pipe.string(),
+                  "timeout -k 1 60 ");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.output, Catch::Contains("pipe: is no plain file"));
+  CHECK(std::filesystem::is_fifo(pipe));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
 TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and changes no file") {
   const ScratchFolder folder;
   const std::string scene = scene_in(folder, verlet).string(), checkpoint = (folder.path / "run.checkpoint").string();
@@ -414,14 +433,45 @@ TEST_CASE("a run that is resumed has its checkpoint for itself from before it is
   CHECK_FALSE(std::filesystem::exists(folder.path / "no"));
 }
 
-TEST_CASE("a checkpoint that can't be written costs no run") {
+// A limit of files' sizes in the place of a full disk.
+TEST_CASE("a checkpoint that can't be written costs no run, and is told of once") {
   const ScratchFolder folder;
-  const ProgramResult result = run_program(
-      "run " + scene_in(folder, verlet).string() +
-      " --device cpu --duration 0.1 --quiet --checkpoint-every 0 --checkpoint /dev/full --out " + folder.path.string());
+  const auto checkpoint = folder.path / "c";
+  const ProgramResult result = run_program("run " + scene_in(folder, verlet).string() +
+                                               " --device cpu --duration 0.1 --quiet --checkpoint-every 0 --checkpoint " +
+                                               checkpoint.string() + " --out " + folder.path.string(),
+                                           "trap '' XFSZ; ulimit -f 24; ");
+  CAPTURE(result.output);
   CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("warning: no checkpoint is written: /dev/full"));
+  CHECK_THAT(result.output, Catch::StartsWith("pliant: warning: no checkpoint is written: ") &&
+                                Catch::Contains("the run goes on, and has no checkpoint yet\n"));
+  CHECK(std::ranges::count(result.output, '\n') == 1);
+  CHECK_FALSE(std::filesystem::exists(checkpoint));
   CHECK(std::filesystem::exists(folder.path / "summary.json"));
+}
+
+TEST_CASE("where a checkpoint can't be replaced by the next one a warning says that it stays") {
+  const Begun begun;
+  begun.lengthen();
+  const std::string before = read_text(begun.checkpoint);
+  const ProgramResult result = run_program("run --quiet --resume " + begun.checkpoint, "trap '' XFSZ; ulimit -f 24; ");
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("the run goes on, and the checkpoint before it stays"));
+  CHECK(read_text(begun.checkpoint) == before);
+}
+
+TEST_CASE("a final state that can't be written leaves the one before, a summary, and exit code 2") {
+  const ScratchFolder folder;
+  const auto state = folder.path / "final_state.csv";
+  std::ofstream(state) << "earlier";
+  const ProgramResult result = run_program(
+      "run " + scene_in(folder, verlet).string() + " --device cpu --duration 0.1 --quiet --out " + folder.path.string(),
+      "trap '' XFSZ; ulimit -f 8; ");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.output, Catch::Contains("final_state.csv") && Catch::Contains("can't be written to the end"));
+  CHECK(read_text(state) == "earlier");
+  CHECK(account_in(folder.path)["steps"] == 50);
 }
 
 TEST_CASE("a run whose working folder goes writes checkpoints and is resumed from them all the same") {

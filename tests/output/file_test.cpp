@@ -1,6 +1,7 @@
 // Files that appear as a whole.
 #include "output/file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -118,6 +119,22 @@ TEST_CASE("a file is replaceable where there is none yet, and a folder never is"
   for (const char* name : {"file", "none", "none/deeper"}) CHECK_NOTHROW(expect_replaceable(folder.path / name));
   CHECK_NOTHROW(expect_replaceable("/dev/null"));
   CHECK(error_of([&] { expect_replaceable(folder.path); }).kind() == ErrorKind::command_line);
+}
+
+TEST_CASE("a plain file, or none, is told from pipes, devices and folders, behind links, too") {
+  const test::ScratchFolder folder;
+  const auto plain = folder.path / "plain", pipe = folder.path / "pipe";
+  std::ofstream(plain) << "text";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const auto link_to = [&](const std::filesystem::path& target) {
+    const auto link = folder.path / ("link" + std::to_string(count_in(folder.path)));
+    std::filesystem::create_symlink(target, link);
+    return link;
+  };
+  for (const auto& path : {plain, folder.path / "none", link_to(plain), link_to("none")})
+    CHECK_NOTHROW(expect_plain_or_none(path));
+  for (const auto& path : {pipe, folder.path, std::filesystem::path("/dev/null"), link_to(pipe), link_to(folder.path)})
+    check_says(error_of([&] { expect_plain_or_none(path); }), {path.c_str(), "is no plain file"});
 }
 
 TEST_CASE("a whole file whose place was taken meanwhile is an error, and leaves nothing beside it") {

@@ -1,6 +1,8 @@
 // What ffmpeg is told and given, by a script in its place, and what it makes of that where there is one.
 #include "output/video.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <cstdio>
 
@@ -85,6 +87,17 @@ TEST_CASE("a video in a place that can't be written is an error before ffmpeg is
   const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
   CHECK(error_of([&] { VideoFile(folder.path, {6, 4, 60}); }).kind() == ErrorKind::command_line);
   CHECK(error_of([&] { VideoFile("/dev/null/a.mp4", {6, 4, 60}); }).kind() == ErrorKind::command_line);
+}
+
+TEST_CASE("a pipe is no place for a video, and is an error before ffmpeg is started") {
+  const ScratchFolder folder;
+  const StandIn ffmpeg(folder.path / "bin", "ffmpeg", recorder);
+  const auto pipe = folder.path / "a.mp4";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const Error error = error_of([&] { VideoFile(pipe, {6, 4, 60}); });
+  CHECK(error.kind() == ErrorKind::command_line);
+  check_says(error, {"a.mp4", "is no plain file"});
+  CHECK_FALSE(std::filesystem::exists(folder.path / "bin/ffmpeg.arguments"));
 }
 
 TEST_CASE("a video's ending names a container for H.264, and any other is an error that leaves no file") {
