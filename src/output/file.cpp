@@ -46,14 +46,14 @@ std::filesystem::path new_file_beside(const std::filesystem::path& place) {
   return name;
 }
 
-// Devices and some file systems can't; what they hold is as safe as they make it.
-void sync_to_disk(const std::filesystem::path& path) {
+// Waits until it is. Devices and some file systems can't; what they hold is as safe as they make it.
+bool is_on_disk(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
+  if (file < 0) return true;
   const int result = fsync(file);
   const bool failed = result != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
   ::close(file);
-  if (failed) throw unwritable(path, "can't be written to the end");
+  return !failed;
 }
 
 }  // namespace
@@ -113,9 +113,13 @@ void WholeFile::close() { move(write_out()); }
 
 void WholeFile::close_on_disk() {
   const std::filesystem::path written = write_out();
-  sync_to_disk(written);
+  if (!is_on_disk(written)) {
+    std::error_code ignored;
+    if (!is_direct_) std::filesystem::remove(written, ignored);
+    throw unwritable(place_, "can't be written to the end");
+  }
   move(written);
-  sync_to_disk(place_.has_parent_path() ? place_.parent_path() : ".");  // the place's new name
+  static_cast<void>(is_on_disk(place_.has_parent_path() ? place_.parent_path() : "."));  // the new name; the file stands anyway
 }
 
 std::filesystem::path WholeFile::write_out() const {

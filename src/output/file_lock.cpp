@@ -35,9 +35,11 @@ Error in_the_way(const std::filesystem::path& lock) {
 
 // -1 where there is none and none can be made. What stands there is neither followed nor changed.
 int opened(const std::filesystem::path& lock) {
-  const int file = open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-  std::error_code failure;
-  if (file < 0 && std::filesystem::exists(std::filesystem::symlink_status(lock, failure))) throw in_the_way(lock);
+  constexpr int carefully = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  int file = open(lock.c_str(), O_RDWR | O_CREAT | carefully, 0666);
+  if (file < 0) file = open(lock.c_str(), O_RDONLY | carefully);  // another user's
+  struct stat there {};
+  if (file < 0 && lstat(lock.c_str(), &there) == 0 && !(S_ISREG(there.st_mode) && there.st_size == 0)) throw in_the_way(lock);
   if (file < 0 || is_empty_file(file)) return file;
   close(file);
   throw in_the_way(lock);
