@@ -93,10 +93,15 @@ void expect_within_limit(std::size_t bytes, std::string_view label) {
                 "use coarser meshes or --device cpu");
 }
 
-bool has_room_for(GLuint buffer, const std::vector<std::byte>& content) {
+bool has_room_for(GLuint buffer, std::span<const std::byte> content) {
   const Allocation allocation;
   glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(content.size()), content.data(), GL_DYNAMIC_STORAGE_BIT);
   return !allocation.ran_out();
+}
+
+Error no_room(std::size_t bytes, std::string_view label) {
+  return {ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
+          "use coarser meshes or --device cpu"};
 }
 
 }  // namespace
@@ -109,8 +114,7 @@ Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
   if (!has_room_for(id_, zeros)) {
     glDeleteBuffers(1, &id_);
-    throw Error(ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
-                "use coarser meshes or --device cpu");
+    throw no_room(bytes, label);
   }
   set_label(GL_BUFFER, id_, label);
 }
@@ -133,13 +137,13 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
   if (data.empty()) return;
-  const auto size = static_cast<GLsizeiptr>(data.size());
   GLuint copy = 0;
   glCreateBuffers(1, &copy);
-  glNamedBufferStorage(copy, size, data.data(), 0);
+  const bool has_room = has_room_for(copy, data);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glCopyNamedBufferSubData(copy, id_, 0, static_cast<GLintptr>(first_byte), size);
+  if (has_room) glCopyNamedBufferSubData(copy, id_, 0, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()));
   glDeleteBuffers(1, &copy);
+  if (!has_room) throw no_room(data.size(), "data on its way");
 }
 
 void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
