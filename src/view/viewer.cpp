@@ -251,6 +251,7 @@ void Viewer::step_once() {
 void Viewer::step_back() {
   playback_.pause();
   if (!session_->step_back()) message_ = "no earlier state is kept";
+  is_breakdown_told_ = session_->non_finite().has_value();
 }
 
 void Viewer::restart() {

@@ -98,7 +98,7 @@ class Viewer {
   std::vector<std::filesystem::path> scenes_;  // beside the one that is shown
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
-  std::string message_;          // shown in the title until the next key or wish
+  std::string message_;          // until the next key or wish, but those that show or hide the panel
   bool is_breakdown_told_ = false;
   std::string shown_title_;
   std::uint64_t picture_ = 0;
