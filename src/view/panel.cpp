@@ -238,7 +238,7 @@ void set_style(float scale) {
 
 }  // namespace
 
-/// What ImGui is to hear of next: a press that was let go between two pictures counts, too.
+/// The mouse's buttons as ImGui is to hear of them next, and what lies under the mouse.
 struct Panel::Mouse {
   std::array<bool, 2> is_down{};
   std::vector<ImRect> windows;  // of the latest picture [pixels]
