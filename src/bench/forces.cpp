@@ -11,9 +11,9 @@
 #include "bench/shapes.hpp"
 #include "bench/spring_cost.hpp"
 #include "device/cpu/peak.hpp"
-#include "device/device_bodies.hpp"
 #include "dynamics/stepper.hpp"
 #include "mesh/generators.hpp"
+#include "state/device_bodies.hpp"
 
 namespace pliant::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "collision/tree.hpp"
-#include "device/device_bodies.hpp"
 #include "device/pass.hpp"
 #include "scene/scene_description.hpp"
+#include "state/device_bodies.hpp"
 
 namespace pliant {
 

@@ -3,9 +3,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "device/device_bodies.hpp"
 #include "device/pass.hpp"
 #include "physics/pull.glsl"
+#include "state/device_bodies.hpp"
 
 namespace pliant {
 
@@ -37,7 +37,7 @@ class Grip {
   double largest_acceleration_;  // of a vertex [m/s^2]
   double largest_change_;        // of a velocity by one pull [m/s]
   physics::Aim aim_{};
-  DeviceArray<physics::Aim> aims_;       // one
+  DeviceArray<physics::Aim> aims_;         // one
   DeviceArray<physics::GripVertex> grip_;  // the vertex itself first
 };
 

@@ -3,10 +3,10 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "device/device_bodies.hpp"
 #include "device/pass.hpp"
 #include "dynamics/integrator.hpp"
 #include "scene/scene_description.hpp"
+#include "state/device_bodies.hpp"
 
 namespace pliant {
 

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
-#include "simulation/carried_state.hpp"
+#include "state/carried_state.hpp"
 
 namespace pliant {
 namespace {

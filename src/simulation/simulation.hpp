@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "collision/collider.hpp"
-#include "device/device_bodies.hpp"
 #include "dynamics/grip.hpp"
 #include "dynamics/pacer.hpp"
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
 #include "simulation/time_plan.hpp"
+#include "state/device_bodies.hpp"
 
 namespace pliant {
 

@@ -1,5 +1,5 @@
 // The precision, then each array with its length.
-#include "simulation/carried_state.hpp"
+#include "state/carried_state.hpp"
 
 #include <cstdint>
 #include <string>

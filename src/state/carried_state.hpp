@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/bytes.hpp"
-#include "device/carried_array.hpp"
+#include "state/carried_array.hpp"
 
 namespace pliant {
 

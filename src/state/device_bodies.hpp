@@ -3,11 +3,11 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "device/carried_array.hpp"
 #include "device/device.hpp"
 #include "model/model.hpp"
 #include "physics/body.glsl"
 #include "physics/control.glsl"
+#include "state/carried_array.hpp"
 
 namespace pliant {
 

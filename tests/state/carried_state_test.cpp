@@ -1,5 +1,5 @@
 // A simulation that goes on from another's saved state is that simulation, to the bit.
-#include "simulation/carried_state.hpp"
+#include "state/carried_state.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstring>

@@ -1,5 +1,5 @@
 // Upload and download of model and state.
-#include "device/device_bodies.hpp"
+#include "state/device_bodies.hpp"
 
 #include <algorithm>
 
