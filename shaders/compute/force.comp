@@ -40,7 +40,7 @@ shared vec2 seen_beside[TILE];  // u.y, u.z
 #endif
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // by axis, vertex and lane; later by run, and runs' rests
 #endif
-layout(location = 8) uniform uint item_count;  // shares
+PARAMETER(uint, item_count)  // shares
 
 // `rest` is what rounding takes from the total. Kahan's summation, or Knuth's, which is exact but takes registers that threads with
 // several vertices do not have.

@@ -3,7 +3,7 @@
 #include "physics/language.glsl"
 #include "@kernel"
 layout(local_size_x = 64) in;
-layout(location = 8) uniform uint item_count;
+PARAMETER(uint, item_count)
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;  // dispatches past max_groups have several rows
   uint item = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

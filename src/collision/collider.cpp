@@ -24,8 +24,10 @@ std::vector<glm::uvec2> trees_of(const Forest& forest) {
   return trees;
 }
 
-std::span<const std::uint32_t> corners_of(const Forest& forest) {
-  return {forest.triangles.empty() ? nullptr : forest.triangles.front().data(), 3 * forest.triangles.size()};
+std::vector<std::uint32_t> corners_of(const Forest& forest) {
+  std::vector<std::uint32_t> corners;
+  for (const auto& triangle : forest.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return corners;
 }
 
 std::uint32_t largest_triangle_count(const Model& model) {
@@ -54,42 +56,40 @@ std::vector<glm::uvec4> cut_nodes(const Forest& forest, unsigned start_depth) {
 
 }  // namespace
 
-Collider::Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
+Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
                    std::optional<std::uint32_t> parallel_items)
-    : device_(device),
-      bodies_(bodies),
+    : bodies_(bodies),
       description_(description),
       forest_(build_forest(model, model.rest_positions, description.tree)),
-      parallel_items_(parallel_items.value_or(device.parallel_items())),
+      parallel_items_(parallel_items.value_or(bodies.arrays.device().parallel_items())),
       start_depth_(start_depth_for(parallel_items_, forest_, bodies.body_count)),
       largest_body_(largest_triangle_count(model)),
-      trees_(device, trees_of(forest_), "trees"),
-      leaves_(device, forest_.leaves, "tree leaves"),
-      nodes_(device, cut_nodes(forest_, start_depth_), "tree nodes"),
-      node_boxes_(device, 2 * forest_.nodes.size(), "tree boxes"),
-      triangles_(device, corners_of(forest_), "triangles"),
-      arrivals_(device, forest_.nodes.size(), "tree arrivals"),
-      partner_steps_(device, bodies.body_count, "partner steps"),
-      near_pairs_(device, std::size_t{bodies.body_count} * (bodies.body_count - 1) / 2, "near pairs"),
-      leaf_pairs_(device, leaf_pair_capacity, "pairs of leaves"),
-      marks_(device, bodies.vertex_count, "contact marks") {}
+      most_near_pairs_(std::max(bodies.body_count * (bodies.body_count - 1) / 2, 1u)) {
+  Arrays& arrays = bodies.arrays;
+  arrays.make("tree", trees_of(forest_));
+  arrays.make("leaf", forest_.leaves);
+  arrays.make("node", cut_nodes(forest_, start_depth_));
+  arrays.make<glm::vec4>("node_box", 2 * forest_.nodes.size());
+  arrays.make("triangle", corners_of(forest_));
+  arrays.make<std::uint32_t>("arrival", forest_.nodes.size());
+  arrays.make<std::uint32_t>("partner_step", bodies.body_count);
+  arrays.make<glm::uvec2>("near_pair", most_near_pairs_);
+  arrays.make<glm::uvec2>("leaf_pair", leaf_pair_capacity);
+  arrays.make<std::uint32_t>("mark", bodies.vertex_count);
+}
 
 bool Collider::uses_trees() const {
   return description_.search == ContactSearch::tree && bodies_.body_count > 1 && !forest_.leaves.empty();
 }
 
 std::vector<Pass> Collider::bounding_passes(std::uint32_t half) const {
-  const DeviceBodies& b = bodies_;
-  return {make_pass(device_, "bound_bodies", {b.frames.id(), b.rest_positions.id(), b.world_positions.id()},
-                    {half * b.vertex_count}, b.vertex_count)};
+  return {make_pass(bodies_.arrays, "bound_bodies", {{"first_position", half * bodies_.vertex_count}}, bodies_.vertex_count)};
 }
 
 std::vector<Pass> Collider::contact_passes(std::uint32_t half) const {
   const DeviceBodies& b = bodies_;
   if (b.body_count < 2 || forest_.leaves.empty()) return {};
-  std::vector<Pass> result = {make_pass(device_, "pair_bodies",
-                                        {b.control.id(), trees_.id(), b.frames.id(), near_pairs_.id(), partner_steps_.id()},
-                                        {b.body_count}, b.body_count * b.body_count)};
+  std::vector<Pass> result = {make_pass(b.arrays, "pair_bodies", {}, b.body_count * b.body_count)};
   const std::uint32_t first_position = half * b.vertex_count;
   const auto search =
       description_.search == ContactSearch::tree ? tree_passes(first_position) : brute_force_passes(first_position);
@@ -98,53 +98,59 @@ std::vector<Pass> Collider::contact_passes(std::uint32_t half) const {
 }
 
 std::uint32_t Collider::pairs_at_once(std::uint32_t threads_per_pair) const {
-  return std::clamp<std::uint32_t>(std::max(parallel_items_, least_threads) / threads_per_pair, 1,
-                                   static_cast<std::uint32_t>(near_pairs_.size()));
+  return std::clamp<std::uint32_t>(std::max(parallel_items_, least_threads) / threads_per_pair, 1, most_near_pairs_);
 }
 
 std::vector<Pass> Collider::tree_passes(std::uint32_t first_position) const {
-  const DeviceBodies& b = bodies_;
   const auto test = static_cast<std::uint32_t>(description_.triangle_test);
-  const auto capacity = static_cast<std::uint32_t>(leaf_pairs_.size());
+  const auto capacity = static_cast<std::uint32_t>(leaf_pair_capacity);
   const std::uint32_t starts = 1u << start_depth_;
   const std::uint32_t pairs = pairs_at_once(starts * starts);
   const std::uint32_t tests_at_once =
       std::clamp(parallel_items_, least_threads, most_test_threads) / physics::threads_per_leaf_pair;
-  return {make_pass(device_, "refit",
-                    {b.control.id(), leaves_.id(), nodes_.id(), node_boxes_.id(), triangles_.id(), b.world_positions.id(),
-                     arrivals_.id(), partner_steps_.id()},
-                    {first_position}, static_cast<std::uint32_t>(forest_.leaves.size())),
-          make_pass(device_, "find_pairs",
-                    {b.control.id(), near_pairs_.id(), nodes_.id(), node_boxes_.id(), triangles_.id(), b.world_positions.id(),
-                     leaf_pairs_.id(), marks_.id()},
-                    {first_position, test, capacity, static_cast<std::uint32_t>(forest_.nodes.size()), starts, pairs},
-                    pairs * starts * starts),
-          make_pass(device_, "test_pairs",
-                    {b.control.id(), leaf_pairs_.id(), nodes_.id(), triangles_.id(), b.world_positions.id(), marks_.id()},
-                    {first_position, test, capacity, tests_at_once}, tests_at_once * physics::threads_per_leaf_pair)};
+  return {
+      make_pass(bodies_.arrays, "refit", {{"first_position", first_position}}, static_cast<std::uint32_t>(forest_.leaves.size())),
+      make_pass(bodies_.arrays, "find_pairs",
+                {{"first_position", first_position},
+                 {"triangle_test", test},
+                 {"leaf_pair_capacity", capacity},
+                 {"first_start", static_cast<std::uint32_t>(forest_.nodes.size())},
+                 {"start_count", starts},
+                 {"pairs_at_once", pairs}},
+                pairs * starts * starts),
+      make_pass(bodies_.arrays, "test_pairs",
+                {{"first_position", first_position},
+                 {"triangle_test", test},
+                 {"leaf_pair_capacity", capacity},
+                 {"pairs_at_once", tests_at_once}},
+                tests_at_once * physics::threads_per_leaf_pair)};
 }
 
 std::vector<Pass> Collider::brute_force_passes(std::uint32_t first_position) const {
-  const DeviceBodies& b = bodies_;
   const std::uint32_t pairs = pairs_at_once(largest_body_);
-  return {make_pass(
-      device_, "test_all_pairs",
-      {b.control.id(), near_pairs_.id(), nodes_.id(), triangles_.id(), b.world_positions.id(), marks_.id(), trees_.id()},
-      {first_position, static_cast<std::uint32_t>(description_.triangle_test), largest_body_, pairs}, pairs * largest_body_)};
+  return {make_pass(bodies_.arrays, "test_all_pairs",
+                    {{"first_position", first_position},
+                     {"triangle_test", static_cast<std::uint32_t>(description_.triangle_test)},
+                     {"threads_per_pair", largest_body_},
+                     {"pairs_at_once", pairs}},
+                    pairs * largest_body_)};
 }
 
 std::vector<Pass> Collider::response_passes(std::uint32_t from_half) const {
-  const DeviceBodies& b = bodies_;
-  if (b.body_count < 2 || forest_.leaves.empty()) return {};
-  return {make_pass(device_, "respond",
-                    {b.control.id(), b.bodies.id(), b.frames.id(), b.rest_positions.id(), marks_.id(), b.placements.id(),
-                     b.motions.id(), b.world_positions.id()},
-                    {b.vertex_count, from_half, description_.elasticity}, b.vertex_count)};
+  if (bodies_.body_count < 2 || forest_.leaves.empty()) return {};
+  return {make_pass(bodies_.arrays, "respond", {{"from_half", from_half}, {"elasticity", description_.elasticity}},
+                    bodies_.vertex_count)};
 }
 
 std::vector<glm::uvec2> Collider::leaf_pairs() const {
   const std::uint32_t found = bodies_.control.download().front().leaf_pair_count;
-  return leaf_pairs_.download(0, std::min<std::size_t>(found, leaf_pairs_.size()));
+  return bodies_.arrays.get<glm::uvec2>("leaf_pair").download(0, std::min<std::size_t>(found, leaf_pair_capacity));
 }
+
+std::vector<glm::vec4> Collider::node_boxes() const { return bodies_.arrays.get<glm::vec4>("node_box").download(); }
+
+std::vector<std::uint32_t> Collider::marks() const { return bodies_.arrays.get<std::uint32_t>("mark").download(); }
+
+void Collider::restore_marks(std::span<const std::uint32_t> marks) { bodies_.arrays.get<std::uint32_t>("mark").upload(marks); }
 
 }  // namespace pliant

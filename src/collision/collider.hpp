@@ -12,9 +12,9 @@ namespace pliant {
 
 class Collider {
  public:
-  /// `device` and `bodies` must outlive the collider. The trees' structure comes from the rest positions.
+  /// `bodies` must outlive the collider. The trees' structure comes from the rest positions.
   /// Searches are cut for so many threads at once; else for as many as keep the device busy.
-  Collider(Device& device, DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
+  Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
            std::optional<std::uint32_t> parallel_items = {});
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
@@ -35,36 +35,23 @@ class Collider {
   /// Of the latest search: two leaves whose boxes overlap, in no fixed order, as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
   /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
-  [[nodiscard]] std::vector<glm::vec4> node_boxes() const { return node_boxes_.download(); }
+  [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
   /// Of every vertex, the latest step in which it touched another body; 0: none.
-  [[nodiscard]] std::vector<std::uint32_t> marks() const { return marks_.download(); }
-  [[nodiscard]] BufferId mark_buffer() const { return marks_.id(); }
-  /// Between steps. Marks are known by their steps, and trees are refitted before they are searched.
-  [[nodiscard]] CarriedArray carried_array() const { return carried(marks_); }
-  void restore_marks(std::span<const std::uint32_t> marks) { marks_.upload(marks); }
+  [[nodiscard]] std::vector<std::uint32_t> marks() const;
+  void restore_marks(std::span<const std::uint32_t> marks);
 
  private:
   [[nodiscard]] std::vector<Pass> tree_passes(std::uint32_t first_position) const;
   [[nodiscard]] std::vector<Pass> brute_force_passes(std::uint32_t first_position) const;
   [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t threads_per_pair) const;
 
-  Device& device_;
   DeviceBodies& bodies_;
   CollisionDescription description_;
   Forest forest_;
-  std::uint32_t parallel_items_;   // threads that a search is cut for
-  unsigned start_depth_;           // of the nodes that searches start from
-  std::uint32_t largest_body_;     // triangles
-  DeviceArray<glm::uvec2> trees_;  // [body]: root, number of leaves
-  DeviceArray<glm::uvec2> leaves_;
-  DeviceArray<glm::uvec4> nodes_;
-  DeviceArray<glm::vec4> node_boxes_;
-  DeviceArray<std::uint32_t> triangles_;      // three a triangle, leaf order
-  DeviceArray<std::uint32_t> arrivals_;       // [node]
-  DeviceArray<std::uint32_t> partner_steps_;  // [body]
-  DeviceArray<glm::uvec2> near_pairs_;
-  DeviceArray<glm::uvec2> leaf_pairs_;
-  DeviceArray<std::uint32_t> marks_;  // [vertex]
+  std::uint32_t parallel_items_;  // threads that a search is cut for
+  unsigned start_depth_;          // of the nodes that searches start from
+  std::uint32_t largest_body_;    // triangles
+  std::uint32_t most_near_pairs_;
 };
 
 }  // namespace pliant

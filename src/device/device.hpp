@@ -19,14 +19,30 @@ using BufferId = std::uint32_t;  // 0: none
 using KernelId = std::uint32_t;
 using Parameter = std::variant<std::uint32_t, double>;
 
-inline constexpr std::size_t max_buffers = 9;  // eight, what OpenGL guarantees a shader, and one of constants (CONSTANTS)
-inline constexpr std::size_t max_parameters = 8;
+enum class ArrayUse { read, write, constants };
 
-/// A kernel with its buffers and parameters, by slot.
+/// What a kernel declares, in its own order. A call gives buffers and parameters in the same order.
+struct KernelSignature {
+  struct Array {
+    std::string name;   // in the kernel: the array's own, or that of a view
+    std::string array;  // of physics/arrays.glsl
+    ArrayUse use = ArrayUse::read;
+  };
+  struct Number {
+    std::string name;
+    bool is_double = false;  // else uint
+  };
+  std::vector<Array> arrays;
+  std::vector<Number> parameters;
+};
+
+inline constexpr std::size_t max_arrays = 16;  // of a kernel: the storage blocks that GPU drivers commonly have
+
+/// A kernel with its buffers and parameters, in the order of its signature.
 struct KernelCall {
   KernelId kernel = 0;
-  std::array<BufferId, max_buffers> buffers{};
-  std::array<Parameter, max_parameters> parameters{};
+  std::vector<BufferId> buffers;
+  std::vector<Parameter> parameters;
 };
 
 /// One dispatch, recorded once and run many times.
@@ -76,6 +92,7 @@ class Device {
   /// One with `all_stages` runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once()
   /// items.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
+  [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
   /// Items of a force kernel that certainly run side by side, so that they may wait for each other; 0 where that is not known.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;

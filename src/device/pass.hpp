@@ -1,8 +1,5 @@
-// Recording passes, and timing them.
+// Passes beside each other, and timing them.
 #pragma once
-#include <algorithm>
-#include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <span>
 #include <string_view>
@@ -10,20 +7,6 @@
 #include "device/device.hpp"
 
 namespace pliant {
-
-/// `buffers` and `parameters` by slot, from 0 on.
-[[nodiscard]] inline Pass make_pass(std::string_view name, KernelId kernel, std::initializer_list<BufferId> buffers,
-                                    std::initializer_list<Parameter> parameters, std::uint32_t item_count) {
-  Pass pass{.name = name, .call = {.kernel = kernel}, .item_count = item_count};
-  std::copy(buffers.begin(), buffers.end(), pass.call.buffers.begin());
-  std::copy(parameters.begin(), parameters.end(), pass.call.parameters.begin());
-  return pass;
-}
-
-[[nodiscard]] inline Pass make_pass(Device& device, std::string_view name, std::initializer_list<BufferId> buffers,
-                                    std::initializer_list<Parameter> parameters, std::uint32_t item_count) {
-  return make_pass(name, device.kernel(name), buffers, parameters, item_count);
-}
 
 [[nodiscard]] inline Pass beside_next(Pass pass) {
   pass.beside_next = true;

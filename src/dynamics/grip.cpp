@@ -36,8 +36,7 @@ std::vector<physics::GripVertex> grip_around(const Model& model, std::uint32_t v
 
 }  // namespace
 
-Grip::Grip(Device& device, const DeviceBodies& bodies, const Model& model, std::uint32_t vertex)
-    : device_(device), bodies_(bodies), vertex_(vertex), grip_(device, grip_around(model, vertex), "grip") {
+Grip::Grip(DeviceBodies& bodies, const Model& model, std::uint32_t vertex) : bodies_(bodies), vertex_(vertex) {
   const ModelBody& body = model.body_of(vertex);
   const double frequency = stiffest_frequency(body);
   largest_acceleration_ = largest_displacement * frequency * frequency * body.radius;
@@ -45,23 +44,20 @@ Grip::Grip(Device& device, const DeviceBodies& bodies, const Model& model, std::
   aim_.approach = approach;
   aim_.largest_speed = std::min(largest_speed * body.radius, largest_change_);
   aim_.body = model.body_index(vertex);
-  aim_.grip_count = static_cast<std::uint32_t>(grip_.size());
-  aims_ = DeviceArray<physics::Aim>(device, 1, "aim of a pull");
+  aim_.grip_count = static_cast<std::uint32_t>(bodies.arrays.make("grip", grip_around(model, vertex)).size());
+  bodies.arrays.make<physics::Aim>("aim", 1);
 }
 
 void Grip::aim_at(const glm::dvec3& target, double seconds) {
   STORE3(aim_.target, 0, target)
   aim_.largest_change = std::min(largest_acceleration_ * seconds, largest_change_);
-  aims_.upload(std::span(&aim_, 1));
+  bodies_.arrays.get<physics::Aim>("aim").upload(std::span(&aim_, 1));
 }
 
 std::vector<Pass> Grip::passes(std::uint32_t half) const {
   const std::uint32_t first_vertex = half * bodies_.vertex_count;
-  return {make_pass(device_, "aim_pull",
-                    {aims_.id(), grip_.id(), bodies_.frames.id(), bodies_.world_positions.id(), bodies_.motions.id()},
-                    {first_vertex}, 1),
-          make_pass(device_, "pull_grip", {aims_.id(), grip_.id(), bodies_.frames.id(), bodies_.motions.id()}, {first_vertex},
-                    aim_.grip_count)};
+  return {make_pass(bodies_.arrays, "aim_pull", {{"first_vertex", first_vertex}}, 1),
+          make_pass(bodies_.arrays, "pull_grip", {{"first_vertex", first_vertex}}, aim_.grip_count)};
 }
 
 }  // namespace pliant

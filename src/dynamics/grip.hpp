@@ -19,8 +19,9 @@ struct Pull {
 /// without springs can't be pulled.
 class Grip {
  public:
-  /// Of the vertices around one, less and less with their distance at rest. All references but the model must outlive the grip.
-  Grip(Device& device, const DeviceBodies& bodies, const Model& model, std::uint32_t vertex);
+  /// Of the vertices around one, less and less with their distance at rest. `bodies` must outlive the grip, and knows one
+  /// at a time.
+  Grip(DeviceBodies& bodies, const Model& model, std::uint32_t vertex);
   Grip(const Grip&) = delete;
   Grip& operator=(const Grip&) = delete;
 
@@ -31,14 +32,11 @@ class Grip {
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t half) const;
 
  private:
-  Device& device_;
-  const DeviceBodies& bodies_;
+  DeviceBodies& bodies_;
   std::uint32_t vertex_;
   double largest_acceleration_;  // of a vertex [m/s^2]
   double largest_change_;        // of a velocity by one pull [m/s]
   physics::Aim aim_{};
-  DeviceArray<physics::Aim> aims_;         // one
-  DeviceArray<physics::GripVertex> grip_;  // the vertex itself first
 };
 
 }  // namespace pliant

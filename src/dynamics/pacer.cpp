@@ -70,47 +70,37 @@ std::uint64_t steps_toward(double target, const physics::Pace& pace, std::uint64
   return steps;
 }
 
-Pacer::Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator,
-             DampingLaw law, const PaceLimits& limits)
-    : device_(device), bodies_(bodies), stepper_(stepper) {
+Pacer::Pacer(DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator, DampingLaw law,
+             const PaceLimits& limits)
+    : bodies_(bodies), stage_count_(stepper.stage_count()) {
   PLIANT_EXPECT(estimates_error(integrator));
   const std::vector<double> weights = error_weights(integrator);
   PLIANT_EXPECT(weights.size() == std::size_t{4} * stepper.stage_count());
-  pace_ = DeviceArray<physics::Pace>(device, std::vector{first_pace(model, *staged_method(integrator), limits)}, "pace");
-  error_weights_ = DeviceArray<double>(device, weights, "error weights");
-  error_scales_ = DeviceArray<double>(device, error_scales(model, law), "error scales");
+  bodies.arrays.make("pace", std::vector{first_pace(model, *staged_method(integrator), limits)});
+  bodies.arrays.make("error_weight", weights);
+  bodies.arrays.make("error_scale", error_scales(model, law));
 }
 
 void Pacer::aim_at(double time) {
-  device_.write(pace_.id(), offsetof(physics::Pace, target), std::as_bytes(std::span(&time, 1)));
+  const Arrays& arrays = bodies_.arrays;
+  arrays.device().write(arrays.buffer("pace"), offsetof(physics::Pace, target), std::as_bytes(std::span(&time, 1)));
 }
 
-Pass Pacer::beginning_pass() const {
-  return make_pass(device_, "begin_step", {pace_.id(), bodies_.frames.id()}, {}, bodies_.body_count);
-}
+physics::Pace Pacer::pace() const { return bodies_.arrays.get<physics::Pace>("pace").download().front(); }
+
+Pass Pacer::beginning_pass() const { return make_pass(bodies_.arrays, "begin_step", {}, bodies_.body_count); }
 
 Pass Pacer::estimating_pass() const {
-  const DeviceBodies& b = bodies_;
-  return make_pass(
-      device_, "estimate_error",
-      {pace_.id(), b.frames.id(), b.rest_positions.id(), stepper_.accelerations(), error_weights_.id(), error_scales_.id()},
-      {b.vertex_count, stepper_.stage_count()}, b.vertex_count);
+  return make_pass(bodies_.arrays, "estimate_error", {{"stage_count", stage_count_}}, bodies_.vertex_count);
 }
 
-Pass Pacer::contact_pass(BufferId marks, std::uint32_t from_half) const {
-  const DeviceBodies& b = bodies_;
-  return make_pass(device_, "measure_contact",
-                   {pace_.id(), b.control.id(), b.frames.id(), b.rest_positions.id(), marks, b.motions.id()},
-                   {b.vertex_count, from_half}, b.vertex_count);
+Pass Pacer::contact_pass(std::uint32_t from_half) const {
+  return make_pass(bodies_.arrays, "measure_contact", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
 std::vector<Pass> Pacer::judging_passes(std::uint32_t from_half) const {
-  const DeviceBodies& b = bodies_;
-  return {make_pass(device_, "judge_step", {pace_.id(), b.control.id(), b.frames.id()}, {}, 1),
-          make_pass(device_, "undo_step",
-                    {pace_.id(), b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.motions.id(),
-                     b.world_positions.id()},
-                    {b.vertex_count, from_half}, b.vertex_count)};
+  return {make_pass(bodies_.arrays, "judge_step", {}, 1),
+          make_pass(bodies_.arrays, "undo_step", {{"from_half", from_half}}, bodies_.vertex_count)};
 }
 
 }  // namespace pliant

@@ -27,37 +27,30 @@ struct PaceLimits {
 
 class Pacer {
  public:
-  /// Expects a stepper with Stages::of_estimates, of a method that estimates_error. All references but the model must outlive
-  /// the pacer. Without aim_at() every step is empty.
-  Pacer(Device& device, DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator,
-        DampingLaw law, const PaceLimits& limits);
+  /// Expects a stepper with Stages::of_estimates, of a method that estimates_error. `bodies` must outlive the pacer.
+  /// Without aim_at() every step is empty.
+  Pacer(DeviceBodies& bodies, const Model& model, const Stepper& stepper, const Integrator& integrator, DampingLaw law,
+        const PaceLimits& limits);
   Pacer(const Pacer&) = delete;
   Pacer& operator=(const Pacer&) = delete;
 
   /// Queues a change of where steps are to end [s]. Before it, steps are empty; none goes beyond it.
   void aim_at(double time);
   /// Waits for the queued steps.
-  [[nodiscard]] physics::Pace pace() const { return pace_.download().front(); }
-
-  /// Between steps.
-  [[nodiscard]] CarriedArray carried_array() const { return carried(pace_); }
+  [[nodiscard]] physics::Pace pace() const;
 
   /// Before the stepper's passes: fits the step to the target.
   [[nodiscard]] Pass beginning_pass() const;
   /// After them: estimates the error.
   [[nodiscard]] Pass estimating_pass() const;
   /// After a search for contacts: extends the box of the ways of vertices with this step's mark.
-  [[nodiscard]] Pass contact_pass(BufferId marks, std::uint32_t from_half) const;
+  [[nodiscard]] Pass contact_pass(std::uint32_t from_half) const;
   /// At last: judges, and undoes a step that does not stand.
   [[nodiscard]] std::vector<Pass> judging_passes(std::uint32_t from_half) const;
 
  private:
-  Device& device_;
   DeviceBodies& bodies_;
-  const Stepper& stepper_;
-  DeviceArray<physics::Pace> pace_;    // one
-  DeviceArray<double> error_weights_;  // [stage][4]
-  DeviceArray<double> error_scales_;   // [body][2]: 1 / r [1/m], 1 / (r omega) [s/m]
+  std::uint32_t stage_count_;
 };
 
 }  // namespace pliant

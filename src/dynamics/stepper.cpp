@@ -56,10 +56,10 @@ std::vector<glm::dvec2> splitting_rows(const Splitting& method, double time_step
   return rows;
 }
 
-DeviceArray<glm::dvec2> tableau_of(Device& device, std::vector<glm::dvec2> rows) {
+void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
   PLIANT_EXPECT(rows.size() <= physics::tableau_size);
   rows.resize(physics::tableau_size);
-  return DeviceArray<glm::dvec2>(device, rows, "tableau");
+  arrays.make("tableau", rows);
 }
 
 }  // namespace
@@ -68,20 +68,19 @@ std::size_t Stepper::most_drags(const Integrator& integrator) {
   return physics::tableau_size / stage_rows(nystrom_tableau(integrator), true).size();
 }
 
-Stepper::Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step,
-                 Stages stages)
-    : device_(device), bodies_(bodies), integrator_(integrator), law_(static_cast<std::uint32_t>(law)), time_step_(time_step) {
+Stepper::Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step, Stages stages)
+    : bodies_(bodies), integrator_(integrator), law_(static_cast<std::uint32_t>(law)), time_step_(time_step) {
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t count = bodies.vertex_count;
   bodies.set_time_step(time_step);
-  forces_ = DeviceArray<double>(device, 3 * count, "spring forces");
+  bodies.arrays.make<double>("kept_force", 3 * count);
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
-    accelerations_ = DeviceArray<double>(device, 3 * count * stage_count_, "accelerations");
+    bodies.arrays.make<double>("acceleration", 3 * count * stage_count_);
   } else {
     const auto& splitting = std::get<Splitting>(integrator.method);
     stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
-    tableau_ = tableau_of(device, splitting_rows(splitting, time_step));
+    make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
   }
 }
 
@@ -91,7 +90,7 @@ void Stepper::use_tableaus(Stages stages) {
   std::map<double, std::uint32_t> row_of_drag;
   std::vector<glm::dvec2> rows;
   std::vector<std::uint32_t> row_of_body;
-  for (const physics::Body& body : bodies_.bodies.download()) {
+  for (const physics::Body& body : bodies_.arrays.get<physics::Body>("body").download()) {
     const double drag = holds_drag ? body.damping * body.inverse_mass * time_step_ : 0;
     const auto [place, is_new] = row_of_drag.try_emplace(drag, static_cast<std::uint32_t>(rows.size()));
     row_of_body.push_back(place->second);
@@ -101,63 +100,52 @@ void Stepper::use_tableaus(Stages stages) {
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
     std::ranges::copy(stage_rows(tableau, stages == Stages::of_result), std::back_inserter(rows));
   }
-  tableau_ = tableau_of(device_, std::move(rows));
+  make_tableau(bodies_.arrays, std::move(rows));
   bodies_.set_tableau_rows(row_of_body);
 }
 
 std::vector<Pass> Stepper::first_passes() const {
-  const DeviceBodies& b = bodies_;
-  return {make_pass(device_, "place_vertices",
-                    {b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.motions.id()}, {b.vertex_count},
-                    b.vertex_count)};
+  return {make_pass(bodies_.arrays, "place_vertices", {}, bodies_.vertex_count)};
 }
 
 std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
   if (const auto* splitting = std::get_if<Splitting>(&integrator_.method)) return splitting_passes(*splitting, from_half);
-  return stage_passes("runge_kutta_stage", accelerations_.id(), from_half);
+  return stage_passes("runge_kutta_stage", from_half);
 }
 
 std::vector<Pass> Stepper::following_passes(std::uint32_t from_half) const {
-  const DeviceBodies& b = bodies_;
-  return {
-      make_pass(device_, "follow_bodies", {b.control.id(), b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.motions.id()},
-                {b.vertex_count, from_half, b.body_count}, b.body_count),
-      make_pass(device_, "change_frame",
-                {b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), forces_.id(), b.motions.id()},
-                {b.vertex_count, from_half}, b.vertex_count)};
+  return {make_pass(bodies_.arrays, "follow_bodies", {{"from_half", from_half}}, bodies_.body_count),
+          make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count)};
 }
 
 Pass Stepper::refresh_pass() const {
-  const DeviceBodies& b = bodies_;
-  return make_pass("refresh_force", device_.force_kernel("refresh_force", b.force_variant),
-                   {b.shares.id(), b.frames.id(), b.placements.id(), forces_.id()}, {b.vertex_count},
-                   static_cast<std::uint32_t>(b.shares.size()));
+  const KernelId kernel = bodies_.arrays.device().force_kernel("refresh_force", bodies_.force_variant);
+  return make_pass(bodies_.arrays, "refresh_force", kernel, {}, static_cast<std::uint32_t>(bodies_.shares.size()));
 }
 
-std::vector<Pass> Stepper::stage_passes(std::string_view name, BufferId results, std::uint32_t from_half) const {
+std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half) const {
   const DeviceBodies& b = bodies_;
-  const KernelId kernel = device_.force_kernel(name, b.force_variant, b.all_stages_at_once);
+  const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, b.all_stages_at_once);
   std::vector<Pass> passes;
   for (std::uint32_t stage = 0; stage < (b.all_stages_at_once ? 1 : stage_count_); ++stage)
-    passes.push_back(make_pass(name, kernel,
-                               {b.shares.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), b.placements.id(),
-                                results, b.motions.id(), b.world_positions.id(), tableau_.id()},
-                               {b.vertex_count, from_half, law_, stage, stage_count_},
-                               static_cast<std::uint32_t>(b.shares.size())));
+    passes.push_back(
+        make_pass(b.arrays, name, kernel,
+                  {{"from_half", from_half}, {"damping_law", law_}, {"stage_index", stage}, {"stage_count", stage_count_}},
+                  static_cast<std::uint32_t>(b.shares.size())));
   return passes;
 }
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
-  const DeviceBodies& b = bodies_;
   const auto first = [&](const std::vector<long double>& fractions) {
     return static_cast<double>(fractions[0] * static_cast<long double>(time_step_));
   };
-  std::vector<Pass> result = {
-      refresh_pass(),
-      make_pass(device_, "first_kick",
-                {b.bodies.id(), b.frames.id(), b.rest_positions.id(), b.placements.id(), forces_.id(), b.motions.id()},
-                {b.vertex_count, from_half, law_, first(method.kick), first(method.drift)}, b.vertex_count)};
-  const std::vector<Pass> stages = stage_passes("splitting_stage", forces_.id(), from_half);
+  std::vector<Pass> result = {refresh_pass(), make_pass(bodies_.arrays, "first_kick",
+                                                        {{"from_half", from_half},
+                                                         {"damping_law", law_},
+                                                         {"kick_time", first(method.kick)},
+                                                         {"drift_time", first(method.drift)}},
+                                                        bodies_.vertex_count)};
+  const std::vector<Pass> stages = stage_passes("splitting_stage", from_half);
   result.insert(result.end(), stages.begin(), stages.end());
   return result;
 }

@@ -1,6 +1,5 @@
 // Records the dispatches of one step of an integrator, for every body together.
 #pragma once
-#include <glm/vec2.hpp>
 #include <vector>
 
 #include "device/pass.hpp"
@@ -16,10 +15,10 @@ class Stepper {
   /// no splitting.
   [[nodiscard]] static std::size_t most_drags(const Integrator& integrator);
 
-  /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `device` and `bodies` must
+  /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `bodies` must
   /// outlive the stepper. A method with stages takes each step's length from the bodies' frames, where `time_step` stands to
   /// begin with.
-  Stepper(Device& device, DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
+  Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
           Stages stages = Stages::of_result);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -33,28 +32,20 @@ class Stepper {
   /// Sums the spring forces at the step's start, of bodies whose kept ones are stale. Part of a splitting's step.
   [[nodiscard]] Pass refresh_pass() const;
 
-  /// Between steps: a splitting's kept forces. All else is the step's own.
-  [[nodiscard]] CarriedArray carried_array() const { return carried(forces_); }
-  /// Of a method with stages, at the latest step's stages: [stage][vertex][3] [m/s^2].
-  [[nodiscard]] BufferId accelerations() const { return accelerations_.id(); }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 
  private:
   /// A method's tableau, or one for each rate of damping among the bodies.
   void use_tableaus(Stages stages);
   /// All stages: a pass each, or one where the bodies are small enough.
-  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, BufferId results, std::uint32_t from_half) const;
+  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half) const;
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
-  Device& device_;
   DeviceBodies& bodies_;
   const Integrator& integrator_;
   std::uint32_t law_;
   double time_step_;
   std::uint32_t stage_count_;
-  DeviceArray<double> forces_;         // [vertex][3]: a splitting's kept spring forces [N]
-  DeviceArray<double> accelerations_;  // [stage][vertex][3]
-  DeviceArray<glm::dvec2> tableau_;    // rows as the kernels of stages read them
 };
 
 }  // namespace pliant

@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// To be raised whenever what a checkpoint holds changes: fields, their order, or the device's structs.
-inline constexpr std::uint32_t checkpoint_version = 6;
+inline constexpr std::uint32_t checkpoint_version = 7;
 
 /// Throws Error (command_line) where one may not write a checkpoint: also where anything stands that is none, for it would be
 /// lost.

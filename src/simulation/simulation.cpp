@@ -60,10 +60,10 @@ std::vector<Pass> search_while_following(std::vector<Pass> search, const std::ve
 }
 
 // Whether a step stands is known when contacts are; no frame follows one that does not.
-std::vector<Pass> search_and_judge(std::vector<Pass> search, const std::vector<Pass>& following, const Collider* collider,
-                                   const Pacer& pacer, std::uint32_t from_half) {
+std::vector<Pass> search_and_judge(std::vector<Pass> search, const std::vector<Pass>& following, const Pacer& pacer,
+                                   std::uint32_t from_half) {
   std::vector<Pass> passes{pacer.estimating_pass()};
-  if (!search.empty()) search.push_back(pacer.contact_pass(collider->mark_buffer(), from_half));
+  if (!search.empty()) search.push_back(pacer.contact_pass(from_half));
   append(passes, std::move(search));
   append(passes, pacer.judging_passes(from_half));
   append(passes, following);
@@ -72,7 +72,7 @@ std::vector<Pass> search_and_judge(std::vector<Pass> search, const std::vector<P
 
 }  // namespace
 
-std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
+std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
                               std::uint32_t from_half, const Pacer* pacer) {
   std::vector<Pass> passes;
   if (pacer != nullptr) passes.push_back(pacer->beginning_pass());
@@ -81,10 +81,10 @@ std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const 
   if (collider != nullptr) search = collider->contact_passes(1 - from_half);
   const std::vector<Pass> following = stepper.following_passes(from_half);
   append(passes, pacer == nullptr ? search_while_following(std::move(search), following)
-                                  : search_and_judge(std::move(search), following, collider, *pacer, from_half));
+                                  : search_and_judge(std::move(search), following, *pacer, from_half));
   if (collider != nullptr) append(passes, collider->response_passes(from_half));
   // The next step's first pass asks for nothing that changes.
-  passes.push_back(beside_next(make_pass(device, "finish_step", {bodies.control.id()}, {}, physics::counter_count)));
+  passes.push_back(beside_next(make_pass(bodies.arrays, "finish_step", {}, physics::counter_count)));
   return passes;
 }
 
@@ -93,13 +93,13 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     : device_(device),
       model_(model),
       bodies_(device, model, start),
-      stepper_(device, bodies_, *plan.integrator, plan.damping_law, plan.time_step,
+      stepper_(bodies_, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
-      collider_(device, bodies_, model, collision),
+      collider_(bodies_, model, collision),
       fixed_step_(plan.time_step),
       responds_(collision.response == ContactResponse::reflect) {
   if (plan.tolerance) {
-    pacer_.emplace(device, bodies_, model, stepper_, *plan.integrator, plan.damping_law,
+    pacer_.emplace(bodies_, model, stepper_, *plan.integrator, plan.damping_law,
                    PaceLimits{.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
     known_pace_ = pacer_->pace();
   }
@@ -108,7 +108,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
-  return step_passes(device_, bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half, pacer_ ? &*pacer_ : nullptr);
+  return step_passes(bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half, pacer_ ? &*pacer_ : nullptr);
 }
 
 void Simulation::queue(std::uint64_t steps) {
@@ -141,7 +141,7 @@ StepReport Simulation::advance_to(double time) {
 }
 
 void Simulation::pull(const Pull& by, double seconds) {
-  if (!grip_ || grip_->vertex() != by.vertex) grip_.emplace(device_, bodies_, model_, by.vertex);
+  if (!grip_ || grip_->vertex() != by.vertex) grip_.emplace(bodies_, model_, by.vertex);
   grip_->aim_at(by.target, seconds);
   device_.run(grip_->passes(half()));
 }
@@ -191,18 +191,10 @@ std::vector<glm::vec4> Simulation::world_positions() {
   return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
 }
 
-std::vector<CarriedArray> Simulation::carried_arrays() const {
-  std::vector<CarriedArray> arrays = bodies_.carried_arrays();
-  arrays.push_back(stepper_.carried_array());
-  arrays.push_back(collider_.carried_array());
-  if (pacer_) arrays.push_back(pacer_->carried_array());
-  return arrays;
-}
-
 std::string Simulation::save() {
   ByteWriter saved;
   saved.put(queued_steps_);
-  write_arrays(device_, carried_arrays(), saved);
+  write_arrays(device_, bodies_.arrays.carried(), saved);
   return saved.take();
 }
 
@@ -210,7 +202,7 @@ void Simulation::restore(std::string_view saved) {
   ByteReader from(saved);
   known_control_.reset();
   queued_steps_ = from.get<std::uint64_t>();
-  read_arrays(device_, carried_arrays(), from);
+  read_arrays(device_, bodies_.arrays.carried(), from);
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state holds more than its scene has use for", "");
   if (pacer_) known_pace_ = pacer_->pace();
 }

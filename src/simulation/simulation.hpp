@@ -66,8 +66,8 @@ struct Intersections {
 };
 
 /// One step in order, from `from_half` into the other. A null collider: no contacts. A null pacer: a step of fixed length.
-[[nodiscard]] std::vector<Pass> step_passes(Device& device, const DeviceBodies& bodies, const Stepper& stepper,
-                                            const Collider* collider, std::uint32_t from_half, const Pacer* pacer = nullptr);
+[[nodiscard]] std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
+                                            std::uint32_t from_half, const Pacer* pacer = nullptr);
 
 class Simulation {
  public:
@@ -115,7 +115,6 @@ class Simulation {
  private:
   [[nodiscard]] const physics::Control& control();  // after the queued steps, for which it waits
   [[nodiscard]] std::uint32_t half();               // the one that holds the current state
-  [[nodiscard]] std::vector<CarriedArray> carried_arrays() const;
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
   void add_pace(StepReport& report);

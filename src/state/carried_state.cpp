@@ -1,4 +1,4 @@
-// The precision, then each array with its length.
+// The precision, then each array with its name and length.
 #include "state/carried_state.hpp"
 
 #include <cstdint>
@@ -32,6 +32,7 @@ void write_arrays(Device& device, std::span<const CarriedArray> arrays, ByteWrit
   for (const CarriedArray& array : arrays) {
     bytes.resize(array.byte_count);
     device.read(array.buffer, array.first_byte, std::as_writable_bytes(std::span(bytes)));
+    to.put(array.name);
     to.put(bytes);
   }
 }
@@ -39,9 +40,10 @@ void write_arrays(Device& device, std::span<const CarriedArray> arrays, ByteWrit
 void read_arrays(Device& device, std::span<const CarriedArray> arrays, ByteReader& from) {
   const auto precision = from.get<std::uint32_t>();
   for (const CarriedArray& array : arrays) {
+    const auto name = from.get<std::string>();
     auto bytes = from.get<std::string>();
     if (array.is_real) bytes = in_precision(bytes, precision, device.precision());
-    if (bytes.size() != array.byte_count)
+    if (name != array.name || bytes.size() != array.byte_count)
       throw Error(ErrorKind::input, "", "its state is of other bodies, or of another method, than its scene", "");
     device.write(array.buffer, array.first_byte, std::as_bytes(std::span(bytes)));
   }

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/bytes.hpp"
-#include "state/carried_array.hpp"
+#include "state/arrays.hpp"
 
 namespace pliant {
 

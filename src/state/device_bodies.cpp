@@ -86,29 +86,28 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
       force_variant(variant),
-      bodies(device, bodies_of(model, device.strain_bias()), "bodies"),
-      shares(device, shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()), "shares"),
-      frames(device, counted_anew(state.frames), "frames"),
-      rest_positions(device, model.rest_positions, "rest positions"),
-      motions(device, std::size_t{12} * vertex_count, "motions"),
-      world_positions(device, std::size_t{2} * vertex_count, "world positions"),
-      placements(device,
-                 std::size_t{2} * (physics::slot_count + 1) * vertex_count * (static_cast<std::size_t>(device.precision()) / 8),
-                 "placements"),
-      control(device, std::vector{first_control()}, "control") {
+      arrays(device),
+      shares(arrays.make("share", shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()))),
+      frames(arrays.make("frame", counted_anew(state.frames))),
+      motions(arrays.make<double>("motion", std::size_t{2} * 6 * vertex_count)),
+      world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
+      control(arrays.make("control", std::vector{first_control()})) {
   all_stages_at_once = runs_all_stages(device, model, variant);
+  arrays.set_parameter("vertex_count", vertex_count);
+  arrays.set_parameter("body_count", body_count);
+  arrays.make("body", bodies_of(model, device.strain_bias()));
+  arrays.make("rest_position", model.rest_positions);
+  make_placements();
   motions.upload(state.motion);
   world_positions.upload(rounded_world_positions(model, state));
 }
 
-// Of the placements only the step's start: the slots of stages are written before they are read.
-std::vector<CarriedArray> DeviceBodies::carried_arrays() const {
+// Carried is the step's start alone: the slots of stages are written before they are read.
+void DeviceBodies::make_placements() {
+  const std::size_t slot_size = std::size_t{8} * vertex_count;
+  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", (physics::slot_count + 1) * slot_size);
   const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / (physics::slot_count + 1);
-  return {carried(frames),
-          carried(motions),
-          carried(world_positions),
-          {.buffer = placements.id(), .first_byte = physics::start_slot * slot_bytes, .byte_count = slot_bytes, .is_real = true},
-          carried(control)};
+  arrays.carry_part("placement", physics::start_slot * slot_bytes, slot_bytes);
 }
 
 void DeviceBodies::prepare_search() {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <regex>
 #include <set>
 
+#include "device/array_list.hpp"
 #include "dynamics/grip.hpp"
 #include "gl/context.hpp"
 #include "gl/shader_source.hpp"
@@ -16,35 +16,14 @@
 namespace pliant {
 namespace {
 
-struct Slot {
-  std::size_t index;
-  std::string type;
-};
-
-// The buffers that a kernel writes, from its own declarations.
-std::vector<Slot> written_slots(std::string_view kernel) {
-  const std::string name = "compute/kernels/" + std::string(kernel) + ".glsl";
-  for (const gl::ShaderFile& file : gl::embedded_shaders()) {
-    if (file.name != name) continue;
-    const std::string text(file.text);
-    const std::regex declaration(R"(WRITE\((\d), \w+, +(\w+), \w+\))");
-    std::vector<Slot> slots;
-    for (std::sregex_iterator match(text.begin(), text.end(), declaration), end; match != end; ++match)
-      slots.push_back({std::stoul((*match)[1]), (*match)[2]});
-    return slots;
-  }
-  FAIL("no kernel " << kernel);
-  return {};
-}
-
 // A whole simulation's passes on one device, with its objects kept alive.
 struct Bench {
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step),
-        collider(*device, bodies, start.model, collision, 256),  // searches cut alike on every device
-        grip(*device, bodies, start.model, 1) {
+        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step),
+        collider(bodies, start.model, collision, 256),  // searches cut alike on every device
+        grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.all_stages_at_once = false;  // and stages, too
   }
@@ -54,19 +33,19 @@ struct Bench {
         double tolerance)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        stepper(*device, bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(*device, bodies, start.model, collision, 256),
-        grip(*device, bodies, start.model, 1) {
+        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
+        collider(bodies, start.model, collision, 256),
+        grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.all_stages_at_once = false;
-    pacer.emplace(*device, bodies, start.model, stepper, find_integrator(method.integrator), method.law,
+    pacer.emplace(bodies, start.model, stepper, find_integrator(method.integrator), method.law,
                   PaceLimits{.tolerance = tolerance, .first_step = method.time_step, .largest_step = 2 * method.time_step});
     pacer->aim_at(4 * method.time_step);
   }
 
   // With a pull at its end.
   std::vector<Pass> step(std::uint32_t from_half) {
-    std::vector<Pass> passes = step_passes(*device, bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
+    std::vector<Pass> passes = step_passes(bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
     std::ranges::copy(grip.passes(1 - from_half), std::back_inserter(passes));
     return passes;
   }
@@ -133,34 +112,58 @@ std::pair<std::vector<T>, std::vector<T>> read_both(Bench& cpu, Bench& gpu, Buff
   return values;
 }
 
+// An array that a pass writes, with the type of its elements.
+struct Written {
+  std::string_view element;
+  BufferId on_cpu, on_gpu;
+};
+
+BufferId buffer_of(const Bench& bench, const Pass& pass, std::string_view array) {
+  const auto& declared = bench.device->signature(pass.call.kernel).arrays;
+  for (std::size_t k = 0; k < declared.size(); ++k)
+    if (declared[k].array == array) return pass.call.buffers[k];
+  FAIL(pass.name << " does not declare " << array);
+  return 0;
+}
+
+// By the declarations of the kernel's file and of all that it includes.
+std::vector<Written> written_arrays(const Bench& cpu, const Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
+  std::set<std::string> names;
+  for (const auto& array : gpu.device->signature(gpu_pass.call.kernel).arrays)
+    if (array.use == ArrayUse::write) names.insert(array.array);
+  std::vector<Written> written;
+  for (const std::string& name : names)
+    written.push_back({find_array(name)->element, buffer_of(cpu, cpu_pass, name), buffer_of(gpu, gpu_pass, name)});
+  return written;
+}
+
 // What a pass has written, compared as its type asks. Lists filled in any order are compared as sets.
 void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
-  for (const Slot& slot : written_slots(cpu_pass.name)) {
-    CAPTURE(cpu_pass.name, slot.index, slot.type);
-    const BufferId a = cpu_pass.call.buffers[slot.index], b = gpu_pass.call.buffers[slot.index];
-    if (slot.type == "Control") {
+  for (const auto& [element, a, b] : written_arrays(cpu, gpu, cpu_pass, gpu_pass)) {
+    CAPTURE(cpu_pass.name, element);
+    if (element == "Control") {
       const auto x = cpu.read<std::uint32_t>(a), y = gpu.read<std::uint32_t>(b);
       CHECK(std::equal(x.begin(), x.begin() + sizeof(physics::Control) / 4, y.begin()));
-    } else if (slot.type == "Frame") {
+    } else if (element == "Frame") {
       const auto x = cpu.read<physics::Frame>(a), y = gpu.read<physics::Frame>(b);
       for (std::size_t f = 0; f < cpu.bodies.body_count; ++f)
         CHECK(largest_difference(numbers_of(y[f]), numbers_of(x[f])) < 1e-13);
-    } else if (slot.type == "Pace") {
+    } else if (element == "Pace") {
       const auto x = numbers_of(cpu.read<physics::Pace>(a).front()), y = numbers_of(gpu.read<physics::Pace>(b).front());
       constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // by powers of floats
       for (std::size_t k = 0; k < x.size(); ++k)
         CHECK(y[k] == Approx(x[k]).epsilon(cpu_pass.name == "judge_step" && k != allowed ? 1e-12 : 1e-6));
-    } else if (slot.type == "Aim") {
+    } else if (element == "Aim") {
       const auto x = cpu.read<physics::Aim>(a).front(), y = gpu.read<physics::Aim>(b).front();
       for (int k = 0; k < 3; ++k) CHECK(std::abs(y.change[k] - x.change[k]) < 1e-6 * x.largest_speed);
-    } else if (slot.type == "double") {
+    } else if (element == "double") {
       const auto [x, y] = read_both<double>(cpu, gpu, a, b);
       CHECK(largest_difference(y, x) < 1e-6);
-    } else if (slot.type == "uvec2") {
+    } else if (element == "uvec2") {
       const physics::Control control = cpu.bodies.control.download().front();
       const std::uint32_t count = cpu_pass.name == "pair_bodies" ? control.near_pair_count : control.leaf_pair_count;
       CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
-    } else if (slot.type == "uint") {
+    } else if (element == "uint") {
       const auto [x, y] = read_both<std::uint32_t>(cpu, gpu, a, b);
       CHECK(x == y);
     } else {
@@ -172,9 +175,8 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
 
 // Gives the GPU the CPU's bits after each pass, so that rounding does not add up from pass to pass.
 void copy_state(Bench& from, Bench& to, const Pass& from_pass, const Pass& to_pass) {
-  for (const Slot& slot : written_slots(from_pass.name)) {
-    const auto bytes = from.read<std::byte>(from_pass.call.buffers[slot.index]);
-    const BufferId target = to_pass.call.buffers[slot.index];
+  for (const auto& [element, source, target] : written_arrays(from, to, from_pass, to_pass)) {
+    const auto bytes = from.read<std::byte>(source);
     to.device->write(target, 0, std::span(bytes).first(std::min(bytes.size(), to.device->size_of(target))));
   }
 }
@@ -243,13 +245,11 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
 
 std::vector<double> spring_forces(Device& device, const ModelAndState& start, std::size_t variant) {
   DeviceBodies bodies(device, start.model, start.state, variant);
-  const Stepper stepper(device, bodies, find_integrator("verlet"), DampingLaw::none, 0.01);
+  const Stepper stepper(bodies, find_integrator("verlet"), DampingLaw::none, 0.01);
   device.run(stepper.first_passes());
   const Pass pass = stepper.refresh_pass();
   device.run({&pass, 1});
-  std::vector<double> forces(3 * start.model.vertex_count());
-  device.read(pass.call.buffers[3], 0, std::as_writable_bytes(std::span(forces)));
-  return forces;
+  return bodies.arrays.get<double>("kept_force").download();
 }
 
 TEST_CASE("every way of summing springs that a device knows gives the plain sums of fp64", "[gl]") {

@@ -59,7 +59,7 @@ void add_pairs(PairSet& pairs, const Forest& forest, const glm::uvec4& a, const 
 PairSet pairs_by_tree(Device& device, const ModelAndState& start, const CollisionDescription& description,
                       const std::vector<glm::vec4>& positions) {
   DeviceBodies bodies(device, start.model, start.state);
-  Collider collider(device, bodies, start.model, description);
+  Collider collider(bodies, start.model, description);
   bodies.world_positions.upload(positions);
   bodies.prepare_search();
   device.run(collider.bounding_passes(0));

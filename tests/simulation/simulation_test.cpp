@@ -242,7 +242,7 @@ std::uint32_t contacts_at_gap(Device& device, float gap, const CollisionDescript
   }
   const ModelAndState start = build_model(setups, {0, 0, 0});
   DeviceBodies bodies(device, start.model, start.state);
-  const Collider collider(device, bodies, start.model, description);
+  const Collider collider(bodies, start.model, description);
   bodies.world_positions.upload(positions);  // the very bits: the model rounds
   bodies.prepare_search();
   device.run(collider.bounding_passes(0));

@@ -2,12 +2,12 @@
 // mean velocity of some of its vertices towards a bounded one, by no more than it lacks, takes energy from all other motion.
 #include "../physics/body.glsl"
 #include "../physics/pull.glsl"
-WRITE(0, Aims, Aim, aim)
-READ(1, Grip, GripVertex, grip)
-READ(2, Frames, Frame, frame)
-READ(3, WorldPositions, vec4, world_position)
-READ(4, Motions, double, motion)
-PARAMETER(0, uint, first_vertex)  // of the half that holds the state
+WRITE(aim)
+READ(grip)
+READ(frame)
+READ(world_position)
+READ(motion)
+PARAMETER(uint, first_vertex)  // of the half that holds the state
 
 void aim_pull(uint item) {
   uint b = aim[item].body, sample_count = min(aim[item].grip_count, grip_sample_count);

@@ -1,8 +1,8 @@
 // One thread a body, first in a step whose length is not fixed: how long it is. With the target reached the body rests.
 #include "../physics/body.glsl"
 #include "../physics/pace.glsl"
-READ(0, Paces, Pace, pace)
-WRITE(1, Frames, Frame, frame)
+READ(pace)
+WRITE(frame)
 
 void begin_step(uint b) {
   if (frame[b].halted != not_halted && frame[b].halted != halted_for_now) return;

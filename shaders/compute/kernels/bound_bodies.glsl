@@ -1,10 +1,10 @@
 // One thread a vertex: each body's box as the world positions stand. (A step bounds its bodies as it ends.)
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
-WRITE(0, Frames, Frame, frame)
-READ(1, RestPositions, vec4, rest_position)
-READ(2, WorldPositions, vec4, world_position)
-PARAMETER(0, uint, first_position)
+WRITE(frame)
+READ(rest_position)
+READ(world_position)
+PARAMETER(uint, first_position)
 #include "parts/bound.glsl"
 
 void bound_bodies(uint i) {

@@ -1,14 +1,14 @@
 // One thread a vertex, where a body's frame has turned: restates both halves' motions, the kept force and the placement in the new
 // frame. World positions stay as stored.
 #include "../physics/body.glsl"
-READ(0, Bodies, Body, body)
-READ(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-WRITE(3, Placements, real, placement)
-WRITE(4, Forces, double, force)
-WRITE(5, Motions, double, motion)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
+READ(body)
+READ(frame)
+READ(rest_position)
+WRITE(placement)
+WRITE(kept_force)
+WRITE(motion)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 #include "parts/place.glsl"
 
 dvec3 turned(uint b, dvec3 p) {
@@ -31,6 +31,6 @@ void change_frame(uint i) {
     dvec3 relative = displacement - LOAD3(frame[b].reference, 0u);
     for (uint k = 0u; k < 3u; ++k) place(start_slot, i, k, body[b].inverse_unit, rest[int(k)], relative[int(k)]);
   }
-  dvec3 kept = turned(b, LOAD3(force, 3u * i));
-  STORE3(force, 3u * i, kept)
+  dvec3 kept = turned(b, LOAD3(kept_force, 3u * i));
+  STORE3(kept_force, 3u * i, kept)
 }

@@ -2,14 +2,14 @@
 // distance is exact in any order: bits of floats that are not negative order as the floats do, and NaN above infinity.
 #include "../physics/body.glsl"
 #include "../physics/pace.glsl"
-WRITE(0, Paces, Pace, pace)
-WRITE(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-READ(3, Accelerations, double, acceleration)  // [stage][vertex][3]
-READ(4, ErrorWeights, double, error_weight)   // [stage][4]: of the first estimate's position and velocity, then of the second's
-READ(5, ErrorScales, double, error_scale)     // [body][2]: of a displacement [1/m], of a velocity [s/m]
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, stage_count)
+WRITE(pace)
+WRITE(frame)
+READ(rest_position)
+READ(acceleration)
+READ(error_weight)
+READ(error_scale)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, stage_count)
 
 uint bits_of(dvec3 difference) { return floatBitsToUint(float(sqrt(dot(difference, difference)))) & 0x7fffffffu; }
 

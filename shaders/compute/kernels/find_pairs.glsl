@@ -4,20 +4,20 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, NearPairs, uvec2, near_pair)  // two bodies
-READ(2, Nodes, uvec4, node)              // behind the trees: x: the subtrees to start from, by body
-READ(3, NodeBoxes, vec4, node_box)
-READ(4, Triangles, uint, triangle)
-READ(5, WorldPositions, vec4, world_position)
-WRITE(6, LeafPairs, uvec2, leaf_pair)  // two nodes
-WRITE(7, Marks, uint, mark)             // the latest step in which a vertex touched another body
-PARAMETER(0, uint, first_position)
-PARAMETER(1, uint, triangle_test)
-PARAMETER(2, uint, leaf_pair_capacity)
-PARAMETER(3, uint, first_start)
-PARAMETER(4, uint, start_count)    // subtrees of a body
-PARAMETER(5, uint, pairs_at_once)  // threads go on to later pairs in strides of this
+WRITE(control)
+READ(near_pair)
+READ(node)
+READ(node_box)
+READ(triangle)
+READ(world_position)
+WRITE(leaf_pair)
+WRITE(mark)
+PARAMETER(uint, first_position)
+PARAMETER(uint, triangle_test)
+PARAMETER(uint, leaf_pair_capacity)
+PARAMETER(uint, first_start)
+PARAMETER(uint, start_count)  // subtrees of a body
+PARAMETER(uint, pairs_at_once)  // threads go on to later pairs in strides of this
 #include "parts/test_leaves.glsl"
 
 Box box_of_node(uint n) {

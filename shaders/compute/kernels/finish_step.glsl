@@ -1,7 +1,7 @@
 // One thread a counter: adds this step's count to the run's. The first one moves the clock.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
-WRITE(0, Controls, Control, control)
+WRITE(control)
 
 void add_count(uint k) {
   uint count = control[0].count[k];

@@ -3,14 +3,14 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/rotation.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, Bodies, Body, body)
-WRITE(2, Frames, Frame, frame)
-READ(3, RestPositions, vec4, rest_position)
-READ(4, Motions, double, motion)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
-PARAMETER(2, uint, body_count)
+WRITE(control)
+READ(body)
+WRITE(frame)
+READ(rest_position)
+READ(motion)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(uint, body_count)
 
 // Sixteen vertices, evenly spaced in the body's list, stand for it: any rotation near the body's own is good enough.
 const uint sample_count = 16u;

@@ -2,9 +2,9 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/pace.glsl"
-WRITE(0, Paces, Pace, pace)
-WRITE(1, Controls, Control, control)
-READ(2, Frames, Frame, frame)
+WRITE(pace)
+WRITE(control)
+READ(frame)
 
 void judge_step(uint item) {
   Pace p = pace[item];

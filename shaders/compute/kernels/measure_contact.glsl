@@ -2,14 +2,14 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/pace.glsl"
-WRITE(0, Paces, Pace, pace)
-READ(1, Controls, Control, control)
-READ(2, Frames, Frame, frame)
-READ(3, RestPositions, vec4, rest_position)
-READ(4, Marks, uint, mark)
-READ(5, Motions, double, motion)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
+WRITE(pace)
+READ(control)
+READ(frame)
+READ(rest_position)
+READ(mark)
+READ(motion)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 
 uint ordered(double coordinate) { return ordered_bits(float(coordinate)); }
 

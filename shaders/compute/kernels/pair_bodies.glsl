@@ -2,12 +2,12 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, Trees, uvec2, tree)             // root and number of leaves of each body
-READ(2, Frames, Frame, frame)
-WRITE(3, NearPairs, uvec2, near_pair)   // two bodies
-WRITE(4, Partners, uint, partner_step)  // the latest step in which a body had a partner
-PARAMETER(0, uint, body_count)
+WRITE(control)
+READ(tree)
+READ(frame)
+WRITE(near_pair)
+WRITE(partner_step)
+PARAMETER(uint, body_count)
 
 Box box_of(uint b) {
   Box box;

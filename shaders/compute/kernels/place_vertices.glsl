@@ -1,12 +1,12 @@
 // One thread a vertex, before the first step: its placement, the very one that the end of a step would have left, and whether the
 // body is deformed at all. There are no kept forces yet.
 #include "../physics/body.glsl"
-READ(0, Bodies, Body, body)
-WRITE(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-WRITE(3, Placements, real, placement)
-READ(4, Motions, double, motion)
-PARAMETER(0, uint, vertex_count)
+READ(body)
+WRITE(frame)
+READ(rest_position)
+WRITE(placement)
+READ(motion)
+PARAMETER(uint, vertex_count)
 #include "parts/place.glsl"
 
 void place_vertices(uint i) {

@@ -1,11 +1,11 @@
 // One thread a vertex of a grip, after aim_pull: changes its velocity.
 #include "../physics/body.glsl"
 #include "../physics/pull.glsl"
-READ(0, Aims, Aim, aim)
-READ(1, Grip, GripVertex, grip)
-WRITE(2, Frames, Frame, frame)
-WRITE(3, Motions, double, motion)
-PARAMETER(0, uint, first_vertex)  // of the half that holds the state
+READ(aim)
+READ(grip)
+WRITE(frame)
+WRITE(motion)
+PARAMETER(uint, first_vertex)  // of the half that holds the state
 
 void pull_grip(uint g) {
   uint velocity = 6u * (first_vertex + grip[g].vertex) + 3u;

@@ -2,15 +2,15 @@
 // parent, so no thread ever waits and one dispatch refits every tree.
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, Leaves, uvec2, leaf)                  // node, body
-READ(2, Nodes, uvec4, node)                   // left child (right = left + 1; 0: a leaf), parent or no_node, first triangle, end
-SHARED_WRITE(3, NodeBoxes, vec4, node_box)    // lower, upper of each node
-READ(4, Triangles, uint, triangle)            // three vertices each, in leaf order
-READ(5, WorldPositions, vec4, world_position)
-WRITE(6, Arrivals, uint, arrival)
-READ(7, Partners, uint, partner_step)
-PARAMETER(0, uint, first_position)
+WRITE(control)
+READ(leaf)
+READ(node)
+SHARED_WRITE(node_box)
+READ(triangle)
+READ(world_position)
+WRITE(arrival)
+READ(partner_step)
+PARAMETER(uint, first_position)
 
 #include "parts/box_of_triangle.glsl"
 

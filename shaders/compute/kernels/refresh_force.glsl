@@ -1,11 +1,11 @@
 // A force kernel: sums the spring forces again where a contact has moved vertices since they were kept.
 #include "../physics/body.glsl"
 #include "../physics/forces/spring.glsl"
-READ(0, Shares, Share, share)
-WRITE(1, Frames, Frame, frame)
-READ(2, PlacementsBefore, real4, placed)
-WRITE(3, Forces, double, force)
-PARAMETER(0, uint, vertex_count)
+READ(share)
+WRITE(frame)
+READ_AS(placement, real4, placed)
+WRITE(kept_force)
+PARAMETER(uint, vertex_count)
 #include "parts/force_kernel.glsl"
 
 bool runs(IN(Share) s) { return !halted(s) && frame[s.body_index].force_stale != 0u; }
@@ -22,7 +22,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  force[3u * i + k] = spring_force;
+  kept_force[3u * i + k] = spring_force;
   return double(0);
 }
 

@@ -2,17 +2,17 @@
 // scaled (the paper's response).
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, Bodies, Body, body)
-WRITE(2, Frames, Frame, frame)
-READ(3, RestPositions, vec4, rest_position)
-READ(4, Marks, uint, mark)
-WRITE(5, Placements, real, placement)
-WRITE(6, Motions, double, motion)
-WRITE(7, WorldPositions, vec4, world_position)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
-PARAMETER(2, double, elasticity)
+WRITE(control)
+READ(body)
+WRITE(frame)
+READ(rest_position)
+READ(mark)
+WRITE(placement)
+WRITE(motion)
+WRITE(world_position)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(double, elasticity)
 #include "parts/place.glsl"
 
 void respond(uint i) {

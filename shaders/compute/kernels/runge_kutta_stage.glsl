@@ -5,15 +5,15 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
-READ(0, Shares, Share, share)
-WRITE(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-WRITE(5, Accelerations, double, acceleration)   // [stage][vertex][3]; a stage's velocity stands there until its acceleration does
-WRITE(6, Motions, double, motion)               // two halves: the state before the step and after it
-WRITE(7, WorldPositions, float, world_position)  // two halves likewise
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
-PARAMETER(2, uint, damping_law)
+READ(share)
+WRITE(frame)
+READ(rest_position)
+WRITE(acceleration)
+WRITE(motion)
+WRITE_AS(world_position, float, world_coordinate)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(uint, damping_law)
 #include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"

@@ -3,15 +3,15 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
-READ(0, Shares, Share, share)
-WRITE(1, Frames, Frame, frame)
-READ(2, RestPositions, vec4, rest_position)
-WRITE(5, Forces, double, force)
-WRITE(6, Motions, double, motion)
-WRITE(7, WorldPositions, float, world_position)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
-PARAMETER(2, uint, damping_law)
+READ(share)
+WRITE(frame)
+READ(rest_position)
+WRITE(kept_force)
+WRITE(motion)
+WRITE_AS(world_position, float, world_coordinate)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(uint, damping_law)
 #include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
@@ -46,7 +46,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  force[3u * i + k] = spring_force;
+  kept_force[3u * i + k] = spring_force;
   double velocity = kicked(s.body, p.gravity, spring_force, force_squared, p.velocity, kick_time());
   double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.reference);

@@ -4,17 +4,17 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, NearPairs, uvec2, near_pair)
-READ(2, Nodes, uvec4, node)
-READ(3, Triangles, uint, triangle)
-READ(4, WorldPositions, vec4, world_position)
-WRITE(5, Marks, uint, mark)
-READ(6, Trees, uvec2, tree)
-PARAMETER(0, uint, first_position)
-PARAMETER(1, uint, triangle_test)
-PARAMETER(2, uint, threads_per_pair)
-PARAMETER(3, uint, pairs_at_once)
+WRITE(control)
+READ(near_pair)
+READ(node)
+READ(triangle)
+READ(world_position)
+WRITE(mark)
+READ(tree)
+PARAMETER(uint, first_position)
+PARAMETER(uint, triangle_test)
+PARAMETER(uint, threads_per_pair)
+PARAMETER(uint, pairs_at_once)
 #include "parts/box_of_triangle.glsl"
 #include "parts/mark_contact.glsl"
 

@@ -3,16 +3,16 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
-WRITE(0, Controls, Control, control)
-READ(1, LeafPairs, uvec2, leaf_pair)
-READ(2, Nodes, uvec4, node)
-READ(3, Triangles, uint, triangle)
-READ(4, WorldPositions, vec4, world_position)
-WRITE(5, Marks, uint, mark)
-PARAMETER(0, uint, first_position)
-PARAMETER(1, uint, triangle_test)
-PARAMETER(2, uint, leaf_pair_capacity)
-PARAMETER(3, uint, pairs_at_once)
+WRITE(control)
+READ(leaf_pair)
+READ(node)
+READ(triangle)
+READ(world_position)
+WRITE(mark)
+PARAMETER(uint, first_position)
+PARAMETER(uint, triangle_test)
+PARAMETER(uint, leaf_pair_capacity)
+PARAMETER(uint, pairs_at_once)
 #include "parts/test_leaves.glsl"
 
 void test_pairs(uint item) {

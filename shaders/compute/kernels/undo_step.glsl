@@ -2,15 +2,15 @@
 // until the next step the body rests.
 #include "../physics/body.glsl"
 #include "../physics/pace.glsl"
-READ(0, Paces, Pace, pace)
-READ(1, Bodies, Body, body)
-WRITE(2, Frames, Frame, frame)
-READ(3, RestPositions, vec4, rest_position)
-WRITE(4, Placements, real, placement)
-WRITE(5, Motions, double, motion)
-WRITE(6, WorldPositions, vec4, world_position)
-PARAMETER(0, uint, vertex_count)
-PARAMETER(1, uint, from_half)
+READ(pace)
+READ(body)
+WRITE(frame)
+READ(rest_position)
+WRITE(placement)
+WRITE(motion)
+WRITE(world_position)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 #include "parts/place.glsl"
 
 void rest_body(uint b) {

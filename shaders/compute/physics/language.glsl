@@ -30,11 +30,15 @@
   #define IN_ARRAY(T, name, n) const T (&name)[n]
   #define EXACT
   #define FUSED(a, b, c) ((a) * (b) + (c))
-  #define READ(slot, block, T, name) const T* const name = arguments.read<T>(slot);
-  #define WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
-  #define SHARED_WRITE(slot, block, T, name) T* const name = arguments.write<T>(slot);
-  #define CONSTANTS(slot, block, T, name, count) const T* const name = arguments.read<T>(slot);
-  #define PARAMETER(slot, T, name) const T name = arguments.parameter<T>(slot);
+  // A kernel's declarations, as members of its struct. On a GPU the loader writes them out (kernel_source.hpp).
+  #define READ(name) READ_AS(name, array::name::element, name)
+  #define WRITE(name) WRITE_AS(name, array::name::element, name)
+  #define SHARED_WRITE(name) WRITE(name)
+  #define READ_AS(array_name, T, name) const T* const name = arguments.read<T>(#array_name);
+  #define WRITE_AS(array_name, T, name) T* const name = arguments.write<T>(#array_name);
+  #define SHARED_WRITE_AS(array_name, T, name) WRITE_AS(array_name, T, name)
+  #define CONSTANTS(name, count) const array::name::element* const name = arguments.constants<array::name::element>(#name);
+  #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
 #else
   #define real float
@@ -52,11 +56,6 @@
   #define IN_ARRAY(T, name, n) in T name[n]
   #define EXACT precise                 // every operation rounds by itself, in the order written
   #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
-  #define READ(slot, block, T, name) layout(std430, binding = slot) readonly buffer block { T name[]; };
-  #define WRITE(slot, block, T, name) layout(std430, binding = slot) buffer block { T name[]; };
-  #define SHARED_WRITE(slot, block, T, name) layout(std430, binding = slot) coherent buffer block { T name[]; };
-  #define CONSTANTS(slot, block, T, name, count) layout(std140, binding = slot) uniform block { T name[count]; };
-  #define PARAMETER(slot, T, name) layout(location = slot) uniform T name;
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
 #endif
 

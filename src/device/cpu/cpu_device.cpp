@@ -47,6 +47,7 @@ class CpuDevice final : public Device {
       else
         sums_32_.emplace_back(isa);
     }
+    for (const cpu::KernelEntry& entry : kernels_) signatures_.push_back(entry.signature());
     info_ = {.kind = "cpu", .name = cpu::device_name(), .threads = pool_.size()};
   }
 
@@ -83,6 +84,7 @@ class CpuDevice final : public Device {
     PLIANT_EXPECT(!all_stages);
     return kernel(name) + static_cast<KernelId>(variant * kernels_.size());
   }
+  const KernelSignature& signature(KernelId kernel) const override { return signatures_[kernel % kernels_.size()]; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::uint32_t shares_at_once() const override { return 0; }
   std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
@@ -93,10 +95,10 @@ class CpuDevice final : public Device {
     for (const Pass& pass : passes) run(pass.call, pass.item_count);
   }
   void run(const KernelCall& call, std::uint32_t item_count) {
-    cpu::KernelArguments arguments;
-    arguments.parameters = &call.parameters;
-    for (std::size_t slot = 0; slot < max_buffers; ++slot)
-      if (call.buffers[slot] != 0) arguments.buffers[slot] = bytes_of(call.buffers[slot]);
+    PLIANT_EXPECT(call.buffers.size() <= max_arrays);
+    std::array<void*, max_arrays> buffers{};
+    for (std::size_t k = 0; k < call.buffers.size(); ++k) buffers[k] = bytes_of(call.buffers[k]);
+    const cpu::KernelArguments arguments{.buffers = buffers.data(), .parameters = call.parameters.data()};
     const cpu::KernelEntry& entry = kernels_[call.kernel % kernels_.size()];
     if (entry.function == nullptr) {
       run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
@@ -193,6 +195,7 @@ class CpuDevice final : public Device {
   ThreadPool pool_;
   int precision_;
   std::span<const cpu::KernelEntry> kernels_;
+  std::vector<KernelSignature> signatures_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_{{"plain", whole_bodies}};
   std::vector<cpu::SpringSums<float>> sums_32_;  // one an instruction set, in the precision of this device alone

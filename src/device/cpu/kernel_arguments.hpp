@@ -1,10 +1,11 @@
 // What a kernel on the CPU is called with.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
 #include "device/device.hpp"
@@ -12,21 +13,44 @@
 namespace pliant::cpu {
 
 struct KernelArguments {
-  std::array<void*, max_buffers> buffers{};
-  const std::array<Parameter, max_parameters>* parameters = nullptr;
+  void* const* buffers = nullptr;         // in the order in which the kernel declares them
+  const Parameter* parameters = nullptr;  // likewise
+  KernelSignature* declared = nullptr;    // if not null the kernel only says what it declares
+};
+
+/// Hands a kernel its arguments one after another, as its members ask for them.
+class ArgumentReader {
+ public:
+  explicit ArgumentReader(const KernelArguments& arguments) : arguments_(arguments) {}
 
   template <class T>
-  [[nodiscard]] const T* read(int slot) const {
-    return static_cast<const T*>(buffers[static_cast<std::size_t>(slot)]);
+  [[nodiscard]] const T* read(std::string_view array) {
+    return static_cast<const T*>(next_buffer(array, ArrayUse::read));
   }
   template <class T>
-  [[nodiscard]] T* write(int slot) const {
-    return static_cast<T*>(buffers[static_cast<std::size_t>(slot)]);
+  [[nodiscard]] T* write(std::string_view array) {
+    return static_cast<T*>(next_buffer(array, ArrayUse::write));
   }
   template <class T>
-  [[nodiscard]] T parameter(int slot) const {
-    return std::get<T>((*parameters)[static_cast<std::size_t>(slot)]);
+  [[nodiscard]] const T* constants(std::string_view array) {
+    return static_cast<const T*>(next_buffer(array, ArrayUse::constants));
   }
+  template <class T>
+  [[nodiscard]] T parameter(std::string_view name) {
+    if (arguments_.declared == nullptr) return std::get<T>(arguments_.parameters[parameter_++]);
+    arguments_.declared->parameters.push_back({std::string(name), std::is_same_v<T, double>});
+    return {};
+  }
+
+ private:
+  void* next_buffer(std::string_view array, ArrayUse use) {
+    if (arguments_.declared == nullptr) return arguments_.buffers[buffer_++];
+    arguments_.declared->arrays.push_back({std::string(array), std::string(array), use});
+    return nullptr;
+  }
+
+  const KernelArguments& arguments_;
+  std::size_t buffer_ = 0, parameter_ = 0;
 };
 
 /// Runs items first to end - 1.
@@ -53,6 +77,7 @@ struct ForceFunctions {
 
 struct KernelEntry {
   std::string_view name;
+  KernelSignature (*signature)();
   KernelFunction function;  // null for a force kernel, which has
   ForceFunctions force;     // these instead
   std::uint32_t grain;      // items that a thread takes at a time: some microseconds' work, more than it costs to wake one up

@@ -8,15 +8,13 @@
 #include <unordered_map>
 
 #include "core/expect.hpp"
+#include "device/gpu/kernel_source.hpp"
 #include "device/gpu/strain_bias.hpp"
 #include "gl/objects.hpp"
 #include "physics/control.glsl"
 
 namespace pliant {
 namespace {
-
-constexpr GLint item_count_location = 8;
-constexpr std::size_t constants_slot = 8;
 
 // How force.comp cuts its work.
 struct Lanes {
@@ -91,6 +89,7 @@ class GpuDevice final : public Device {
     return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), "compute/force.comp",
                  defines);
   }
+  const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // A group for each multiprocessor: that many run at once, however many registers and how much shared memory a group takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
@@ -132,17 +131,21 @@ class GpuDevice final : public Device {
   struct Kernel {
     std::string name;
     bool items_are_groups;
+    KernelSignature signature;
     gl::Program program;
-    std::array<bool, max_parameters + 1> parameter_exists;
-    std::array<Parameter, max_parameters + 1> parameters;  // as last set; program uniforms start as zero
+    std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
+    std::vector<Parameter> parameters;    // as last set; program uniforms start as zero
   };
 
   KernelId build(const std::string& name, std::string_view frame, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
-    Kernel made{name, frame == "compute/force.comp", gl::Program::compute(frame, defines), {}, {}};
-    made.parameter_exists[max_parameters] = true;
-    for (std::size_t slot = 0; slot < max_parameters; ++slot) made.parameter_exists[slot] = has_location(made.program.id(), slot);
+    gpu::KernelSource source = gpu::kernel_source(gl::embedded_shaders(), frame, defines);
+    Kernel made{name, frame == "compute/force.comp", std::move(source.signature), gl::Program::compute(source.shader, name), {},
+                {}};
+    for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
+      made.parameter_is_used.push_back(has_location(made.program.id(), slot));
+    made.parameters.resize(made.signature.parameters.size());
     kernels_.push_back(std::move(made));
     return static_cast<KernelId>(kernels_.size() - 1);
   }
@@ -166,28 +169,28 @@ class GpuDevice final : public Device {
     const std::uint32_t groups =
         kernels_[pass.call.kernel].items_are_groups ? pass.item_count : physics::groups_for(pass.item_count);
     const std::uint32_t rows = (groups + physics::max_groups - 1) / physics::max_groups;
-    prepare(pass.call, pass.item_count);
+    prepare(pass.call);
     glDispatchCompute(std::min(groups, physics::max_groups), rows, 1);
     if (!pass.beside_next) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
-  void bind(std::size_t slot, BufferId buffer) {
-    if (buffer == 0 || bound_[slot] == buffer) return;
+  void bind(std::size_t slot, BufferId buffer, ArrayUse use) {
+    if (bound_[slot] == buffer) return;
     bound_[slot] = buffer;
-    glBindBufferBase(slot == constants_slot ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot),
+    glBindBufferBase(use == ArrayUse::constants ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot),
                      gl_buffer(buffer));
   }
 
-  void prepare(const KernelCall& call, std::uint32_t item_count) {
+  void prepare(const KernelCall& call) {
     Kernel& kernel = kernels_[call.kernel];
     glUseProgram(kernel.program.id());
-    for (std::size_t slot = 0; slot < max_buffers; ++slot) bind(slot, call.buffers[slot]);
-    for (std::size_t slot = 0; slot < max_parameters; ++slot) set_parameter(kernel, slot, call.parameters[slot]);
-    set_parameter(kernel, static_cast<std::size_t>(item_count_location), item_count);
+    for (std::size_t slot = 0; slot < call.buffers.size(); ++slot)
+      bind(slot, call.buffers[slot], kernel.signature.arrays[slot].use);
+    for (std::size_t slot = 0; slot < call.parameters.size(); ++slot) set_parameter(kernel, slot, call.parameters[slot]);
   }
 
   static void set_parameter(Kernel& kernel, std::size_t slot, const Parameter& value) {
-    if (!kernel.parameter_exists[slot] || kernel.parameters[slot] == value) return;
+    if (!kernel.parameter_is_used[slot] || kernel.parameters[slot] == value) return;
     kernel.parameters[slot] = value;
     const GLint location = static_cast<GLint>(slot);
     if (const auto* number = std::get_if<double>(&value))
@@ -202,7 +205,7 @@ class GpuDevice final : public Device {
   std::vector<ForceVariant> variants_;
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;
-  std::array<BufferId, max_buffers> bound_{};
+  std::array<BufferId, max_arrays> bound_{};  // by slot; constants have slots of their own
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::vector<Kernel> kernels_;
   BufferId next_buffer_ = 1;

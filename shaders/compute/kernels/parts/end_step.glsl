@@ -14,6 +14,6 @@ void end_in_world(uint i, uint k, uint b, dvec3 position) {
       row_times(frame[b].rotation[3u * k], frame[b].rotation[3u * k + 1u], frame[b].rotation[3u * k + 2u], position);
   EXACT double coordinate = turned + frame[b].origin[k];
   uint after = (1u - from_half) * vertex_count + i;
-  world_position[4u * after + k] = float(coordinate);
+  world_coordinate[4u * after + k] = float(coordinate);
   bound(i, b, k, float(coordinate));
 }

@@ -2,13 +2,13 @@
 // all of them: the frame around counts, and placements are read past caches, because other groups write them meanwhile.
 #ifdef TILE
 uint stage_index;
-SHARED_WRITE(3, PlacementsBefore, real4, placed)
-SHARED_WRITE(4, Placements, real, placement)
+SHARED_WRITE_AS(placement, real4, placed)
+SHARED_WRITE(placement)
 #else
-PARAMETER(3, uint, stage_index)
-READ(3, PlacementsBefore, real4, placed)  // the slots that are read: readable only, which GPUs cache better
-WRITE(4, Placements, real, placement)
+PARAMETER(uint, stage_index)
+READ_AS(placement, real4, placed)  // the slots that are read: readable only, which GPUs cache better
+WRITE(placement)
 #endif
-PARAMETER(4, uint, stage_count)
-CONSTANTS(8, Tableau, dvec2, tableau, tableau_size)
+PARAMETER(uint, stage_count)
+CONSTANTS(tableau, tableau_size)
 bool is_last() { return stage_index + 1u == stage_count; }

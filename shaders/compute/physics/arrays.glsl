@@ -1,0 +1,38 @@
+// The one list of arrays. Kernels name them in READ, WRITE and SHARED_WRITE, and get slots by those names.
+//
+// ARRAY(name, element, per, life, layout). One run has one `run`. Life: `fixed`, made from scene and meshes; `carried`, outlasts a step
+// and belongs to a saved state; `step`, written in a step before it is read there. Layouts are in docs/conventions.md, too.
+
+// bodies
+ARRAY(rest_position, vec4, vertex, fixed, "x, y, z in the body's frame, about its centroid [m]; w: the body's index")
+ARRAY(motion, double, vertex, carried, "[half][vertex][6] u [m], w [m/s]")
+ARRAY(world_position, vec4, vertex, carried, "[half][vertex] x, y, z [m]; w: 1")
+ARRAY(placement, real, vertex, carried, "[slot][2][vertex][4] position, then displacement, relative to the body's reference [body's unit]; slots 0 and 1 serve stages in turn, slot 2 a step's start, which alone is carried, slot 3 notes what rounding has done")
+ARRAY(body, Body, body, fixed, "material, and the range of vertices")
+ARRAY(share, Share, share, fixed, "vertices that one work group of a force kernel serves, with their body")
+ARRAY(frame, Frame, body, carried, "the body's moving coordinate system and its box, as bits that order as floats do")
+ARRAY(control, Control, run, carried, "clock and counters")
+
+// integrators
+ARRAY(kept_force, double, vertex, carried, "[vertex][3] spring forces of a splitting method, kept for the next step [N]")
+ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity")
+ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
+ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")
+ARRAY(error_scale, double, body, fixed, "[body][2] 1 / r [1/m], 1 / (r omega) [s/m]")
+ARRAY(pace, Pace, run, carried, "how long steps are where a tolerance governs them")
+
+// contacts
+ARRAY(tree, uvec2, body, fixed, "root, number of leaves")
+ARRAY(node, uvec4, node, fixed, "left child (the right one is next; 0: leaf), parent, first triangle, end of triangles; behind all trees x: the nodes that searches start from")
+ARRAY(node_box, vec4, node, step, "[node][2] lower, upper [m]")
+ARRAY(leaf, uvec2, leaf, fixed, "node, body")
+ARRAY(triangle, uint, triangle, fixed, "[triangle][3] vertex indices, in leaf order")
+ARRAY(arrival, uint, node, step, "children refitted so far, 0 between steps")
+ARRAY(partner_step, uint, body, step, "latest step in which its box overlapped another's")
+ARRAY(near_pair, uvec2, pair, step, "two bodies, in no fixed order")
+ARRAY(leaf_pair, uvec2, pair, step, "nodes of two leaves, in no fixed order")
+ARRAY(mark, uint, vertex, carried, "latest step in which it touched another body; 0: none")
+
+// pulls
+ARRAY(aim, Aim, run, step, "where a grip is drawn to, and by how much its velocity changes")
+ARRAY(grip, GripVertex, run, fixed, "vertices that a pull holds, with their weights")

@@ -1,0 +1,23 @@
+#include "device/array_list.hpp"
+
+#include <algorithm>
+
+namespace pliant {
+namespace {
+
+#define ARRAY(name, element, per, life, layout) {#name, #element, #per, ArrayLife::life, layout},
+constexpr ArrayRow rows[] = {
+#include "physics/arrays.glsl"
+};
+#undef ARRAY
+
+}  // namespace
+
+std::span<const ArrayRow> array_list() { return rows; }
+
+const ArrayRow* find_array(std::string_view name) {
+  const auto* const found = std::ranges::find(rows, name, &ArrayRow::name);
+  return found == std::end(rows) ? nullptr : found;
+}
+
+}  // namespace pliant

@@ -1,0 +1,124 @@
+// The simulation's arrays on a device, by the names of physics/arrays.glsl, and passes that find them there.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "device/array_list.hpp"
+#include "device/device.hpp"
+#include "physics/body.glsl"
+#include "physics/control.glsl"
+#include "physics/pace.glsl"
+#include "physics/pull.glsl"
+
+namespace pliant {
+
+/// A part of a device's array that one step leaves for the next.
+struct CarriedArray {
+  std::string name;
+  BufferId buffer = 0;
+  std::size_t first_byte = 0, byte_count = 0;
+  bool is_real = false;  // numbers of the device's precision; others are the same on every device
+};
+
+/// What T is called in physics/arrays.glsl.
+template <class T>
+inline constexpr std::string_view element_name{};
+#define PLIANT_ELEMENT(T, name) \
+  template <>                   \
+  inline constexpr std::string_view element_name<T> = name;
+PLIANT_ELEMENT(double, "double")
+PLIANT_ELEMENT(std::uint32_t, "uint")
+PLIANT_ELEMENT(glm::vec4, "vec4")
+PLIANT_ELEMENT(glm::uvec2, "uvec2")
+PLIANT_ELEMENT(glm::uvec4, "uvec4")
+PLIANT_ELEMENT(glm::dvec2, "dvec2")
+PLIANT_ELEMENT(physics::Body, "Body")
+PLIANT_ELEMENT(physics::Share, "Share")
+PLIANT_ELEMENT(physics::Frame, "Frame")
+PLIANT_ELEMENT(physics::Control, "Control")
+PLIANT_ELEMENT(physics::Pace, "Pace")
+PLIANT_ELEMENT(physics::Aim, "Aim")
+PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
+#undef PLIANT_ELEMENT
+
+/// Owns arrays. A name that is not in the list, an array that nobody has made, and another type than the list's are bugs of the
+/// caller: they throw std::logic_error, which names array and types.
+class Arrays {
+ public:
+  /// `device` must outlive the arrays.
+  explicit Arrays(Device& device) : device_(device) {}
+  Arrays(const Arrays&) = delete;
+  Arrays& operator=(const Arrays&) = delete;
+
+  /// A zero-filled array of `count` elements; it replaces an earlier one of that name. References stay valid until then.
+  template <class T>
+  DeviceArray<T>& make(std::string_view name, std::size_t count) {
+    return hold(name, element_name<T>, std::make_shared<DeviceArray<T>>(device_, count, name));
+  }
+  template <class T>
+  DeviceArray<T>& make(std::string_view name, const std::vector<T>& values) {
+    DeviceArray<T>& array = make<T>(name, values.size());
+    array.upload(values);
+    return array;
+  }
+  /// `count` zeros of the device's precision, as words of 32 bits.
+  DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count);
+
+  template <class T>
+  [[nodiscard]] DeviceArray<T>& get(std::string_view name) const {
+    return *static_cast<DeviceArray<T>*>(find(name, element_name<T>).array.get());
+  }
+  [[nodiscard]] BufferId buffer(std::string_view name) const;
+  [[nodiscard]] Device& device() const { return device_; }
+
+  /// A parameter that has one value for all kernels.
+  void set_parameter(std::string_view name, Parameter value) { parameters_.insert_or_assign(std::string(name), value); }
+  [[nodiscard]] const Parameter* parameter(std::string_view name) const;
+
+  /// Of an array that is carried, says which bytes alone are.
+  void carry_part(std::string_view name, std::size_t first_byte, std::size_t byte_count);
+  /// Those that have been made, in the order of the list: all that a run can go on from.
+  [[nodiscard]] std::vector<CarriedArray> carried() const;
+
+ private:
+  struct Held {
+    std::shared_ptr<void> array;  // a DeviceArray
+    CarriedArray bytes;
+  };
+
+  template <class T>
+  DeviceArray<T>& hold(std::string_view name, std::string_view element, std::shared_ptr<DeviceArray<T>> array) {
+    expect_element(name, element);
+    DeviceArray<T>& made = *array;
+    const CarriedArray bytes{std::string(name), made.id(), 0, made.size() * sizeof(T), element == "real"};
+    held_.insert_or_assign(std::string(name), Held{std::move(array), bytes});
+    return made;
+  }
+  static void expect_element(std::string_view name, std::string_view element);
+  const Held& find(std::string_view name, std::string_view element) const;
+
+  Device& device_;
+  std::map<std::string, Held, std::less<>> held_;
+  std::map<std::string, Parameter, std::less<>> parameters_;
+};
+
+using Parameters = std::initializer_list<std::pair<std::string_view, Parameter>>;
+
+/// A dispatch of a kernel, with the arrays that it names. Parameters are by name: these, those that all kernels share, and
+/// `item_count`. Throws std::logic_error, with the kernel's and the array's or parameter's name, where one is missing, of another
+/// type, or not declared by the kernel.
+[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, Parameters parameters, std::uint32_t item_count);
+/// Likewise of a kernel in a variant; `name` is for reports.
+[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Parameters parameters,
+                             std::uint32_t item_count);
+
+}  // namespace pliant
