@@ -247,11 +247,11 @@ void wait_for_others(Share s, uint often) {
   memoryBarrierBuffer();
   barrier();
   if (gl_LocalInvocationID.x == 0u) {
-    atomicAdd(frame[s.body_index].arrivals, 1u);
-    while (atomicAdd(frame[s.body_index].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
+    atomicAdd(meeting[s.body_index], 1u);
+    while (atomicAdd(meeting[s.body_index], 0u) < groups * often && polls < most_polls) ++polls;
     if (polls == most_polls) {
-      frame[s.body_index].halted = halted_waiting;
-      atomicOr(frame[s.body_index].arrivals, 1u << 31);
+      status[s.body_index].activity = halted_waiting;
+      atomicOr(meeting[s.body_index], 1u << 31);
     }
     memoryBarrierBuffer();
   }

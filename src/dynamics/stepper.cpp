@@ -9,6 +9,7 @@
 
 #include "core/expect.hpp"
 #include "physics/damping.glsl"
+#include "physics/layout.glsl"
 
 namespace pliant {
 namespace {
@@ -17,8 +18,8 @@ static_assert(static_cast<std::uint32_t>(DampingLaw::none) == physics::damping_n
 static_assert(static_cast<std::uint32_t>(DampingLaw::constant) == physics::damping_constant);
 static_assert(static_cast<std::uint32_t>(DampingLaw::adaptive) == physics::damping_adaptive);
 
-// Of a stage in the velocity at the step's end; and the inverse, by which it takes off what others have rounded, or zero where it
-// can't.
+// Returns the stage's weight in the final velocity, and its reciprocal (0 if the weight is 0). The kernel uses the reciprocal to
+// cancel earlier rounding.
 glm::dvec2 weight_at_end(const NystromTableau& tableau, std::size_t stage) {
   const double weight = tableau.velocity[static_cast<std::size_t>(tableau.stages * tableau.stages) + stage];
   return {weight, weight == 0 ? 0 : 1 / weight};
@@ -37,7 +38,7 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau, bool cancels_r
     rows.push_back(weights(next - 1));
     rows.push_back(next < stages && cancels_rounding ? weight_at_end(tableau, next) : glm::dvec2(0));
     for (std::size_t j = 0; j + 1 < next; ++j) rows.push_back(weights(j));
-    rows.resize(next * (3 + (stages + 3) / 4 * 4));
+    rows.resize(next * physics::tableau_row_size(static_cast<std::uint32_t>(stages)));
   }
   return rows;
 }

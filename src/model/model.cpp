@@ -44,20 +44,16 @@ glm::dquat rotation_of(const glm::dvec3& degrees) {
   return glm::normalize(about_z * about_y * about_x);
 }
 
-physics::Frame make_frame(const glm::dvec3& origin, const glm::dquat& q, const glm::dvec3& gravity) {
-  physics::Frame frame{};
+physics::Pose make_pose(const glm::dvec3& origin, const glm::dquat& q, const glm::dvec3& gravity) {
+  physics::Pose pose{};
   const glm::dmat3 rotation = glm::mat3_cast(q);  // columns first
   const glm::dvec3 local_gravity = glm::transpose(rotation) * gravity;
-  STORE3(frame.origin, 0, origin);
-  STORE3(frame.gravity, 0, local_gravity);
-  for (int i = 0; i < 4; ++i) frame.quaternion[i] = glm::dvec4(q.x, q.y, q.z, q.w)[i];
+  STORE3(pose.origin, 0, origin);
+  STORE3(pose.gravity, 0, local_gravity);
+  for (int i = 0; i < 4; ++i) pose.quaternion[i] = glm::dvec4(q.x, q.y, q.z, q.w)[i];
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) frame.rotation[3 * row + column] = rotation[column][row];
-  for (int i = 0; i < 3; ++i) frame.turn[4 * i] = 1.0;
-  frame.force_stale = 1;
-  frame.non_finite_vertex = physics::no_vertex;
-  std::fill_n(frame.box, 3, ~0u);  // empty
-  return frame;
+    for (int column = 0; column < 3; ++column) pose.rotation[3 * row + column] = rotation[column][row];
+  return pose;
 }
 
 ModelBody describe_body(const BodySetup& setup, const Model& model) {
@@ -94,16 +90,16 @@ void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positio
 /// Appends the motion of the body that was added last: stretched, moving and spinning about its world centroid.
 void append_motion(const BodyDescription& description, const Model& model, State& state) {
   const ModelBody& body = model.bodies.back();
-  physics::Frame& frame = state.frames.back();
+  physics::Pose& pose = state.poses.back();
   std::vector<glm::dvec3> displacements, world;
   for (std::size_t i = 0; i < body.vertex_count; ++i) {
     const glm::dvec3 rest = rest_position(model, body.first_vertex + i);
     displacements.push_back((description.stretch - 1.0) * rest);
-    world.push_back(physics::to_world(frame, rest + displacements.back()));
+    world.push_back(physics::to_world(pose, rest + displacements.back()));
   }
-  STORE3(frame.reference, 0, displacements.front());
+  STORE3(pose.reference, 0, displacements.front());
   const glm::dvec3 centroid = mean(world);
-  const glm::dquat q(frame.quaternion[3], frame.quaternion[0], frame.quaternion[1], frame.quaternion[2]);
+  const glm::dquat q(pose.quaternion[3], pose.quaternion[0], pose.quaternion[1], pose.quaternion[2]);
   const glm::dmat3 to_frame = glm::transpose(glm::mat3_cast(q));
   for (std::size_t i = 0; i < body.vertex_count; ++i) {
     const glm::dvec3 velocity = description.velocity + glm::cross(description.spin, world[i] - centroid);
@@ -144,7 +140,7 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
   if (const double radius = built.model.bodies.back().radius; radius > 0 && radius < smallest_radius)
     fail(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
          "use a larger scale, with other units if need be");
-  built.state.frames.push_back(make_frame(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
+  built.state.poses.push_back(make_pose(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
   append_motion(description, built.model, built.state);
 }
 
@@ -155,8 +151,8 @@ double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::ro
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Frame& frame = frames[model.body_index(vertex)];
-    positions.push_back(physics::to_world(frame, rest_position(model, vertex) + load(motion, 6 * vertex)));
+    const physics::Pose& pose = poses[model.body_index(vertex)];
+    positions.push_back(physics::to_world(pose, rest_position(model, vertex) + load(motion, 6 * vertex)));
   }
   return positions;
 }
@@ -164,8 +160,8 @@ std::vector<glm::dvec3> State::world_positions(const Model& model) const {
 std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   std::vector<glm::dvec3> velocities;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Frame& frame = frames[model.body_index(vertex)];
-    velocities.push_back(physics::rotate(frame, load(motion, 6 * vertex + 3)));
+    const physics::Pose& pose = poses[model.body_index(vertex)];
+    velocities.push_back(physics::rotate(pose, load(motion, 6 * vertex + 3)));
   }
   return velocities;
 }

@@ -42,8 +42,8 @@ struct Model {
 
 /// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.
 struct State {
-  std::vector<physics::Frame> frames;  // one a body
-  std::vector<double> motion;          // 6 a vertex: u [m], w [m/s]
+  std::vector<physics::Pose> poses;  // one a body
+  std::vector<double> motion;        // 6 a vertex: u [m], w [m/s]
 
   /// World position [m] and velocity [m/s] of every vertex, in fp64.
   [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;

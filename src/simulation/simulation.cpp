@@ -32,18 +32,18 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
 }
 
-void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Frame>& frames) {
-  for (std::size_t b = 0; b < frames.size(); ++b) {
+void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Tally>& tallies) {
+  for (std::size_t b = 0; b < tallies.size(); ++b) {
     const std::uint64_t vertices = model.bodies[b].vertex_count;
-    report.force_evaluations += frames[b].force_evaluations;
-    report.forces_skipped += frames[b].forces_skipped;
-    report.frame_changes += frames[b].frame_changes;
-    report.pair_interactions += frames[b].force_evaluations * vertices * (vertices - 1);
+    report.force_evaluations += tallies[b].force_evaluations;
+    report.forces_skipped += tallies[b].forces_skipped;
+    report.frame_changes += tallies[b].frame_changes;
+    report.pair_interactions += tallies[b].force_evaluations * vertices * (vertices - 1);
   }
 }
 
-void expect_groups_met(const std::vector<physics::Frame>& frames) {
-  if (std::ranges::none_of(frames, [](const physics::Frame& frame) { return frame.halted == physics::halted_waiting; })) return;
+void expect_groups_met(const std::vector<physics::Status>& statuses) {
+  if (std::ranges::find(statuses, physics::halted_waiting, &physics::Status::activity) == statuses.end()) return;
   throw Error(ErrorKind::device, "",
               "the GPU did not run all work groups of a body at once, though it has a multiprocessor for each",
               "close other programs that use the GPU, or use --device cpu");
@@ -179,9 +179,8 @@ StepReport Simulation::report() {
   const std::uint64_t searches = report.steps + (report.adaptive ? report.adaptive->rejected : 0);
   if (responds_ && collider_.uses_trees())
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
-  const std::vector<physics::Frame> frames = bodies_.frames.download();
-  expect_groups_met(frames);
-  add_force_counts(report, model_, frames);
+  expect_groups_met(bodies_.statuses.download());
+  add_force_counts(report, model_, bodies_.tallies.download());
   return report;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/layout.glsl"
+
 namespace pliant {
 namespace {
 
@@ -57,17 +59,14 @@ std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& 
   return rounded;
 }
 
-// As they are between steps: what halted a body for one step says nothing of the next.
-std::vector<physics::Frame> moving_on(std::vector<physics::Frame> frames) {
-  for (physics::Frame& frame : frames)
-    if (frame.halted == physics::halted_for_now) frame.halted = physics::not_halted;
-  return frames;
+physics::BoxBits empty_box() {
+  physics::BoxBits box{};
+  std::fill_n(box.lower, 3, ~0u);
+  return box;
 }
 
-// Each run counts from its own start, also where the state is another's.
-std::vector<physics::Frame> counted_anew(std::vector<physics::Frame> frames) {
-  for (physics::Frame& frame : frames) frame.force_evaluations = frame.forces_skipped = frame.frame_changes = 0;
-  return frames;
+physics::Status first_status() {
+  return {.activity = physics::moving, .non_finite_vertex = physics::no_vertex, .deformed = 0, .force_stale = 1};
 }
 
 physics::Control first_control() {
@@ -88,13 +87,18 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       force_variant(variant),
       arrays(device),
       shares(arrays.make("share", shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()))),
-      frames(arrays.make("frame", counted_anew(state.frames))),
+      poses(arrays.make("pose", state.poses)),
+      statuses(arrays.make("status", std::vector(body_count, first_status()))),
+      tallies(arrays.make<physics::Tally>("tally", body_count)),
       motions(arrays.make<double>("motion", std::size_t{2} * 6 * vertex_count)),
       world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
       control(arrays.make("control", std::vector{first_control()})) {
   all_stages_at_once = runs_all_stages(device, model, variant);
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
+  arrays.make<physics::FrameChange>("frame_change", body_count);
+  arrays.make("body_box", std::vector(body_count, empty_box()));
+  arrays.make<std::uint32_t>("meeting", body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
   make_placements();
@@ -105,24 +109,23 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 // Carried is the step's start alone: the slots of stages are written before they are read.
 void DeviceBodies::make_placements() {
   const std::size_t slot_size = std::size_t{8} * vertex_count;
-  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", (physics::slot_count + 1) * slot_size);
-  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / (physics::slot_count + 1);
+  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", (physics::rounding_slot + 1) * slot_size);
+  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / (physics::rounding_slot + 1);
   arrays.carry_part("placement", physics::start_slot * slot_bytes, slot_bytes);
 }
 
 void DeviceBodies::prepare_search() {
-  std::vector<physics::Frame> cleared = moving_on(frames.download());
-  for (physics::Frame& frame : cleared) {
-    std::fill_n(frame.box, 3, ~0u);
-    std::fill_n(frame.box + 3, 3, 0u);
-  }
-  frames.upload(cleared);
+  arrays.get<physics::BoxBits>("body_box").upload(std::vector(body_count, empty_box()));
+  std::vector<physics::Status> moving_on = statuses.download();
+  for (physics::Status& status : moving_on)
+    if (status.activity == physics::halted_for_now) status.activity = physics::moving;
+  statuses.upload(moving_on);
 }
 
 void DeviceBodies::set_time_step(double time_step) {
-  std::vector<physics::Frame> changed = frames.download();
-  for (physics::Frame& frame : changed) frame.time_step = time_step;
-  frames.upload(changed);
+  physics::Control changed = control.download().front();
+  changed.time_step = time_step;
+  control.upload(std::span(&changed, 1));
 }
 
 void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
@@ -132,7 +135,7 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
 }
 
 State DeviceBodies::download(std::uint32_t half) const {
-  return {.frames = moving_on(frames.download()),
+  return {.poses = poses.download(),
           .motion = motions.download(std::size_t{6} * half * vertex_count, std::size_t{6} * vertex_count)};
 }
 

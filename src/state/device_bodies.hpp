@@ -25,12 +25,14 @@ struct DeviceBodies {
   bool all_stages_at_once = false;  // whether force kernels run all stages of a step in one dispatch
   Arrays arrays;                    // these, and those that others make for the same simulation
   DeviceArray<physics::Share>& shares;
-  DeviceArray<physics::Frame>& frames;
+  DeviceArray<physics::Pose>& poses;
+  DeviceArray<physics::Status>& statuses;
+  DeviceArray<physics::Tally>& tallies;
   DeviceArray<double>& motions;
   DeviceArray<glm::vec4>& world_positions;
   DeviceArray<physics::Control>& control;
 
-  /// The state in a half, from which another run may start: no body is halted for now.
+  /// The state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
   /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as follow_bodies leaves them,
   /// and none halted for now.

@@ -76,12 +76,40 @@ double largest_difference(const std::vector<T>& a, const std::vector<T>& b) {
   return largest / scale;
 }
 
-std::vector<double> numbers_of(const physics::Frame& frame) {
-  std::vector<double> numbers(offsetof(physics::Frame, box) / sizeof(double));
-  std::memcpy(numbers.data(), &frame, numbers.size() * sizeof(double));
-  for (const std::uint32_t flag : {frame.non_finite_vertex, frame.turned, frame.deformed, frame.force_stale,
-                                   frame.force_evaluations, frame.forces_skipped, frame.frame_changes, frame.halted})
-    numbers.push_back(flag);
+std::vector<double> numbers_of(const physics::Pose& pose) {
+  std::vector<double> numbers(sizeof(physics::Pose) / sizeof(double));
+  std::memcpy(numbers.data(), &pose, sizeof(physics::Pose));
+  return numbers;
+}
+
+std::vector<double> numbers_of(const physics::FrameChange& change) {
+  std::vector<double> numbers(offsetof(physics::FrameChange, turned) / sizeof(double));
+  std::memcpy(numbers.data(), &change, numbers.size() * sizeof(double));
+  numbers.push_back(change.turned);
+  return numbers;
+}
+
+std::vector<double> numbers_of(const physics::BoxBits& box) {
+  std::vector<double> numbers;
+  const bool is_empty = box.lower[0] > box.upper[0];
+  for (const auto& corner : {box.lower, box.upper})
+    for (int k = 0; k < 3; ++k) numbers.push_back(is_empty ? double(corner[k]) : physics::from_ordered_bits(corner[k]));
+  return numbers;
+}
+
+std::vector<double> numbers_of(const physics::Status& status) {
+  return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale)};
+}
+
+std::vector<double> numbers_of(const physics::Tally& tally) {
+  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes)};
+}
+
+std::vector<double> numbers_of(const physics::Control& control) {
+  std::vector<double> numbers{control.time_step};
+  std::uint32_t words[(sizeof(physics::Control) - offsetof(physics::Control, step)) / 4];
+  std::memcpy(words, &control.step, sizeof(words));
+  numbers.insert(numbers.end(), std::begin(words), std::end(words));
   return numbers;
 }
 
@@ -137,17 +165,28 @@ std::vector<Written> written_arrays(const Bench& cpu, const Bench& gpu, const Pa
   return written;
 }
 
+template <class T>
+void check_structs(Bench& cpu, Bench& gpu, BufferId a, BufferId b, std::size_t count, double tolerance) {
+  const auto x = cpu.read<T>(a), y = gpu.read<T>(b);
+  for (std::size_t k = 0; k < count; ++k) CHECK(largest_difference(numbers_of(y[k]), numbers_of(x[k])) < tolerance);
+}
+
 // What a pass has written, compared as its type asks. Lists filled in any order are compared as sets.
 void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
   for (const auto& [element, a, b] : written_arrays(cpu, gpu, cpu_pass, gpu_pass)) {
     CAPTURE(cpu_pass.name, element);
     if (element == "Control") {
-      const auto x = cpu.read<std::uint32_t>(a), y = gpu.read<std::uint32_t>(b);
-      CHECK(std::equal(x.begin(), x.begin() + sizeof(physics::Control) / 4, y.begin()));
-    } else if (element == "Frame") {
-      const auto x = cpu.read<physics::Frame>(a), y = gpu.read<physics::Frame>(b);
-      for (std::size_t f = 0; f < cpu.bodies.body_count; ++f)
-        CHECK(largest_difference(numbers_of(y[f]), numbers_of(x[f])) < 1e-13);
+      check_structs<physics::Control>(cpu, gpu, a, b, 1, 1e-13);
+    } else if (element == "Pose") {
+      check_structs<physics::Pose>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
+    } else if (element == "FrameChange") {
+      check_structs<physics::FrameChange>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
+    } else if (element == "BoxBits") {
+      check_structs<physics::BoxBits>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
+    } else if (element == "Status") {
+      check_structs<physics::Status>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
+    } else if (element == "Tally") {
+      check_structs<physics::Tally>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Pace") {
       const auto x = numbers_of(cpu.read<physics::Pace>(a).front()), y = numbers_of(gpu.read<physics::Pace>(b).front());
       constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // by powers of floats
@@ -208,7 +247,7 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
   const physics::Control control = cpu.bodies.control.download().front();
   CHECK((control.contact_steps > 0 && control.total_low[physics::reverted_vertices] > 0));
   std::uint32_t frame_changes = 0;
-  for (const physics::Frame& frame : cpu.bodies.frames.download()) frame_changes += frame.frame_changes;
+  for (const physics::Tally& tally : cpu.bodies.tallies.download()) frame_changes += tally.frame_changes;
   CHECK(frame_changes > 0);
 }
 

@@ -253,10 +253,10 @@ std::vector<double> motion_after(unsigned threads, int precision, std::string_vi
   const Stepper stepper(bodies, find_integrator(integrator), DampingLaw::none, 0.01);
   device->run(stepper.first_passes());
   for (std::uint32_t step = 0; step < 6; ++step) device->run(stepper.passes(step % 2));
-  const std::vector<physics::Frame> frames = bodies.frames.download();
-  CHECK(frames[0].force_evaluations > 0);
-  CHECK(frames[1].force_evaluations == 0);
-  CHECK(frames[2].force_evaluations > 0);
+  const std::vector<physics::Tally> tallies = bodies.tallies.download();
+  CHECK(tallies[0].force_evaluations > 0);
+  CHECK(tallies[1].force_evaluations == 0);
+  CHECK(tallies[2].force_evaluations > 0);
   return bodies.motions.download();
 }
 

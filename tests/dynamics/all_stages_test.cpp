@@ -26,6 +26,13 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
+// Of the first body.
+Outcome outcome_of(const DeviceBodies& bodies, std::uint32_t half) {
+  const physics::Tally tally = bodies.tallies.download().front();
+  return {bodies.download(half).motion, tally.force_evaluations, tally.forces_skipped,
+          bodies.arrays.get<std::uint32_t>("meeting").download().front()};
+}
+
 Outcome after_five_steps(Device& device, const ModelAndState& start, const Method& method, std::size_t variant, bool all_stages) {
   DeviceBodies bodies(device, start.model, start.state, variant);
   bodies.all_stages_at_once = all_stages;
@@ -37,9 +44,7 @@ Outcome after_five_steps(Device& device, const ModelAndState& start, const Metho
     device.run(stepper.passes(step % 2));
     device.run(stepper.following_passes(step % 2));
   }
-  const State state = bodies.download(1);
-  const physics::Frame& frame = state.frames.front();
-  return {state.motion, frame.force_evaluations, frame.forces_skipped, frame.arrivals};
+  return outcome_of(bodies, 1);
 }
 
 struct AdaptiveOutcome {
@@ -61,15 +66,8 @@ AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start,
   device.run(stepper.first_passes());
   pacer.aim_at(6 / omega);
   for (std::uint32_t step = 0; step < 24; ++step) device.run(step_passes(bodies, stepper, nullptr, step % 2, &pacer));
-  const State state = bodies.download(0);
-  const physics::Frame& frame = state.frames.front();
   const physics::Pace pace = pacer.pace();
-  return {{state.motion, frame.force_evaluations, frame.forces_skipped, frame.arrivals},
-          pace.accepted,
-          pace.rejected,
-          pace.verdict,
-          pace.time,
-          pace.allowed};
+  return {outcome_of(bodies, 0), pace.accepted, pace.rejected, pace.verdict, pace.time, pace.allowed};
 }
 
 void check_adaptive(Device& device, const ModelAndState& start, std::size_t variant) {

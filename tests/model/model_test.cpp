@@ -109,7 +109,7 @@ TEST_CASE("spin turns the body about its centroid and adds no momentum") {
 TEST_CASE("a frame's rotation is orthonormal, matches its quaternion and turns the world's gravity") {
   const glm::dvec3 gravity(1, -9.81, 2);
   const State state = build(lopsided(), gravity).state;
-  const physics::Frame& frame = state.frames[0];
+  const physics::Pose& frame = state.poses[0];
   const glm::dvec3 x(frame.rotation[0], frame.rotation[1], frame.rotation[2]),
       y(frame.rotation[3], frame.rotation[4], frame.rotation[5]), z(frame.rotation[6], frame.rotation[7], frame.rotation[8]);
   check_near(glm::cross(x, y), z, 1e-14);
@@ -124,7 +124,7 @@ TEST_CASE("a frame's rotation is orthonormal, matches its quaternion and turns t
 TEST_CASE("an unrotated body's frame is exactly the world's") {
   BodySetup setup = lopsided();
   setup.description.rotation = {0, 0, 0};
-  const physics::Frame frame = build(setup).state.frames[0];
+  const physics::Pose frame = build(setup).state.poses[0];
   for (int i = 0; i < 9; ++i) {
     CHECK(frame.rotation[i] == (i % 4 == 0 ? 1.0 : 0.0));
     CHECK(frame.turn[i] == (i % 4 == 0 ? 1.0 : 0.0));

@@ -26,11 +26,11 @@ std::vector<SceneDescription> shipped_scenes() {
 std::vector<glm::vec4> crowded_positions(const ModelAndState& start) {
   const std::vector<glm::dvec3> world = start.state.world_positions(start.model);
   glm::dvec3 middle(0.0);
-  for (const physics::Frame& frame : start.state.frames)
-    middle += glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]) / static_cast<double>(start.state.frames.size());
+  for (const physics::Pose& frame : start.state.poses)
+    middle += glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]) / static_cast<double>(start.state.poses.size());
   std::vector<glm::vec4> positions;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const physics::Frame& frame = start.state.frames[static_cast<std::size_t>(start.model.rest_positions[i].w)];
+    const physics::Pose& frame = start.state.poses[static_cast<std::size_t>(start.model.rest_positions[i].w)];
     const glm::dvec3 shift = 0.4 * (middle - glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]));
     const glm::dvec3 bend(0.03 * std::sin(7 * world[i].y), 0, 0.05 * std::cos(5 * world[i].x));
     positions.emplace_back(glm::vec3(world[i] + shift + bend), 1.0f);

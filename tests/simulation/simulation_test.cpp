@@ -34,8 +34,8 @@ CollisionDescription searched_by(ContactSearch search) {
   return description;
 }
 
-bool same_bits(const std::vector<physics::Frame>& a, const std::vector<physics::Frame>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(physics::Frame)) == 0;
+bool same_bits(const std::vector<physics::Pose>& a, const std::vector<physics::Pose>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(physics::Pose)) == 0;
 }
 
 // Of every vertex, whether brute force finds a triangle of it that touches another body.
@@ -55,7 +55,7 @@ void check_thread_counts(int precision, const Method& method, const CollisionDes
     CAPTURE(threads);
     const Outcome many = collide(*make_cpu_device(threads, precision), start, method, 30, collision);
     CHECK(many.state.motion == one.state.motion);
-    CHECK(same_bits(many.state.frames, one.state.frames));
+    CHECK(same_bits(many.state.poses, one.state.poses));
     CHECK(many.positions == one.positions);
     CHECK(many.report == one.report);
   }
@@ -77,7 +77,7 @@ TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
   const Outcome second = collide(*make_gpu_device(0), start, usual, 30);
   CHECK(first.report.contact_steps > 5);
   CHECK(first.state.motion == second.state.motion);
-  CHECK(same_bits(first.state.frames, second.state.frames));
+  CHECK(same_bits(first.state.poses, second.state.poses));
   CHECK(first.positions == second.positions);
   CHECK(first.report.node_tests == second.report.node_tests);
 }

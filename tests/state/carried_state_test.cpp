@@ -13,8 +13,8 @@ namespace {
 void check_same(Simulation& a, Simulation& b) {
   const State of_a = a.state(), of_b = b.state();
   CHECK(of_a.motion == of_b.motion);
-  REQUIRE(of_a.frames.size() == of_b.frames.size());
-  CHECK(std::memcmp(of_a.frames.data(), of_b.frames.data(), of_a.frames.size() * sizeof(physics::Frame)) == 0);
+  REQUIRE(of_a.poses.size() == of_b.poses.size());
+  CHECK(std::memcmp(of_a.poses.data(), of_b.poses.data(), of_a.poses.size() * sizeof(physics::Pose)) == 0);
   CHECK(a.world_positions() == b.world_positions());
   CHECK(a.report() == b.report());
   CHECK(a.collider().marks() == b.collider().marks());

@@ -1,10 +1,12 @@
 // One thread in all, between steps: by how much the grip's velocity has to change so that the grip comes to the target. Drawing the
 // mean velocity of some of its vertices towards a bounded one, by no more than it lacks, takes energy from all other motion.
 #include "../physics/body.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/pull.glsl"
 WRITE(aim)
 READ(grip)
-READ(frame)
+READ(pose)
+READ(status)
 READ(world_position)
 READ(motion)
 PARAMETER(uint, first_vertex)  // of the half that holds the state
@@ -16,12 +18,12 @@ void aim_pull(uint item) {
   for (uint k = 0u; k < sample_count; ++k) {
     GripVertex held = grip[k * aim[item].grip_count / sample_count];
     place += double(held.weight) * dvec3(vec3(world_position[first_vertex + held.vertex]));
-    velocity += double(held.weight) * LOAD3(motion, 6u * (first_vertex + held.vertex) + 3u);
+    velocity += double(held.weight) * LOAD3(motion, velocity_of(first_vertex + held.vertex));
     weights += double(held.weight);
   }
   dvec3 way = LOAD3(aim[item].target, 0u) - place / weights;
-  dvec3 wanted = rotate_back(frame[b], limited(aim[item].approach * way, aim[item].largest_speed));
+  dvec3 wanted = rotate_back(pose[b], limited(aim[item].approach * way, aim[item].largest_speed));
   dvec3 change = limited(wanted - velocity / weights, aim[item].largest_change);
-  if (frame[b].halted != not_halted) change = dvec3(0);
+  if (status[b].activity != moving) change = dvec3(0);
   STORE3(aim[item].change, 0u, change)
 }

@@ -1,12 +1,16 @@
 // One thread a body, first in a step whose length is not fixed: how long it is. With the target reached the body rests.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/pace.glsl"
 READ(pace)
-WRITE(frame)
+WRITE(control)
+WRITE(pose)
+WRITE(status)
 
 void begin_step(uint b) {
-  if (frame[b].halted != not_halted && frame[b].halted != halted_for_now) return;
-  frame[b].time_step = next_step(pace[0]);
-  frame[b].halted = frame[b].time_step > double(0) ? not_halted : halted_for_now;
-  for (uint k = 0u; k < 3u; ++k) frame[b].start_reference[k] = frame[b].reference[k];
+  double step = next_step(pace[0]);
+  if (b == 0u) control[0].time_step = step;
+  if (status[b].activity != moving && status[b].activity != halted_for_now) return;
+  status[b].activity = step > double(0) ? moving : halted_for_now;
+  for (uint k = 0u; k < 3u; ++k) pose[b].start_reference[k] = pose[b].reference[k];
 }

@@ -1,7 +1,8 @@
 // One thread a vertex: each body's box as the world positions stand. (A step bounds its bodies as it ends.)
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
-WRITE(frame)
+WRITE(body_box)
+WRITE(status)
 READ(rest_position)
 READ(world_position)
 PARAMETER(uint, first_position)

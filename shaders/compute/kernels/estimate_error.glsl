@@ -1,9 +1,12 @@
 // One thread a vertex, after the last stage: how far the step's end is from those of the embedded methods. The largest such
 // distance is exact in any order: bits of floats that are not negative order as the floats do, and NaN above infinity.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/pace.glsl"
 WRITE(pace)
-WRITE(frame)
+READ(control)
+WRITE(status)
 READ(rest_position)
 READ(acceleration)
 READ(error_weight)
@@ -15,22 +18,23 @@ uint bits_of(dvec3 difference) { return floatBitsToUint(float(sqrt(dot(differenc
 
 void estimate_error(uint i) {
   uint b = uint(rest_position[i].w);
-  if (frame[b].halted != not_halted) return;
+  if (status[b].activity != moving) return;
   dvec3 position = dvec3(0), velocity = dvec3(0), second_position = dvec3(0), second_velocity = dvec3(0);
   for (uint stage = 0u; stage < stage_count; ++stage) {
-    dvec3 a = LOAD3(acceleration, 3u * (stage * vertex_count + i));
-    position += error_weight[4u * stage] * a;
-    velocity += error_weight[4u * stage + 1u] * a;
-    second_position += error_weight[4u * stage + 2u] * a;
-    second_velocity += error_weight[4u * stage + 3u] * a;
+    dvec3 a = LOAD3(acceleration, acceleration_of(stage, vertex_count, i));
+    uint weight = error_weights_of(stage);
+    position += error_weight[weight] * a;
+    velocity += error_weight[weight + 1u] * a;
+    second_position += error_weight[weight + 2u] * a;
+    second_velocity += error_weight[weight + 3u] * a;
   }
-  double h = frame[b].time_step;
-  double of_position = h * h * error_scale[2u * b], of_velocity = h * error_scale[2u * b + 1u];
+  double h = control[0].time_step;
+  double of_position = h * h * error_scale[error_scales_of(b)], of_velocity = h * error_scale[error_scales_of(b) + 1u];
   uint first = max(bits_of(of_position * position), bits_of(of_velocity * velocity));
   uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
   uint error = joined_error(first, second);
   atomicMax(pace[0].error, error);
   // The shortest step stands, but ends the run where its error is too large: by this vertex, if by none before it.
   if (h <= shortest_step(pace[0]) && judged_error(error, pace[0].tolerance) > double(1))
-    atomicMin(frame[b].non_finite_vertex, i);
+    atomicMin(status[b].non_finite_vertex, i);
 }

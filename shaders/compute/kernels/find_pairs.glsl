@@ -1,6 +1,7 @@
 // Many threads for each pair of bodies that are near: each takes a subtree of either tree and descends both together, down to
 // pairs of leaves whose boxes overlap. They are listed for test_pairs; where the list is full, tested here.
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"
@@ -22,8 +23,8 @@ PARAMETER(uint, pairs_at_once)  // threads go on to later pairs in strides of th
 
 Box box_of_node(uint n) {
   Box box;
-  box.lower = vec3(node_box[2u * n]);
-  box.upper = vec3(node_box[2u * n + 1u]);
+  box.lower = vec3(node_box[lower_of(n)]);
+  box.upper = vec3(node_box[upper_of(n)]);
   return box;
 }
 

@@ -1,8 +1,10 @@
 // One thread a vertex, first in a step of a splitting method: kick by the kept force, then drift.
 #include "../physics/body.glsl"
 #include "../physics/damping.glsl"
+#include "../physics/layout.glsl"
 READ(body)
-WRITE(frame)
+READ(pose)
+WRITE(status)
 READ(rest_position)
 WRITE(placement)
 READ(kept_force)
@@ -17,17 +19,17 @@ PARAMETER(double, drift_time)  // [s]
 
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
-  if (frame[b].halted != not_halted) return;
-  if (i == body[b].first_vertex) frame[b].force_stale = 0u;  // refresh_force has seen to it
-  dvec3 spring_force = LOAD3(kept_force, 3u * i);
-  uint before = 6u * (from_half * vertex_count + i), after = 6u * ((1u - from_half) * vertex_count + i);
-  uint first = 6u * (from_half * vertex_count + body[b].first_vertex);
+  if (status[b].activity != moving) return;
+  if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has seen to it
+  dvec3 spring_force = LOAD3(kept_force, force_of(i));
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  uint first = in_half(from_half, vertex_count, body[b].first_vertex);
   for (uint k = 0u; k < 3u; ++k) {
-    double velocity = kicked(body[b], frame[b].gravity[k], kept_force[3u * i + k], dot(spring_force, spring_force),
-                             motion[before + 3u + k], kick_time);
-    double relative = (motion[before + k] - motion[first + k]) + drift_time * (velocity - motion[first + 3u + k]);
+    double velocity = kicked(body[b], pose[b].gravity[k], kept_force[force_of(i) + k], dot(spring_force, spring_force),
+                             motion[velocity_of(before) + k], kick_time);
+    double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) + drift_time * (velocity - motion[velocity_of(first) + k]);
     place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
-    motion[after + k] = motion[before + k] + drift_time * velocity;
-    motion[after + 3u + k] = velocity;
+    motion[displacement_of(after) + k] = motion[displacement_of(before) + k] + drift_time * velocity;
+    motion[velocity_of(after) + k] = velocity;
   }
 }

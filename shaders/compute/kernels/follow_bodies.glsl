@@ -2,10 +2,16 @@
 // follows its rotation.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/rotation.glsl"
 WRITE(control)
 READ(body)
-WRITE(frame)
+WRITE(pose)
+WRITE(frame_change)
+WRITE(body_box)
+WRITE(status)
+WRITE(tally)
+WRITE(meeting)
 READ(rest_position)
 READ(motion)
 PARAMETER(uint, vertex_count)
@@ -27,7 +33,7 @@ struct Samples {
 uint sample_vertex(uint b, uint k) { return body[b].first_vertex + k * body[b].vertex_count / sample_count; }
 dvec3 sample_rest(uint b, uint k) { return dvec3(vec3(rest_position[sample_vertex(b, k)])); }
 dvec3 sample_displacement(uint b, uint k) {
-  return LOAD3(motion, 6u * ((1u - from_half) * vertex_count + sample_vertex(b, k)));
+  return LOAD3(motion, displacement_of(in_half(other_half(from_half), vertex_count, sample_vertex(b, k))));
 }
 
 // Adds a sample. `moved` is relative to a point that moves with the body. Means come later.
@@ -75,35 +81,35 @@ dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
 }
 
 void change_frame_of(uint b, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
-  Quaternion old = quaternion(frame[b].quaternion[0], frame[b].quaternion[1], frame[b].quaternion[2], frame[b].quaternion[3]);
+  Quaternion old = quaternion(pose[b].quaternion[0], pose[b].quaternion[1], pose[b].quaternion[2], pose[b].quaternion[3]);
   Quaternion next = normalized(product(old, q));
   Quaternion back = conjugate(q);
   dvec3 shift = rotate_by(back, moved_mean) - rest_mean;
-  dvec3 origin = LOAD3(frame[b].origin, 0u) + rotate_by(next, shift);
-  dvec3 gravity = rotate_by(back, LOAD3(frame[b].gravity, 0u));
-  STORE3(frame[b].origin, 0u, origin)
-  STORE3(frame[b].shift, 0u, shift)
-  STORE3(frame[b].gravity, 0u, gravity)
-  frame[b].quaternion[0] = next.x;
-  frame[b].quaternion[1] = next.y;
-  frame[b].quaternion[2] = next.z;
-  frame[b].quaternion[3] = next.w;
+  dvec3 origin = LOAD3(pose[b].origin, 0u) + rotate_by(next, shift);
+  dvec3 gravity = rotate_by(back, LOAD3(pose[b].gravity, 0u));
+  STORE3(pose[b].origin, 0u, origin)
+  STORE3(frame_change[b].shift, 0u, shift)
+  STORE3(pose[b].gravity, 0u, gravity)
+  pose[b].quaternion[0] = next.x;
+  pose[b].quaternion[1] = next.y;
+  pose[b].quaternion[2] = next.z;
+  pose[b].quaternion[3] = next.w;
   for (uint column = 0u; column < 3u; ++column) {
     dvec3 unit = dvec3(double(column == 0u), double(column == 1u), double(column == 2u));
     dvec3 r = rotate_by(next, unit);
     dvec3 t = rotate_by(back, unit);
-    frame[b].rotation[column] = r.x;
-    frame[b].rotation[3u + column] = r.y;
-    frame[b].rotation[6u + column] = r.z;
-    frame[b].turn[column] = t.x;
-    frame[b].turn[3u + column] = t.y;
-    frame[b].turn[6u + column] = t.z;
+    pose[b].rotation[column] = r.x;
+    pose[b].rotation[3u + column] = r.y;
+    pose[b].rotation[6u + column] = r.z;
+    frame_change[b].turn[column] = t.x;
+    frame_change[b].turn[3u + column] = t.y;
+    frame_change[b].turn[6u + column] = t.z;
   }
   dvec3 first = dvec3(vec3(rest_position[body[b].first_vertex]));
-  dvec3 reference = rotate_by(back, first + LOAD3(frame[b].reference, 0u)) - first - shift;
-  STORE3(frame[b].reference, 0u, reference)
-  frame[b].turned = 1u;
-  frame[b].frame_changes += 1u;
+  dvec3 reference = rotate_by(back, first + LOAD3(pose[b].reference, 0u)) - first - shift;
+  STORE3(pose[b].reference, 0u, reference)
+  frame_change[b].turned = 1u;
+  tally[b].frame_changes += 1u;
 }
 
 // The frame follows once the body has turned by more than 0.01 rad in it. Displacements then stay small against the body,
@@ -124,20 +130,20 @@ void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
 // The search has been through the boxes, and all groups have met.
 void prepare_next_step(uint b) {
   for (uint k = 0u; k < 3u; ++k) {
-    frame[b].box[k] = 0xffffffffu;
-    frame[b].box[3u + k] = 0u;
+    body_box[b].lower[k] = 0xffffffffu;
+    body_box[b].upper[k] = 0u;
   }
-  frame[b].turned = 0u;
-  frame[b].arrivals = 0u;
+  frame_change[b].turned = 0u;
+  meeting[b] = 0u;
 }
 
 void follow_bodies(uint b) {
-  dvec3 origin = LOAD3(frame[b].reference, 0u);
+  dvec3 origin = LOAD3(pose[b].reference, 0u);
   Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
   prepare_next_step(b);
-  if (frame[b].halted != not_halted) return;
-  if (frame[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, frame[b].non_finite_vertex);
+  if (status[b].activity != moving) return;
+  if (status[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, status[b].non_finite_vertex);
   for (uint other = 0u; other < body_count; ++other)
-    if (frame[other].non_finite_vertex != no_vertex) frame[b].halted = halted_for_good;
-  if (frame[b].halted == not_halted) follow_rotation(b, samples, origin);
+    if (status[other].non_finite_vertex != no_vertex) status[b].activity = halted_for_good;
+  if (status[b].activity == moving) follow_rotation(b, samples, origin);
 }

@@ -1,10 +1,11 @@
 // One thread a vertex, where a tolerance governs steps: extends the box of the ways that touching vertices went in this step.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/pace.glsl"
 WRITE(pace)
 READ(control)
-READ(frame)
+READ(pose)
 READ(rest_position)
 READ(mark)
 READ(motion)
@@ -15,8 +16,9 @@ uint ordered(double coordinate) { return ordered_bits(float(coordinate)); }
 
 void measure_contact(uint i) {
   if (mark[i] != control[0].step) return;
-  uint before = 6u * (from_half * vertex_count + i), after = 6u * ((1u - from_half) * vertex_count + i);
-  dvec3 way = rotate(frame[uint(rest_position[i].w)], LOAD3(motion, after) - LOAD3(motion, before));
+  uint before = displacement_of(in_half(from_half, vertex_count, i));
+  uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
+  dvec3 way = rotate(pose[uint(rest_position[i].w)], LOAD3(motion, after) - LOAD3(motion, before));
   atomicMin(pace[0].least_x, ordered(way.x));
   atomicMin(pace[0].least_y, ordered(way.y));
   atomicMin(pace[0].least_z, ordered(way.z));

@@ -4,15 +4,16 @@
 #include "../physics/collision/box.glsl"
 WRITE(control)
 READ(tree)
-READ(frame)
+READ(body_box)
+READ(status)
 WRITE(near_pair)
 WRITE(partner_step)
 PARAMETER(uint, body_count)
 
 Box box_of(uint b) {
   Box box;
-  box.lower = vec3(from_ordered_bits(frame[b].box[0]), from_ordered_bits(frame[b].box[1]), from_ordered_bits(frame[b].box[2]));
-  box.upper = vec3(from_ordered_bits(frame[b].box[3]), from_ordered_bits(frame[b].box[4]), from_ordered_bits(frame[b].box[5]));
+  box.lower = vec3(from_ordered_bits(body_box[b].lower[0]), from_ordered_bits(body_box[b].lower[1]), from_ordered_bits(body_box[b].lower[2]));
+  box.upper = vec3(from_ordered_bits(body_box[b].upper[0]), from_ordered_bits(body_box[b].upper[1]), from_ordered_bits(body_box[b].upper[2]));
   return box;
 }
 
@@ -20,7 +21,7 @@ void pair_bodies(uint item) {
   uint a = item / body_count;
   uint b = item % body_count;
   if (a >= b || tree[a].y == 0u || tree[b].y == 0u) return;
-  if (frame[a].halted != not_halted || frame[a].non_finite_vertex != no_vertex || frame[b].non_finite_vertex != no_vertex) return;
+  if (status[a].activity != moving || status[a].non_finite_vertex != no_vertex || status[b].non_finite_vertex != no_vertex) return;
   if (!overlaps(box_of(a), box_of(b))) {
     atomicAdd(control[0].count[body_pairs_skipped], 1u);
     return;

@@ -1,8 +1,10 @@
 // One thread a vertex, before the first step: its placement, the very one that the end of a step would have left, and whether the
 // body is deformed at all. There are no kept forces yet.
 #include "../physics/body.glsl"
+#include "../physics/layout.glsl"
 READ(body)
-WRITE(frame)
+READ(pose)
+WRITE(status)
 READ(rest_position)
 WRITE(placement)
 READ(motion)
@@ -11,11 +13,12 @@ PARAMETER(uint, vertex_count)
 
 void place_vertices(uint i) {
   uint b = uint(rest_position[i].w);
-  uint first = 6u * body[b].first_vertex;
-  dvec3 relative = LOAD3(motion, 6u * i) - LOAD3(frame[b].reference, 0u);
+  uint first = body[b].first_vertex;
+  dvec3 relative = LOAD3(motion, displacement_of(i)) - LOAD3(pose[b].reference, 0u);
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative[int(k)]);
-  if (LOAD3(motion, 6u * i) != LOAD3(motion, first) || LOAD3(motion, 6u * i + 3u) != LOAD3(motion, first + 3u))
-    ATOMIC_STORE(frame[b].deformed, 1u);
-  if (i == body[b].first_vertex) frame[b].force_stale = 1u;
+  if (LOAD3(motion, displacement_of(i)) != LOAD3(motion, displacement_of(first)) ||
+      LOAD3(motion, velocity_of(i)) != LOAD3(motion, velocity_of(first)))
+    ATOMIC_STORE(status[b].deformed, 1u);
+  if (i == body[b].first_vertex) status[b].force_stale = 1u;
 }

@@ -1,6 +1,7 @@
 // One thread a leaf: its box from its triangles, then up its subtree. Of two siblings the one that arrives second goes on to the
 // parent, so no thread ever waits and one dispatch refits every tree.
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 WRITE(control)
 READ(leaf)
@@ -26,15 +27,15 @@ Box box_of_triangles(uint begin, uint end) {
 }
 
 void store_box(uint n, Box box) {
-  node_box[2u * n] = vec4(box.lower, 0);
-  node_box[2u * n + 1u] = vec4(box.upper, 0);
+  node_box[lower_of(n)] = vec4(box.lower, 0);
+  node_box[upper_of(n)] = vec4(box.upper, 0);
 }
 
 Box box_of_children(uint left) {
   Box box;
-  box.lower = vec3(node_box[2u * left]);
-  box.upper = vec3(node_box[2u * left + 1u]);
-  return grow(grow(box, vec3(node_box[2u * left + 2u])), vec3(node_box[2u * left + 3u]));
+  box.lower = vec3(node_box[lower_of(left)]);
+  box.upper = vec3(node_box[upper_of(left)]);
+  return grow(grow(box, vec3(node_box[lower_of(left + 1u)])), vec3(node_box[upper_of(left + 1u)]));
 }
 
 void refit(uint item) {

@@ -1,14 +1,16 @@
 // A force kernel: sums the spring forces again where a contact has moved vertices since they were kept.
 #include "../physics/body.glsl"
 #include "../physics/forces/spring.glsl"
+#include "../physics/layout.glsl"
 READ(share)
-WRITE(frame)
+READ(status)
+WRITE(tally)
 READ_AS(placement, real4, placed)
 WRITE(kept_force)
 PARAMETER(uint, vertex_count)
 #include "parts/force_kernel.glsl"
 
-bool runs(IN(Share) s) { return !halted(s) && frame[s.body_index].force_stale != 0u; }
+bool runs(IN(Share) s) { return !halted(s) && status[s.body_index].force_stale != 0u; }
 uint placement_slot() { return start_slot; }
 
 struct Pending {
@@ -22,7 +24,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[3u * i + k] = spring_force;
+  kept_force[force_of(i) + k] = spring_force;
   return double(0);
 }
 

@@ -2,9 +2,11 @@
 // scaled (the paper's response).
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 WRITE(control)
 READ(body)
-WRITE(frame)
+READ(pose)
+WRITE(status)
 READ(rest_position)
 READ(mark)
 WRITE(placement)
@@ -18,17 +20,16 @@ PARAMETER(double, elasticity)
 void respond(uint i) {
   if (mark[i] != control[0].step) return;
   uint b = uint(rest_position[i].w);
-  if (frame[b].halted != not_halted) return;
-  uint before = from_half * vertex_count + i;
-  uint after = (1u - from_half) * vertex_count + i;
-  dvec3 displacement = LOAD3(motion, 6u * before);
-  dvec3 velocity = -elasticity * LOAD3(motion, 6u * after + 3u);
-  STORE3(motion, 6u * after, displacement)
-  STORE3(motion, 6u * after + 3u, velocity)
+  if (status[b].activity != moving) return;
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  dvec3 displacement = LOAD3(motion, displacement_of(before));
+  dvec3 velocity = -elasticity * LOAD3(motion, velocity_of(after));
+  STORE3(motion, displacement_of(after), displacement)
+  STORE3(motion, velocity_of(after), velocity)
   world_position[after] = world_position[before];
   for (uint k = 0u; k < 3u; ++k)
-    place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - frame[b].reference[k]);
-  ATOMIC_STORE(frame[b].force_stale, 1u);
-  ATOMIC_STORE(frame[b].deformed, 1u);
+    place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
+  ATOMIC_STORE(status[b].force_stale, 1u);
+  ATOMIC_STORE(status[b].deformed, 1u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }

@@ -2,11 +2,17 @@
 // Second-order form: with abar = A A and bbar = b A, x_s = x + c_s h v + h^2 sum abar_sj a_j, so only accelerations are kept.
 // A Nystrom method's tableau has the damping in its weights, a body's own; the law is then none.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
+#include "../physics/layout.glsl"
 READ(share)
-WRITE(frame)
+READ(control)
+WRITE(pose)
+WRITE(status)
+WRITE(tally)
+WRITE(body_box)
 READ(rest_position)
 WRITE(acceleration)
 WRITE(motion)
@@ -20,7 +26,7 @@ PARAMETER(uint, damping_law)
 #include "parts/end_step.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
-uint placement_slot() { return stage_index == 0u ? start_slot : stage_index & 1u; }
+uint placement_slot() { return slot_of_stage(stage_index); }
 
 // What a body's vertices have in common on one axis.
 struct Course {
@@ -52,11 +58,9 @@ struct Pending {
   double velocity;        // likewise
 };
 
-// Where the tableau's row for the next stage begins, or for the end. A row holds that stage's c and keep; weights for
-// position (h^2) and velocity (h) of this stage; that stage's own in the velocity at the end over h, and the inverse or zero to let it
-// be; then weights of earlier stages in turn, with zeros up to a multiple of four.
-uint next_row(IN(Share) s) { return s.tableau_row + stage_index * (3u + ((stage_count + 3u) & ~3u)); }
-uint accelerations_of(uint stage, uint i) { return 3u * (stage * vertex_count + i); }
+// Where the tableau's row for the next stage begins, or for the end.
+uint next_row(IN(Share) s) { return s.tableau_row + stage_index * tableau_row_size(stage_count); }
+uint accelerations_of(uint stage, uint i) { return acceleration_of(stage, vertex_count, i); }
 
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
 double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
@@ -66,7 +70,7 @@ dvec2 weigh_four(uint first, double a, double b, double c, double d) {
 dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
   dvec2 sums = dvec2(0);
   for (uint j = 0u; j < stage_index; j += 4u)
-    sums += weigh_four(row + 3u + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
+    sums += weigh_four(row + first_earlier_weight + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
   return sums;
 }
 
@@ -74,13 +78,13 @@ dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
 bool wants_velocity() { return is_last() || damping_law != damping_none; }
 
 Course course_on_axis(uint k, IN(Share) s) {
-  uint first = 6u * (from_half * vertex_count + s.body.first_vertex) + k, row = next_row(s);
+  uint first = in_half(from_half, vertex_count, s.body.first_vertex), row = next_row(s);
   Course c;
-  c.gravity = frame[s.body_index].gravity[k];
-  c.time_step = frame[s.body_index].time_step;
+  c.gravity = pose[s.body_index].gravity[k];
+  c.time_step = control[0].time_step;
   c.elapsed = tableau[row].x * c.time_step;
   c.keep = tableau[row].y;
-  c.reference = motion[first] + c.elapsed * motion[first + 3u];
+  c.reference = motion[displacement_of(first) + k] + c.elapsed * motion[velocity_of(first) + k];
   c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
   c.velocity_weight = c.time_step * tableau[row + 1u].y;
   return c;
@@ -90,8 +94,8 @@ Rounding rounding_so_far(uint i, uint k) {
   Rounding rounding;
   rounding.of_position = rounding.of_displacement = real(0);
   if (!CANCELS_ROUNDING || stage_index == 0u || is_last()) return rounding;
-  rounding.of_position = placement[4u * position_at(slot_count, vertex_count, i) + k];
-  rounding.of_displacement = placement[4u * displacement_at(slot_count, vertex_count, i) + k];
+  rounding.of_position = placement[4u * position_at(rounding_slot, vertex_count, i) + k];
+  rounding.of_displacement = placement[4u * displacement_at(rounding_slot, vertex_count, i) + k];
   return rounding;
 }
 
@@ -103,23 +107,23 @@ void place_against(real so_far, dvec2 weight, double exact, uint at, uint noted_
 }
 
 void place_next(uint i, uint k, double inverse_unit, double rest, double relative, IN(Rounding) so_far, dvec2 weight) {
-  uint slot = (stage_index + 1u) & 1u;
+  uint slot = slot_after_stage(stage_index);
   place_against(so_far.of_position, weight, inverse_unit * (rest + relative), 4u * position_at(slot, vertex_count, i) + k,
-                4u * position_at(slot_count, vertex_count, i) + k);
+                4u * position_at(rounding_slot, vertex_count, i) + k);
   place_against(so_far.of_displacement, weight, inverse_unit * relative, 4u * displacement_at(slot, vertex_count, i) + k,
-                4u * displacement_at(slot_count, vertex_count, i) + k);
+                4u * displacement_at(rounding_slot, vertex_count, i) + k);
 }
 
 Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
-  uint before = 6u * (from_half * vertex_count + i) + k;
+  uint before = in_half(from_half, vertex_count, i), u = displacement_of(before) + k, w = velocity_of(before) + k;
   Pending p;
   p.course = c;
   p.rounding = rounding_so_far(i, k);
   p.rest = double(rest_position[i][int(k)]);
-  p.stage_velocity = motion[before + 3u];
+  p.stage_velocity = motion[w];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
-  p.displacement = motion[before] + c.elapsed * motion[before + 3u] + (c.time_step * c.time_step) * sums.x;
-  p.velocity = c.keep * motion[before + 3u] + c.time_step * sums.y;
+  p.displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
+  p.velocity = c.keep * motion[w] + c.time_step * sums.y;
   return p;
 }
 
@@ -138,7 +142,7 @@ double after_force(uint i, uint k, IN(Share) s, double spring_force, double forc
   if (CANCELS_ROUNDING && !is_last())
     place_next(i, k, s.body.inverse_unit, p.rest, relative, p.rounding, tableau[next_row(s) + 2u]);
   else
-    place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, relative);
+    place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, relative);
   if (is_last())
     end_step(i, k, s, displacement, velocity, p.course.reference);
   else if (damping_law != damping_none)

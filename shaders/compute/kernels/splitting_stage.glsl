@@ -3,8 +3,12 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
+#include "../physics/layout.glsl"
 READ(share)
-WRITE(frame)
+WRITE(pose)
+WRITE(status)
+WRITE(tally)
+WRITE(body_box)
 READ(rest_position)
 WRITE(kept_force)
 WRITE(motion)
@@ -22,9 +26,9 @@ bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return stage_index & 1u; }
 
 // The tableau's two rows a stage.
-double kick_time() { return tableau[2u * stage_index].x; }    // [s]
-double drift_time() { return tableau[2u * stage_index].y; }   // that follows; zero at the end [s]
-double elapsed() { return tableau[2u * stage_index + 1u].x; }  // time of the step that the drifts so far and that one cover [s]
+double kick_time() { return tableau[splitting_row_size * stage_index].x; }    // [s]
+double drift_time() { return tableau[splitting_row_size * stage_index].y; }   // that follows; zero at the end [s]
+double elapsed() { return tableau[splitting_row_size * stage_index + 1u].x; }  // time of the step that the drifts so far and that one cover [s]
 
 struct Pending {
   double rest;
@@ -35,21 +39,21 @@ struct Pending {
 };
 
 Pending before_force(uint i, uint k, IN(Share) s) {
-  uint after = 6u * ((1u - from_half) * vertex_count + i) + k, first = 6u * (from_half * vertex_count + s.body.first_vertex) + k;
+  uint after = in_half(other_half(from_half), vertex_count, i), first = in_half(from_half, vertex_count, s.body.first_vertex);
   Pending p;
   p.rest = double(rest_position[i][int(k)]);
-  p.gravity = frame[s.body_index].gravity[k];
-  p.displacement = motion[after];
-  p.velocity = motion[after + 3u];
-  p.reference = motion[first] + elapsed() * motion[first + 3u];
+  p.gravity = pose[s.body_index].gravity[k];
+  p.displacement = motion[displacement_of(after) + k];
+  p.velocity = motion[velocity_of(after) + k];
+  p.reference = motion[displacement_of(first) + k] + elapsed() * motion[velocity_of(first) + k];
   return p;
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[3u * i + k] = spring_force;
+  kept_force[force_of(i) + k] = spring_force;
   double velocity = kicked(s.body, p.gravity, spring_force, force_squared, p.velocity, kick_time());
   double displacement = p.displacement + drift_time() * velocity;
-  place(is_last() ? start_slot : (stage_index + 1u) & 1u, i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
+  place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
   end_step(i, k, s, displacement, velocity, p.reference);
   return p.rest + displacement;
 }

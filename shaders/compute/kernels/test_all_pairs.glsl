@@ -1,6 +1,7 @@
 // The search without trees, for comparison: one thread for each triangle of the first body of a near pair and
 // every triangle of the second, boxes first, as the trees' leaves do.
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"

@@ -1,5 +1,6 @@
 // Which triangles of two leaves touch? Sixteen threads for each pair of leaves, all threads sharing the list in strides.
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/collision/certified_triangles.glsl"
 #include "../physics/collision/moller_triangles.glsl"

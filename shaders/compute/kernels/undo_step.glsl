@@ -1,10 +1,12 @@
 // One thread a vertex, after a step that does not stand or was none: the state from before is the state after, bit for bit, and
 // until the next step the body rests.
 #include "../physics/body.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/pace.glsl"
 READ(pace)
 READ(body)
-WRITE(frame)
+WRITE(pose)
+WRITE(status)
 READ(rest_position)
 WRITE(placement)
 WRITE(motion)
@@ -14,19 +16,19 @@ PARAMETER(uint, from_half)
 #include "parts/place.glsl"
 
 void rest_body(uint b) {
-  for (uint k = 0u; k < 3u; ++k) frame[b].reference[k] = frame[b].start_reference[k];
-  frame[b].non_finite_vertex = no_vertex;
-  if (frame[b].halted == not_halted) frame[b].halted = halted_for_now;
+  for (uint k = 0u; k < 3u; ++k) pose[b].reference[k] = pose[b].start_reference[k];
+  status[b].non_finite_vertex = no_vertex;
+  if (status[b].activity == moving) status[b].activity = halted_for_now;
 }
 
 void undo_step(uint i) {
   if (pace[0].verdict != step_rejected && pace[0].verdict != step_empty) return;
   uint b = uint(rest_position[i].w);
-  uint before = from_half * vertex_count + i, after = (1u - from_half) * vertex_count + i;
-  for (uint k = 0u; k < 6u; ++k) motion[6u * after + k] = motion[6u * before + k];
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  for (uint k = 0u; k < 6u; ++k) motion[displacement_of(after) + k] = motion[displacement_of(before) + k];
   world_position[after] = world_position[before];
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]),
-          motion[6u * before + k] - frame[b].start_reference[k]);
+          motion[displacement_of(before) + k] - pose[b].start_reference[k]);
   if (i == body[b].first_vertex) rest_body(b);
 }

@@ -1,4 +1,4 @@
-// What a thread knows of a body: `Body` never changes while a simulation runs, `Frame` does.
+// What a thread knows of a body: `Body` and `Share` never change while a simulation runs; the other structs are split by who reads them.
 // Scalars and arrays of scalars only, so that std430 and C++ lay the structs out alike.
 #ifndef BODY_GLSL
 #define BODY_GLSL
@@ -23,49 +23,50 @@ struct Share {
   uint tableau_row;   // where among the tableaus begins the one that the body steps by
 };
 
-// A vertex stands at world position = origin + R (X + u): X the rest position, u the displacement in the body's frame.
-// Its velocity is R w.
-struct Frame {
-  double origin[3];      // [m]
-  double quaternion[4];  // of R: x, y, z, w
-  double rotation[9];    // R, row by row
-  double gravity[3];     // the scene's gravity in this frame [m/s^2]
-  double turn[9];        // the latest change of frame, R_old = R_new turn, row by row
-  double shift[3];       // ... and what it subtracts from every turned position [m]
-  double reference[3];   // the displacement that those at the next step's start are relative to [m]
+// The body's moving frame. A vertex stands at world position = origin + R (X + u): X the rest position, u the displacement in the
+// frame. Its velocity is R w.
+struct Pose {
+  double origin[3];           // [m]
+  double quaternion[4];       // of R: x, y, z, w
+  double rotation[9];         // R, row by row
+  double gravity[3];          // the scene's gravity in this frame [m/s^2]
+  double reference[3];        // the displacement that those at the next step's start are relative to [m]
   double start_reference[3];  // ... at this step's start, where steps can be undone [m]
-  double time_step;      // of the step being made, the same for all bodies [s]
-  uint box[6];             // of the world positions at the step's end: lower and upper corner, as ordered bits
-  uint non_finite_vertex;  // the body's first one at the step's end, or no_vertex
-  uint turned;             // 1: this step ends with a change of frame
-  uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
-  uint force_stale;        // 1: the spring forces kept from the step before do not hold
-  uint force_evaluations;  // sums over all pairs of the body, so far
-  uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
-  uint frame_changes;      // so far
-  uint halted;             // whether the body moves: see below
-  uint arrivals;           // of work groups that wait for each other within this step
+};
+
+// How the frame has followed the body at the end of this step, for all that is stated in it.
+struct FrameChange {
+  double turn[9];   // R_old = R_new turn, row by row
+  double shift[3];  // what is subtracted from every turned position [m]
+  uint turned;      // 1: there is a change
   uint padding;
 };
 
-// Values of Frame.halted.
-const uint not_halted = 0u;
+// The body's box at the step's end, as bits that order as floats do.
+struct BoxBits { uint lower[3]; uint upper[3]; };
+
+struct Status {
+  uint activity;           // whether the body moves: see below
+  uint non_finite_vertex;  // the body's first one at the step's end, or no_vertex
+  uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
+  uint force_stale;        // 1: the spring forces kept from the step before do not hold
+};
+
+// What was done for the body so far.
+struct Tally {
+  uint force_evaluations;  // sums over all pairs of the body
+  uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
+  uint frame_changes;
+};
+
+// Values of Status.activity.
+const uint moving = 0u;
 const uint halted_for_good = 1u;  // a step went non-finite; nothing moves any more
 const uint halted_for_now = 2u;   // until the next step: this one is none, or was undone
 const uint halted_waiting = 3u;   // for good: its work groups do not run at once, though they should
 const uint most_polls = 1u << 22;  // before that is said; some seconds
 
-const uint tableau_size = 1024u;  // rows: room for 29 stages, see runge_kutta_stage.glsl
-
 const uint no_vertex = 0xffffffffu;
-
-// Placements, where forces are taken, have three slots of all vertices: stages use the first two in turn.
-const uint start_slot = 2u;  // the step's start, from the end of the step before
-const uint slot_count = 3u;
-
-// Where a vertex's position stands among the placements, and its displacement.
-FN uint position_at(uint slot, uint vertex_count, uint i) { return 2u * slot * vertex_count + i; }
-FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (2u * slot + 1u) * vertex_count + i; }
 
 // A row of a matrix times p.
 FN double row_times(double x, double y, double z, IN(dvec3) p) {
@@ -73,21 +74,21 @@ FN double row_times(double x, double y, double z, IN(dvec3) p) {
   return sum;
 }
 
-FN dvec3 rotate(IN(Frame) frame, dvec3 p) {
-  return dvec3(row_times(frame.rotation[0], frame.rotation[1], frame.rotation[2], p),
-               row_times(frame.rotation[3], frame.rotation[4], frame.rotation[5], p),
-               row_times(frame.rotation[6], frame.rotation[7], frame.rotation[8], p));
+FN dvec3 rotate(IN(Pose) pose, dvec3 p) {
+  return dvec3(row_times(pose.rotation[0], pose.rotation[1], pose.rotation[2], p),
+               row_times(pose.rotation[3], pose.rotation[4], pose.rotation[5], p),
+               row_times(pose.rotation[6], pose.rotation[7], pose.rotation[8], p));
 }
 
 // R transposed times p.
-FN dvec3 rotate_back(IN(Frame) frame, dvec3 p) {
-  return dvec3(row_times(frame.rotation[0], frame.rotation[3], frame.rotation[6], p),
-               row_times(frame.rotation[1], frame.rotation[4], frame.rotation[7], p),
-               row_times(frame.rotation[2], frame.rotation[5], frame.rotation[8], p));
+FN dvec3 rotate_back(IN(Pose) pose, dvec3 p) {
+  return dvec3(row_times(pose.rotation[0], pose.rotation[3], pose.rotation[6], p),
+               row_times(pose.rotation[1], pose.rotation[4], pose.rotation[7], p),
+               row_times(pose.rotation[2], pose.rotation[5], pose.rotation[8], p));
 }
 
-FN dvec3 to_world(IN(Frame) frame, dvec3 p) {
-  EXACT dvec3 q = rotate(frame, p) + LOAD3(frame.origin, 0u);
+FN dvec3 to_world(IN(Pose) pose, dvec3 p) {
+  EXACT dvec3 q = rotate(pose, p) + LOAD3(pose.origin, 0u);
   return q;
 }
 

@@ -4,9 +4,9 @@ bool is_finite(float number) { return (floatBitsToUint(number) & 0x7fffffffu) <=
 
 void bound(uint i, uint b, uint k, float coordinate) {
   if (!is_finite(coordinate)) {
-    atomicMin(frame[b].non_finite_vertex, i);
+    atomicMin(status[b].non_finite_vertex, i);
     return;
   }
-  atomicMin(frame[b].box[k], ordered_bits(coordinate));
-  atomicMax(frame[b].box[3u + k], ordered_bits(coordinate));
+  atomicMin(body_box[b].lower[k], ordered_bits(coordinate));
+  atomicMax(body_box[b].upper[k], ordered_bits(coordinate));
 }

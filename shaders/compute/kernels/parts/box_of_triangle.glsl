@@ -1,8 +1,8 @@
 // The box of the triangle at a place in leaf order.
 Box box_of_triangle(uint t) {
-  return triangle_box(vec3(world_position[first_position + triangle[3u * t]]),
-                      vec3(world_position[first_position + triangle[3u * t + 1u]]),
-                      vec3(world_position[first_position + triangle[3u * t + 2u]]));
+  return triangle_box(vec3(world_position[first_position + triangle[corner_of(t, 0u)]]),
+                      vec3(world_position[first_position + triangle[corner_of(t, 1u)]]),
+                      vec3(world_position[first_position + triangle[corner_of(t, 2u)]]));
 }
 
 // Of four from t on, so that their loads overlap; from the last one on the same.

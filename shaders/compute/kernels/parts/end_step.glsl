@@ -1,19 +1,19 @@
 // The step's end, axis k: writes displacement and velocity in the body's frame, and what the next placement is relative to.
 #include "bound.glsl"
 void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity, double reference) {
-  uint after = 6u * ((1u - from_half) * vertex_count + i);
-  motion[after + k] = displacement;
-  motion[after + 3u + k] = velocity;
-  if (!is_finite(float(velocity))) atomicMin(frame[s.body_index].non_finite_vertex, i);
-  if (i == s.body.first_vertex) frame[s.body_index].reference[k] = reference;
+  uint after = in_half(other_half(from_half), vertex_count, i);
+  motion[displacement_of(after) + k] = displacement;
+  motion[velocity_of(after) + k] = velocity;
+  if (!is_finite(float(velocity))) atomicMin(status[s.body_index].non_finite_vertex, i);
+  if (i == s.body.first_vertex) pose[s.body_index].reference[k] = reference;
 }
 
 // ... and the world position, rounded once, of a vertex that stands at `position` in the body's frame.
 void end_in_world(uint i, uint k, uint b, dvec3 position) {
   double turned =
-      row_times(frame[b].rotation[3u * k], frame[b].rotation[3u * k + 1u], frame[b].rotation[3u * k + 2u], position);
-  EXACT double coordinate = turned + frame[b].origin[k];
-  uint after = (1u - from_half) * vertex_count + i;
+      row_times(pose[b].rotation[3u * k], pose[b].rotation[3u * k + 1u], pose[b].rotation[3u * k + 2u], position);
+  EXACT double coordinate = turned + pose[b].origin[k];
+  uint after = in_half(other_half(from_half), vertex_count, i);
   world_coordinate[4u * after + k] = float(coordinate);
   bound(i, b, k, float(coordinate));
 }

@@ -7,13 +7,13 @@ void mark_contact(uint first, uint second) {
   vec3 p[3];
   vec3 q[3];
   for (uint k = 0u; k < 3u; ++k) {
-    p[k] = vec3(world_position[first_position + triangle[3u * first + k]]);
-    q[k] = vec3(world_position[first_position + triangle[3u * second + k]]);
+    p[k] = vec3(world_position[first_position + triangle[corner_of(first, k)]]);
+    q[k] = vec3(world_position[first_position + triangle[corner_of(second, k)]]);
   }
   if (!triangles_touch(p, q)) return;
   for (uint k = 0u; k < 3u; ++k) {
-    ATOMIC_STORE(mark[triangle[3u * first + k]], control[0].step);
-    ATOMIC_STORE(mark[triangle[3u * second + k]], control[0].step);
+    ATOMIC_STORE(mark[triangle[corner_of(first, k)]], control[0].step);
+    ATOMIC_STORE(mark[triangle[corner_of(second, k)]], control[0].step);
   }
   atomicAdd(control[0].count[contact_pairs], 1u);
 }

@@ -4,6 +4,7 @@
 uint stage_index;
 SHARED_WRITE_AS(placement, real4, placed)
 SHARED_WRITE(placement)
+WRITE(meeting)
 #else
 PARAMETER(uint, stage_index)
 READ_AS(placement, real4, placed)  // the slots that are read: readable only, which GPUs cache better
