@@ -47,7 +47,8 @@ Json described_devices() {
                     {"vendor", adapter.vendor},
                     {"driver", adapter.version},
                     {"software", adapter.is_software},
-                    {"largest_buffer_bytes", adapter.largest_buffer}});
+                    {"largest_buffer_bytes", adapter.largest_buffer},
+                    {"storage_blocks", adapter.storage_blocks}});
   Json result = {{"version", version()}, {"cpu", {{"name", cpu::device_name()}, {"threads", thread_count(0)}}}, {"gpus", gpus}};
   if (gpus.empty()) result["missing"] = reason + "; " + remedy;
   return result;
@@ -61,7 +62,9 @@ void print_integrators(const Json& list) {
     fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", row["name"].get<std::string>(), row["order"].get<int>(),
                row["force_evaluations_per_step"].get<int>(), row["strained_bound"].get<double>(),
                row["damping"].get<std::string>(), yes_or_no(row["tolerance"]), row["description"].get<std::string>());
-  fmt::print("squashed: the part of the step bound that spheres squashed to a half were measured to bear; automatic steps take 0.9 of it.\n");
+  fmt::print(
+      "squashed: the part of the step bound that spheres squashed to a half were measured to bear; automatic steps take 0.9 of "
+      "it.\n");
   fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }
 
@@ -69,8 +72,9 @@ void print_devices(const Json& devices) {
   fmt::print("pliant {}\n", devices["version"].get<std::string>());
   fmt::print("cpu:   {} ({} threads)\n", devices["cpu"]["name"].get<std::string>(), devices["cpu"]["threads"].get<unsigned>());
   for (const Json& gpu : devices["gpus"])
-    fmt::print("gpu {}: {}, driver {}, buffers up to {} MB{}\n", gpu["index"].get<int>(), gpu["renderer"].get<std::string>(),
-               gpu["driver"].get<std::string>(), gpu["largest_buffer_bytes"].get<std::int64_t>() / 1000000,
+    fmt::print("gpu {}: {}, driver {}, buffers up to {} MB, {} storage blocks{}\n", gpu["index"].get<int>(),
+               gpu["renderer"].get<std::string>(), gpu["driver"].get<std::string>(),
+               gpu["largest_buffer_bytes"].get<std::int64_t>() / 1000000, gpu["storage_blocks"].get<unsigned>(),
                gpu["software"].get<bool>() ? " (software: used only with --device gpu)" : "");
   if (devices.contains("missing")) fmt::print("no gpu: {}\n", devices["missing"].get<std::string>());
 }

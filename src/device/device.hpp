@@ -36,7 +36,8 @@ struct KernelSignature {
   std::vector<Number> parameters;
 };
 
-inline constexpr std::size_t max_arrays = 16;  // of a kernel: the storage blocks that GPU drivers commonly have
+/// Of a kernel. OpenGL guarantees 8 storage blocks; NVIDIA, AMD, Intel and llvmpipe have these and more.
+inline constexpr std::size_t max_arrays = 16;
 
 /// A kernel with its buffers and parameters, in the order of its signature.
 struct KernelCall {

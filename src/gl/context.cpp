@@ -98,11 +98,24 @@ std::uint32_t count_multiprocessors() {
   return static_cast<std::uint32_t>(count);
 }
 
+/// The context is current.
+std::uint32_t count_storage_blocks() {
+  GLint blocks = 0, bindings = 0;
+  glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+  glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+  return static_cast<std::uint32_t>(std::min(blocks, bindings));
+}
+
 /// Of the current context.
 Adapter describe_current(int index) {
   const std::string renderer = gl_string(GL_RENDERER);
-  Adapter adapter{
-      index, renderer, gl_string(GL_VENDOR), gl_string(GL_VERSION), is_software_renderer(renderer), 0, count_multiprocessors()};
+  Adapter adapter{.index = index,
+                  .renderer = renderer,
+                  .vendor = gl_string(GL_VENDOR),
+                  .version = gl_string(GL_VERSION),
+                  .is_software = is_software_renderer(renderer),
+                  .storage_blocks = count_storage_blocks(),
+                  .multiprocessors = count_multiprocessors()};
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &adapter.largest_buffer);
   return adapter;
 }

@@ -15,6 +15,7 @@ struct Adapter {
   std::string vendor, version;
   bool is_software = false;           // llvmpipe, softpipe, swrast
   std::int64_t largest_buffer = 0;    // that a shader can use [bytes]
+  std::uint32_t storage_blocks = 0;   // that a compute shader can have
   std::uint32_t multiprocessors = 0;  // each runs at least one work group at a time; 0: the driver does not tell
 };
 

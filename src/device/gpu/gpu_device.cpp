@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 #include "device/gpu/kernel_source.hpp"
 #include "device/gpu/strain_bias.hpp"
@@ -40,6 +41,11 @@ class GpuDevice final : public Device {
   explicit GpuDevice(std::unique_ptr<gl::Context> context) : GpuDevice(*context) { own_context_ = std::move(context); }
   explicit GpuDevice(gl::Context& context) : context_(context) {
     const gl::Adapter& adapter = context_.adapter();
+    if (adapter.storage_blocks < max_arrays)
+      throw Error(ErrorKind::device, adapter.renderer,
+                  fmt::format("its driver has {} storage blocks for a compute shader, and pliant needs {}",
+                              adapter.storage_blocks, max_arrays),
+                  "update the graphics driver, or use --device cpu");
     info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
     for (const Lanes& choice : lane_choices)
       variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
