@@ -38,7 +38,7 @@ add_library(pliant_peers INTERFACE)
 find_path(PLIANT_ODEINT_DIR boost/numeric/odeint.hpp)
 if(PLIANT_ODEINT_DIR)
   target_include_directories(pliant_peers SYSTEM INTERFACE ${PLIANT_ODEINT_DIR})
-  set_source_files_properties(src/bench/peers_odeint.cpp PROPERTIES COMPILE_DEFINITIONS PLIANT_ODEINT)
+  set_source_files_properties(src/bench/peers/odeint.cpp PROPERTIES COMPILE_DEFINITIONS PLIANT_ODEINT)
 endif()
 find_path(PLIANT_SUNDIALS_DIR arkode/arkode_erkstep.h)
 set(sundials_libraries)
@@ -49,7 +49,7 @@ endforeach()
 if(PLIANT_SUNDIALS_DIR AND NOT sundials_libraries MATCHES NOTFOUND)
   target_include_directories(pliant_peers SYSTEM INTERFACE ${PLIANT_SUNDIALS_DIR})
   target_link_libraries(pliant_peers INTERFACE ${sundials_libraries})
-  set_source_files_properties(src/bench/peers_sundials.cpp src/bench/peers_arkode.cpp src/bench/peers_cvode.cpp PROPERTIES
+  set_source_files_properties(src/bench/peers/sundials.cpp src/bench/peers/arkode.cpp src/bench/peers/cvode.cpp PROPERTIES
     COMPILE_DEFINITIONS PLIANT_SUNDIALS)
 endif()
 

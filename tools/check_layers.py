@@ -9,10 +9,10 @@ import sys
 
 # The order of docs/architecture.md. A folder of shaders counts as a module: both languages include from there.
 LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device", "state", "dynamics", "collision",
-          "simulation", "render", "output", "view", "bench", "app"]
+          "simulation", "render", "output", "run", "view", "window", "bench", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
-WINDOW_FILE = "src/gl/window.cpp"  # the only one that sees GLFW
-PANEL_FILE = "src/view/panel.cpp"  # the only one that sees Dear ImGui
+WINDOW_FILE = "src/window/window.cpp"  # the only one that sees GLFW
+PANEL_FILE = "src/window/panel.cpp"  # the only one that sees Dear ImGui
 SUFFIXES = {".hpp", ".cpp", ".inc", ".glsl", ".comp", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 

@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <string>
 
-#include "app/choose_device.hpp"
-#include "app/interrupts.hpp"
-#include "bench/precision_report.hpp"
-#include "bench/report.hpp"
-#include "bench/stability_report.hpp"
-#include "bench/step_cases.hpp"
+#include "bench/common/report.hpp"
+#include "bench/common/step_cases.hpp"
+#include "bench/precision/report.hpp"
+#include "bench/stability/report.hpp"
 #include "core/error.hpp"
 #include "output/file.hpp"
+#include "run/choose_device.hpp"
+#include "run/interrupts.hpp"
 
 namespace pliant::app {
 namespace {

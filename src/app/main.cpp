@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "app/bench_command.hpp"
-#include "app/checkpoint.hpp"
 #include "app/info_command.hpp"
-#include "app/run_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "mesh/load.hpp"
 #include "mesh/report.hpp"
+#include "run/checkpoint.hpp"
+#include "run/run_scene.hpp"
 
 namespace {
 

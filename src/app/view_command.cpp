@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 #ifdef PLIANT_VIEWER
-#include "view/viewer.hpp"
+#include "window/viewer.hpp"
 #endif
 
 namespace pliant::app {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/choose_device.hpp"
+#include "run/choose_device.hpp"
 
 namespace pliant::app {
 

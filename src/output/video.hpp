@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/program_pipe.hpp"
+#include "output/program_pipe.hpp"
 #include "render/image.hpp"
 
 namespace pliant {

@@ -1,0 +1,47 @@
+#include "bench/common/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace pliant::bench {
+
+TriangleMesh spiral_sphere(std::uint32_t vertex_count) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+    const double z = 1 - (2.0 * i + 1) / vertex_count, angle = 2 * std::numbers::pi * (2 - std::numbers::phi) * i;
+    const double radius = std::sqrt(1 - z * z);
+    mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+  }
+  return mesh;
+}
+
+TriangleMesh split_in_four(const TriangleMesh& mesh) {
+  TriangleMesh fine{mesh.positions, {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [entry, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.positions.size()));
+    if (is_new) fine.positions.push_back(0.5 * (fine.positions[a] + fine.positions[b]));
+    return entry->second;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  return fine;
+}
+
+ModelAndState deformed_body(TriangleMesh mesh) {
+  BodySetup setup{.mesh = std::move(mesh), .description = {}};
+  setup.description.name = "body";
+  ModelAndState built = build_model({&setup, 1}, glm::dvec3(0.0));
+  const double amplitude = 0.03 * built.model.bodies.front().radius;
+  for (std::size_t i = 0; i < built.model.rest_positions.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      built.state.motion[6 * i + k] += amplitude * std::sin(static_cast<double>((7 + 4 * k) * i + k));
+  return built;
+}
+
+}  // namespace pliant::bench

@@ -1,0 +1,142 @@
+#include "bench/common/step_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "bench/common/shapes.hpp"
+#include "core/error.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr std::uint64_t quick_steps = 8;
+
+// Two bodies of a scene, moved together along x until they overlap by a tenth: so they touch in every step, at any density. They
+// approach by about a tenth of an edge a step.
+struct Family {
+  const char* name;
+  const char* scene;
+  std::string_view mesh;  // what the bodies' meshes begin with
+  double half_distance;   // of the bodies' positions along x [m]
+  double time_step;       // at base_level [s]
+  int base_level;
+  int first_level, last_level, last_quick_level;
+};
+
+constexpr Family families[] = {
+    {"two icospheres", "two_spheres.toml", "icosphere:", 0.9, 0.0005, 3, 1, 6, 2},
+    {"two bunnies, split", "bunnies_undamped.toml", "", 0.9, 0.002, 0, 0, 2, -1},
+};
+
+// Why the scene does not serve the family; empty where it does.
+std::string misfit(const Family& family, const SceneDescription& scene) {
+  if (scene.bodies.size() != 2) return fmt::format("\"{}\" has not two bodies", family.scene);
+  const auto fits = [&](const BodyDescription& body) { return body.mesh.starts_with(family.mesh); };
+  if (scene.simulation.tolerance) return fmt::format("\"{}\" has a tolerance", family.scene);
+  if (!std::ranges::all_of(scene.bodies, fits)) return fmt::format("the bodies of \"{}\" are no icospheres", family.scene);
+  return {};
+}
+
+SceneDescription scene_at(const Family& family, SceneDescription scene, int level) {
+  for (BodyDescription& body : scene.bodies) {
+    body.position.x = std::copysign(family.half_distance, body.position.x);
+    if (body.mesh.starts_with("icosphere:")) body.mesh = fmt::format("icosphere:{}", level);
+  }
+  scene.simulation.time_step = family.time_step * std::exp2(family.base_level - level);
+  return scene;
+}
+
+StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> setups) {
+  StepCase made;
+  made.start = build_model(setups, scene.simulation.gravity);
+  made.plan = plan_time(scene, made.start.model);
+  made.collision = scene.collision;
+  return made;
+}
+
+StepCase case_of(const Family& family, const SceneDescription& as_it_is, int level, bool quick) {
+  const SceneDescription scene = scene_at(family, as_it_is, level);
+  std::vector<BodySetup> setups = load_bodies(scene);
+  for (BodySetup& setup : setups)
+    if (!setup.description.mesh.starts_with("icosphere:"))
+      for (int k = 0; k < level; ++k) setup.mesh = split_in_four(setup.mesh);
+  StepCase made = make_case(scene, setups);
+  made.name = fmt::format("{}:{}", family.name, level);
+  made.family = family.name;
+  made.steps_before = 3;
+  const bool long_steps = made.start.model.vertex_count() > 10000;
+  made.steps = quick ? quick_steps : long_steps ? 4 : 64;
+  return made;
+}
+
+// Out of the rest shape, so that no force is skipped: a scene's first few steps are free flight.
+void deform(ModelAndState& start) {
+  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      start.state.motion[6 * i + k] += 1e-3 * start.model.rest_positions[i][static_cast<glm::length_t>(k)];
+}
+
+StepCase case_of(const SceneDescription& scene, bool quick) {
+  StepCase made = make_case(scene, load_bodies(scene));
+  made.name = scene.file.stem().string();
+  made.output = scene.output;
+  made.steps = quick ? std::min(made.plan.steps, quick_steps) : made.plan.steps;
+  if (quick) deform(made.start);
+  return made;
+}
+
+std::set<std::filesystem::path> scene_files(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
+    if (entry.path().extension() == ".toml") files.insert(entry.path());
+  if (files.empty())
+    throw Error(ErrorKind::command_line, "--scenes", fmt::format("no scenes in folder \"{}\"", folder.string()),
+                "name the folder of scenes, or run where there is a folder \"scenes\"");
+  return files;
+}
+
+// The scene as it is, or a note why not.
+void add_scene(StepCases& all, const std::filesystem::path& file, bool quick) {
+  const auto leave_out = [&](const std::string& reason) {
+    all.notes.push_back(fmt::format("{}: left out, as {}", file.stem().string(), reason));
+  };
+  const SceneDescription scene = load_scene(file);
+  if (scene.simulation.tolerance) return leave_out("its tolerance gives steps no fixed length");
+  StepCase made = case_of(scene, quick);
+  if (made.steps == 0) return leave_out("it has no steps");
+  all.cases.push_back(std::move(made));
+}
+
+// The family's cases, or a note why there are none.
+void add_family(StepCases& all, const Family& family, const std::filesystem::path& folder, bool quick) {
+  const auto leave_out = [&](const std::string& reason) {
+    all.notes.push_back(fmt::format("{}: left out, as {}", family.name, reason));
+  };
+  const int last = quick ? family.last_quick_level : family.last_level;
+  if (last < family.first_level) return leave_out("it is too large for a quick measurement");
+  if (!std::filesystem::exists(folder / family.scene)) return leave_out(fmt::format("\"{}\" is not in the folder", family.scene));
+  const SceneDescription scene = load_scene(folder / family.scene);
+  if (const std::string reason = misfit(family, scene); !reason.empty()) return leave_out(reason);
+  for (int level = family.first_level; level <= last; ++level) all.cases.push_back(case_of(family, scene, level, quick));
+}
+
+}  // namespace
+
+void expect_scenes(const std::filesystem::path& folder) { static_cast<void>(scene_files(folder)); }
+
+StepCases load_step_cases(const std::filesystem::path& folder, bool quick) {
+  const std::set<std::filesystem::path> files = scene_files(folder);
+  StepCases all;
+  for (const Family& family : families) add_family(all, family, folder, quick);
+  for (const std::filesystem::path& file : files) add_scene(all, file, quick);
+  return all;
+}
+
+}  // namespace pliant::bench

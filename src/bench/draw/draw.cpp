@@ -1,0 +1,137 @@
+#include "bench/draw/draw.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/common/step_cases.hpp"
+#include "bench/common/timing.hpp"
+#include "core/stopwatch.hpp"
+#include "device/gpu/gpu_device.hpp"
+#include "gl/context.hpp"
+#include "render/frame_renderer.hpp"
+#include "simulation/simulation.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr int marked_frames = 21, quick_marked_frames = 3;
+constexpr double a_sixtieth = 1.0 / 60;  // [s]
+
+// A scene that is drawn from the buffers in which it is simulated.
+class Drawing {
+ public:
+  Drawing(Device& device, const StepCase& what, const render::RenderOptions& options)
+      : device_(device),
+        simulation_(device, what.start.model, what.start.state, what.plan, what.collision),
+        start_(simulation_.save()),
+        renderer_(what.start.model, options) {}
+
+  void restart() { simulation_.restore(start_); }
+  void step(std::uint64_t steps) { simulation_.advance(steps); }
+  [[nodiscard]] bool is_broken() { return simulation_.report().non_finite.has_value(); }
+  void draw(const render::PassObserver& after_pass = {}) {
+    renderer_.draw(gpu::gl_buffer_of(device_, simulation_.position_buffer()), simulation_.first_position(), after_pass);
+  }
+
+ private:
+  Device& device_;
+  Simulation simulation_;
+  std::string start_;
+  render::FrameRenderer renderer_;
+};
+
+using PassTimes = std::vector<std::pair<std::string, double>>;
+
+// A frame's passes [ms], by a mark after each.
+PassTimes time_passes(Device& device, Drawing& drawing) {
+  PassTimes passes;
+  device.mark_time();
+  drawing.draw([&](const char* pass) {
+    device.mark_time();
+    passes.emplace_back(pass, 0);
+  });
+  const std::vector<double> marks = device.take_times();
+  for (std::size_t k = 0; k < passes.size(); ++k) passes[k].second = 1e3 * (marks[k + 1] - marks[k]);
+  return passes;
+}
+
+PassTimes median_passes(Device& device, Drawing& drawing, int frames) {
+  std::vector<PassTimes> measured;
+  for (int frame = 0; frame < frames; ++frame) measured.push_back(time_passes(device, drawing));
+  PassTimes medians = measured.front();
+  for (std::size_t pass = 0; pass < medians.size(); ++pass) {
+    std::vector<double> times;
+    for (const PassTimes& frame : measured) times.push_back(frame[pass].second);
+    medians[pass].second = median(std::move(times));
+  }
+  return medians;
+}
+
+// Steps from the start, and a picture of the last or none, as somebody who watches has to wait for them [s].
+double seconds_of(Device& device, Drawing& drawing, std::uint64_t steps, bool draws) {
+  drawing.restart();
+  device.finish();
+  Stopwatch watch;
+  watch.time([&] {
+    drawing.step(steps);
+    if (draws) drawing.draw();
+    device.finish();
+  });
+  return watch.seconds();
+}
+
+std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
+  const double steps_of_a_picture = a_sixtieth / seconds_of(device, drawing, 1, false);
+  if (steps_of_a_picture < 1) return std::nullopt;
+  std::vector<double> with, without;
+  for (int round = 0; round < rounds; ++round)
+    for (const bool draws : {false, true})
+      (draws ? with : without).push_back(seconds_of(device, drawing, static_cast<std::uint64_t>(steps_of_a_picture), draws));
+  if (drawing.is_broken()) return std::nullopt;
+  return share_lost(median(std::move(with)), median(std::move(without)));
+}
+
+DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
+  const Model& model = what.start.model;
+  const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
+  Drawing drawing(device, what, render::live_options(model, what.start.state, what.output, options.size, detail));
+  const int frames = options.quick ? quick_marked_frames : marked_frames;
+  seconds_of(device, drawing, 1, true);  // builds the kernels
+  drawing.restart();
+  const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
+  PassTimes passes = median_passes(device, drawing, frames);
+  return {.scene = what.name,
+          .vertices = model.vertex_count(),
+          .triangles = static_cast<std::uint32_t>(model.triangles.size()),
+          .bodies = static_cast<std::uint32_t>(model.bodies.size()),
+          .detail = detail == render::Detail::full ? "full" : "reduced",
+          .width = options.size.x,
+          .height = options.size.y,
+          .milliseconds_per_frame = 1e3 * frame.median,
+          .fastest_milliseconds_per_frame = 1e3 * frame.fastest,
+          .steps_lost = frame.median < a_sixtieth ? steps_lost(device, drawing, frames) : std::nullopt,
+          .milliseconds = std::move(passes)};
+}
+
+}  // namespace
+
+double share_lost(double seconds_with_picture, double seconds_without) {
+  return (seconds_with_picture - seconds_without) / a_sixtieth;
+}
+
+DrawResult bench_draw(const DrawOptions& options, const Progress& progress) {
+  StepCases all = load_step_cases(options.scenes, options.quick);
+  DrawResult result{.rows = {}, .notes = std::move(all.notes), .interrupted = false};
+  const auto device = open({.device = "gpu", .gpu_index = options.gpu_index});
+  for (const StepCase& what : all.cases) {
+    const double part = static_cast<double>(result.rows.size()) / static_cast<double>(all.cases.size());
+    result.interrupted = !progress(part, what.name);
+    if (result.interrupted) return result;
+    if (result.rows.empty() && !options.quick) measure(*device, what, options);  // clocks rise under load
+    result.rows.push_back(measure(*device, what, options));
+  }
+  progress(1, "");
+  return result;
+}
+
+}  // namespace pliant::bench

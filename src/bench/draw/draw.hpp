@@ -1,0 +1,52 @@
+// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts, drawn as the viewer would;
+// and what pictures cost a simulation that goes on.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/common/place.hpp"
+
+namespace pliant::bench {
+
+struct DrawOptions {
+  int gpu_index = 0;                        // of gl::list_adapters()
+  std::filesystem::path scenes = "scenes";  // folder
+  glm::uvec2 size{1920, 1080};              // of the picture [pixels]
+  bool quick = false;
+};
+
+/// The share of its steps per second that a scene loses to 60 pictures a second, if the same steps take so long with a picture
+/// and without [s].
+[[nodiscard]] double share_lost(double seconds_with_picture, double seconds_without);
+
+/// The members' names are the keys of the file; a pass `shadow` has the key `shadow_milliseconds`.
+struct DrawRow {
+  std::string scene;
+  std::uint32_t vertices = 0;  // of all bodies
+  std::uint32_t triangles = 0;
+  std::uint32_t bodies = 0;
+  std::string detail = "full";                // or "reduced", where software draws
+  std::uint32_t width = 0, height = 0;        // [pixels]
+  double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
+  double fastest_milliseconds_per_frame = 0;  // the fastest batch
+  /// share_lost, from the start on; empty where a picture or a step alone takes longer than a sixtieth of a second, or
+  /// steps became non-finite.
+  std::optional<double> steps_lost;
+  std::vector<std::pair<std::string, double>> milliseconds;  // of each pass, medians of frames drawn with a mark after each
+};
+
+struct DrawResult {
+  std::vector<DrawRow> rows;
+  std::vector<std::string> notes;  // what was left out, and why
+  bool interrupted = false;        // by Progress
+};
+
+/// Draws from the simulation's own buffers; nothing is read back. Throws Error.
+[[nodiscard]] DrawResult bench_draw(const DrawOptions& options, const Progress& progress);
+
+}  // namespace pliant::bench

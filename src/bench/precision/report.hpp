@@ -1,0 +1,17 @@
+// Results of the suite `precision` as text.
+#pragma once
+#include <string>
+
+#include "bench/common/machine.hpp"
+#include "bench/precision/precision.hpp"
+
+namespace pliant::bench {
+
+/// A case each: milliseconds to every asked error by method on one thread in fp64, then the cheapest of all; then the contest.
+[[nodiscard]] std::string to_table(const PrecisionResult& result);
+
+/// {suite, options{...}, interrupted, machine{...}, versions{...}, cases[...], rows[...], cheapest[...], contest[...],
+/// evaluation_costs[...], curves[...], notes[...]}.
+[[nodiscard]] std::string to_json(const Machine& machine, const PrecisionOptions& options, const PrecisionResult& result);
+
+}  // namespace pliant::bench

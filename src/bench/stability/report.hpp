@@ -1,0 +1,16 @@
+// Results of the suite `stability` as text.
+#pragma once
+#include <string>
+
+#include "bench/common/machine.hpp"
+#include "bench/stability/stability.hpp"
+
+namespace pliant::bench {
+
+/// Limits, maps of one letter a cell, drifts, errors, notes.
+[[nodiscard]] std::string to_table(const StabilityResult& result);
+
+/// {suite, options{...}, interrupted, machine{...}, rows[{kind, ...}], notes[...]}; kinds are limit, map, drift and error.
+[[nodiscard]] std::string to_json(const Machine& machine, const StabilityOptions& options, const StabilityResult& result);
+
+}  // namespace pliant::bench

@@ -1,0 +1,159 @@
+#include "bench/steps/steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "bench/common/step_cases.hpp"
+#include "bench/common/timing.hpp"
+#include "core/stopwatch.hpp"
+#include "simulation/simulation.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double longest_run = 60;     // [s]
+constexpr double warming_time = 0.3;   // [s]; clocks rise under load
+constexpr double enough_time = 1.5;    // for the runs of a case [s]; the last may go beyond
+constexpr double telling_step = 1e-3;  // steps at least as long are springs for the most part, not overhead [s]
+constexpr int most_runs = 5;
+constexpr int most_warming_runs = 30;  // of a scene so short that building its simulations would take far longer
+
+struct Run {
+  double seconds = 0;  // of the measured steps
+  std::uint64_t contact_steps = 0, pair_interactions = 0;
+};
+
+// Nothing is read back while steps are measured.
+Run run_once(Device& device, const StepCase& what) {
+  Simulation simulation(device, what.start.model, what.start.state, what.plan, what.collision);
+  simulation.advance(what.steps_before);
+  const StepReport before = simulation.report();
+  Stopwatch watch;
+  watch.time([&] {
+    simulation.advance(what.steps);
+    device.finish();
+  });
+  const StepReport after = simulation.report();
+  return {watch.seconds(), after.contact_steps - before.contact_steps, after.pair_interactions - before.pair_interactions};
+}
+
+double pair_interactions_of_step(const StepCase& what) {
+  double pairs = 0;
+  for (const ModelBody& body : what.start.model.bodies) pairs += static_cast<double>(body.vertex_count) * body.vertex_count;
+  return pairs * evaluations_per_step(*what.plan.integrator);
+}
+
+class StepsAt {
+ public:
+  explicit StepsAt(const Place& place) : place_(place), device_(open(place)) {}
+
+  // Of one run, as long as no force is skipped; 0 while no case here has had steps long enough to tell.
+  double expected_seconds(const StepCase& what) const {
+    return seconds_per_pair_ * pair_interactions_of_step(what) * static_cast<double>(what.steps_before + what.steps);
+  }
+
+  StepsRow measure(const StepCase& what, bool quick) {
+    build_kernels(what);
+    if (!quick) warm_up(what);
+    std::vector<double> seconds;
+    Run run;
+    double passed = 0;
+    do {
+      run = run_once(*device_, what);
+      passed += run.seconds;
+      seconds.push_back(run.seconds);
+    } while (!quick && passed < enough_time && static_cast<int>(seconds.size()) < most_runs);
+    learn(median(seconds), static_cast<double>(what.steps), static_cast<double>(run.pair_interactions));
+    return row(what, run, seconds);
+  }
+
+ private:
+  void warm_up(const StepCase& what) {
+    for (int k = 0; k < most_warming_runs && warmed_ < warming_time; ++k) warmed_ += run_once(*device_, what).seconds;
+  }
+
+  // By a step, so that no measured one waits for them.
+  void build_kernels(const StepCase& what) {
+    Simulation(*device_, what.start.model, what.start.state, what.plan, what.collision).advance(1);
+    device_->finish();
+  }
+
+  // Takes the least time of a pair: overhead only adds to it.
+  void learn(double seconds, double steps, double pairs) {
+    if (pairs == 0 || seconds < telling_step * steps) return;
+    seconds_per_pair_ = seconds_per_pair_ == 0 ? seconds / pairs : std::min(seconds_per_pair_, seconds / pairs);
+  }
+
+  StepsRow row(const StepCase& what, const Run& run, const std::vector<double>& seconds) const {
+    const auto steps = static_cast<double>(what.steps);
+    return {.scene = what.name,
+            .family = what.family,
+            .device = place_.device,
+            .precision = place_.precision,
+            .threads = place_.threads,
+            .vertices = what.start.model.vertex_count(),
+            .bodies = static_cast<std::uint32_t>(what.start.model.bodies.size()),
+            .milliseconds_per_step = 1e3 * median(seconds) / steps,
+            .fastest_milliseconds_per_step = 1e3 * std::ranges::min(seconds) / steps,
+            .steps_per_second = steps / median(seconds),
+            .steps = what.steps,
+            .contact_steps = run.contact_steps,
+            .runs = static_cast<int>(seconds.size())};
+  }
+
+  Place place_;
+  std::unique_ptr<Device> device_;
+  double warmed_ = 0;            // [s]
+  double seconds_per_pair_ = 0;  // 0: unknown
+};
+
+StepsResult with_crossovers(StepsResult result) {
+  result.crossovers = find_crossovers(result.rows);
+  return result;
+}
+
+}  // namespace
+
+StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
+  constexpr int precisions[] = {32};
+  StepCases all = load_step_cases(options.scenes, options.quick);
+  StepsResult result{.rows = {}, .crossovers = {}, .notes = std::move(all.notes)};
+  const std::vector<Place> places = places_of(options.devices, precisions);
+  double done = 0;
+  for (const Place& place : places) {
+    StepsAt here(place);
+    for (const StepCase& what : all.cases) {
+      const double part = done++ / static_cast<double>(places.size() * all.cases.size());
+      result.interrupted = !progress(part, fmt::format("{}, {}", name_of(place), what.name));
+      if (result.interrupted) return with_crossovers(std::move(result));
+      if (const double seconds = here.expected_seconds(what); seconds > longest_run)
+        result.notes.push_back(
+            fmt::format("{} on {}: left out, as it would take about {:.0f} s", what.name, name_of(place), seconds));
+      else
+        result.rows.push_back(here.measure(what, options.quick));
+    }
+  }
+  progress(1, "");
+  return with_crossovers(std::move(result));
+}
+
+std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows) {
+  std::map<std::string, std::vector<SizedTime>> gpu;
+  std::map<std::pair<std::string, unsigned>, std::vector<SizedTime>> cpu;
+  for (const StepsRow& row : rows) {
+    if (row.family.empty()) continue;
+    auto& times = row.device == "gpu" ? gpu[row.family] : cpu[{row.family, row.threads}];
+    times.push_back({static_cast<double>(row.vertices), row.milliseconds_per_step});
+  }
+  std::vector<FamilyCrossover> crossovers;
+  for (const auto& [key, times] : cpu)
+    if (const auto found = gpu.find(key.first); found != gpu.end())
+      crossovers.push_back({key.first, key.second, find_crossover(times, found->second)});
+  return crossovers;
+}
+
+}  // namespace pliant::bench

@@ -1,0 +1,105 @@
+#include "run/prepared_run.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/checksum.hpp"
+#include "core/error.hpp"
+#include "core/read_text.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+
+namespace pliant::app {
+namespace {
+
+// An option replaces what the scene says; but with --set both come from the command line.
+void expect_one_of(const std::string& option, const std::string& key, const RunOptions& options) {
+  for (const std::string& override : options.overrides)
+    if (override.substr(0, override.find_first_of("= ")) == key)
+      throw Error(ErrorKind::command_line, option, fmt::format("--set {} is given, too, and steps follow one of them", override),
+                  "give one of them");
+}
+
+SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
+  SceneDescription scene = parse_scene(text, scene_of(options), options.overrides);
+  if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
+  if (options.time_step) {
+    expect_one_of("--time-step", "simulation.tolerance", options);
+    scene.simulation.time_step = options.time_step;
+    scene.simulation.tolerance.reset();
+    scene.simulation.length_where = "--time-step";
+  }
+  if (options.tolerance) {
+    expect_one_of("--tolerance", "simulation.time_step", options);
+    scene.simulation.tolerance = options.tolerance;
+    scene.simulation.tolerance_where = "--tolerance";
+    scene.simulation.time_step.reset();
+  }
+  if (options.duration) {
+    scene.simulation.duration = *options.duration;
+    scene.simulation.length_where = "--duration";
+  }
+  return scene;
+}
+
+std::uint64_t checksum_of(const TriangleMesh& mesh) {
+  return checksum(std::as_bytes(std::span(mesh.triangles)), checksum(std::as_bytes(std::span(mesh.positions))));
+}
+
+void warn_of_integrator(PreparedRun& run) {
+  const std::string& name = run.scene.simulation.integrator.value;
+  if (name != "auto" && name != run.plan.integrator->name)
+    run.warnings.push_back(fmt::format("the scene's integrator can't meet a tolerance: {} is taken, as by --integrator auto",
+                                       run.plan.integrator->name));
+}
+
+void warn_of_step(PreparedRun& run) {
+  if (run.plan.steps == 0 || run.plan.time_step <= run.plan.step_bound) return;
+  run.warnings.push_back(
+      fmt::format("the time step {:.6g} s is {:.3g} times the stability bound of {} here, {:.6g} s: expect growing motion",
+                  run.plan.time_step, run.plan.time_step / run.plan.step_bound, run.plan.integrator->name, run.plan.step_bound));
+}
+
+void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
+  if (!run.plan.tolerance && run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
+    run.warnings.push_back(fmt::format("no step is made: one of {:.6g} s is longer than twice the duration, {:.6g} s; shorten it",
+                                       run.plan.time_step, run.scene.simulation.duration));
+}
+
+void warn_of_overlap(PreparedRun& run) {
+  const Intersections overlap = run.simulation->intersections();
+  if (overlap.pairs == 0) return;
+  std::string names;
+  for (const std::uint32_t body : overlap.bodies) names += (names.empty() ? "" : ", ") + run.start.model.bodies[body].name;
+  run.warnings.push_back(fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names));
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
+  auto prepared = std::make_unique<PreparedRun>();
+  PreparedRun& run = *prepared;
+  std::error_code gone;
+  run.working_folder = options.base.empty() ? std::filesystem::current_path(gone) : options.base;
+  run.load_time.start();
+  run.scene_text = options.scene_text ? *options.scene_text : read_text(scene_of(options));
+  run.scene = describe_scene(run.scene_text, options);
+  const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings);
+  for (const BodySetup& setup : setups) run.mesh_checksums.push_back(checksum_of(setup.mesh));
+  run.start = build_model(setups, run.scene.simulation.gravity);
+  run.plan = plan_time(run.scene, run.start.model, options.steps);
+  run.load_time.stop();
+  run.build_time.start();
+  run.device = choose_device(options.device);
+  expect_carried(run.scene, run.plan, run.device->precision());
+  run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
+  warn_of_integrator(run);
+  warn_of_step(run);
+  warn_of_no_step(run, options);
+  warn_of_overlap(run);
+  run.build_time.stop();
+  return prepared;
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,143 @@
+#include "run/report.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "core/version.hpp"
+#include "run/interrupts.hpp"
+#include "simulation/breakdown.hpp"
+
+namespace pliant::app {
+namespace {
+
+// Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
+double smallest_energy(const Model& model) {
+  double scale = std::numeric_limits<double>::min();
+  for (const ModelBody& body : model.bodies) scale = std::max(scale, 1e-12 * 0.5 * body.stiffness * body.radius * body.radius);
+  return scale;
+}
+
+// Against what there was at the start and what gravity has given since: neither depends on where the world's origin is.
+double energy_growth(const RunProgress& progress, const Model& model) {
+  const Measurement &first = progress.first, &latest = progress.latest;
+  const double had = first.kinetic + first.elastic + std::abs(latest.gravitational - first.gravitational);
+  return 1 + (latest.energy() - first.energy()) / std::max(had, smallest_energy(model));
+}
+
+std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
+  if (!report.adaptive) return fmt::format("{:.6g} s", plan.time_step);
+  return fmt::format("{:.3g} to {:.3g} s ({} rejected, {} of them in contact)", report.adaptive->smallest_step,
+                     report.adaptive->largest_step, report.adaptive->rejected, report.adaptive->rejected_in_contact);
+}
+
+void show_timings(const std::map<std::string_view, double>& pass_seconds, std::uint64_t steps) {
+  double all = 0;
+  for (const auto& [pass, seconds] : pass_seconds) all += seconds;
+  fmt::print("{:<20} {:>12} {:>8}\n", "pass", "us a step", "share");
+  for (const auto& [pass, seconds] : pass_seconds)
+    fmt::print("{:<20} {:>12.2f} {:>6.1f} %\n", pass, 1e6 * seconds / static_cast<double>(steps), 100 * seconds / all);
+  fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(steps));
+}
+
+}  // namespace
+
+std::optional<std::string> instability_of(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
+  const double growth = energy_growth(progress, run.start.model);
+  if (growth > 2)
+    return fmt::format("the energy has grown {:.3g}-fold: {}", growth,
+                       report.contact_steps > 0 ? "contacts have added it, or the motion is unstable" : "the motion is unstable");
+  return {};
+}
+
+Summary summary_of(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
+  Summary s;
+  s.scene = run.scene.file.string();
+  s.device = {run.device->info().kind, run.device->info().name};
+  s.precision = run.device->precision();
+  s.threads = run.device->info().threads;
+  s.integrator = run.plan.integrator->name;
+  if (const auto& adaptive = report.adaptive)
+    s.adaptive = {*run.plan.tolerance,     report.steps,          adaptive->rejected, adaptive->rejected_in_contact,
+                  adaptive->smallest_step, adaptive->largest_step};
+  else
+    s.time_step = run.plan.time_step;
+  s.steps = report.steps;
+  s.simulated_seconds = report.time;
+  s.wall_seconds = times.stepping.seconds();
+  s.steps_per_second = report.steps == 0 ? 0 : static_cast<double>(report.steps) / times.stepping.seconds();
+  s.energy = {progress.first.energy(), progress.latest.energy(), {}};
+  if (run.plan.damping_law == DampingLaw::none && report.contact_steps == 0)
+    s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
+  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices};
+  if (report.non_finite)
+    s.energy.final = std::nan("");  // the step that broke, whatever a sum of it gives
+  else
+    s.final_intersecting_pairs = run.simulation->intersections().pairs;
+  s.non_finite = report.non_finite.has_value();
+  s.interrupted = is_interrupted();
+  s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
+  s.skipped = {{"force_evaluations", report.forces_skipped},
+               {"body_pairs", report.body_pairs_skipped},
+               {"tree_refits", report.refits_skipped}};
+  s.timings_ms = {{"load", 1e3 * times.loading.seconds()},
+                  {"build", 1e3 * times.building.seconds()},
+                  {"step", 1e3 * times.stepping.seconds()},
+                  {"measure", 1e3 * times.measuring.seconds()},
+                  {"frames", 1e3 * times.writing.seconds()}};
+  if (!options.checkpoint.empty()) s.timings_ms.emplace_back("checkpoints", 1e3 * times.saving.seconds());
+  for (const auto& [pass, seconds] : run.simulation->pass_seconds())
+    s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
+  s.warnings = run.warnings;
+  if (const auto what = instability_of(status)) s.warnings.push_back(*what);
+  s.version = version();
+  return s;
+}
+
+void show_beginning(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  fmt::print("going on with {} at step {}, into {}\n", run.scene.file.string(), report.steps, folder_of(options).string());
+  std::fflush(stdout);  // it may take hours until there is more
+}
+
+void show_progress(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
+  if (isatty(fileno(stderr)) == 0) return;
+  const bool adapts = report.adaptive.has_value();
+  const double done =
+      adapts ? report.time / run.plan.duration : static_cast<double>(report.steps) / static_cast<double>(run.plan.steps);
+  fmt::print(stderr, "\r[{:<30}] {:3.0f} %  step {}{}  {:.1f} steps/s ", std::string(static_cast<std::size_t>(30 * done), '#'),
+             100 * done, report.steps, adapts ? "" : fmt::format("/{}", run.plan.steps),
+             static_cast<double>(report.steps) / times.stepping.seconds());
+  if (is_interrupted() || report.non_finite || done == 1) fmt::print(stderr, "\n");
+}
+
+void show_end(const RunStatus& status) {
+  const auto& [options, run, progress, report] = status;
+  const RunTimes& times = progress.times;
+  fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", is_interrupted() ? "interrupted after " : "",
+             report.steps, length_of_steps(run.plan, report), run.plan.integrator->name, times.stepping.seconds(),
+             report.steps == 0 ? 0.0 : static_cast<double>(report.steps) / times.stepping.seconds(), run.device->info().kind,
+             run.device->info().name);
+  const double beside = times.measuring.seconds() + times.writing.seconds() + times.saving.seconds();
+  if (beside > 0.1 && 9 * beside > times.stepping.seconds())  // over a tenth of the whole
+    fmt::print("beside these, {:.2f} s of measuring the state and {:.2f} s of frames{}\n", times.measuring.seconds(),
+               times.writing.seconds(),
+               !options.checkpoint.empty() ? fmt::format(" and {:.2f} s of checkpoints", times.saving.seconds()) : "");
+  fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report.contact_steps, report.contact_pairs_max);
+  if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
+  fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,292 @@
+// Steps from frame to frame; measures, writes and draws at each; reports at the end.
+#include "run/run_scene.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/thread_pool.hpp"
+#include "output/csv.hpp"
+#include "output/file.hpp"
+#include "run/check.hpp"
+#include "run/checkpoint.hpp"
+#include "run/frame_sink.hpp"
+#include "run/interrupts.hpp"
+#include "run/prepared_run.hpp"
+#include "run/report.hpp"
+#include "simulation/measure.hpp"
+
+namespace pliant::app {
+namespace {
+
+constexpr double patience = 1;           // that Ctrl-C has with measuring [s]
+constexpr double time_of_a_batch = 0.1;  // of steps, after which Ctrl-C is heard and progress shown [s]
+
+class Run {
+ public:
+  /// From its start, or from where the checkpoint stood, whose lock it takes.
+  Run(const RunOptions& options, PreparedRun& prepared, std::optional<Resumed> from)
+      : options_(options),
+        run_(prepared),
+        folder_(folder_of(options)),
+        measuring_pool_(options.device.threads),
+        progress_(from ? from->checkpoint.progress : RunProgress()),
+        frames_(prepared, {.format = options.frames,
+                           .folder = folder_ / "frames",
+                           .video = options.video,
+                           .first = static_cast<int>(progress_.frames_written)}),
+        checkpoints_(options, from ? std::move(from->lock) : nullptr),
+        history_(from ? HistoryFile(folder_ / history_name, std::move(from->checkpoint.history))
+                      : HistoryFile(folder_ / history_name)),
+        before_row_{progress_, history_.text().size()} {
+    progress_.times.loading.add(prepared.load_time);
+    progress_.times.building.add(prepared.build_time);
+  }
+
+  int execute() {
+    if (options_.timings) run_.simulation->time_passes();
+    report_ = run_.simulation->report();
+    if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // not another run's until one is due
+    if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
+    if (report_.steps == 0)
+      begin();
+    else
+      state_ = run_.simulation->state();
+    if (run_.plan.tolerance)
+      run_adaptive();
+    else
+      run_fixed();
+    keep_interrupted();
+    history_.close();
+    write_end();
+    return end_frames(report_.non_finite ? exit_non_finite : is_interrupted() ? exit_interrupted : 0);
+  }
+
+ private:
+  RunStatus status() { return {options_, run_, progress_, report_}; }
+  bool stopped() const { return is_interrupted() || report_.non_finite; }
+
+  void begin() {
+    record();
+    write_frame();
+  }
+
+  void run_fixed() {
+    std::uint64_t step = progress_.recorded_steps;
+    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= run_.plan.steps) {
+      advance_to(step);
+      if (report_.steps == step) write_frame();
+    }
+    advance_to(run_.plan.steps);
+  }
+
+  void run_adaptive() {
+    std::optional<double> time;
+    for (std::uint64_t& frame = progress_.next_frame; !stopped() && (time = run_.plan.time_of_frame(frame)); ++frame) {
+      advance_to_time(*time);
+      if (report_.time == *time) write_frame();
+    }
+    advance_to_time(run_.plan.duration);
+  }
+
+  void advance_to(std::uint64_t target) {
+    while (report_.steps < target && !stopped()) advance_by(std::min(batch_, target - report_.steps));
+    record_unless_recorded();
+  }
+
+  // Batches grow while they are short: a report a step would cost more than small steps do.
+  void advance_by(std::uint64_t steps) {
+    const double before = progress_.times.stepping.seconds();
+    step([&] {
+      run_.simulation->advance(steps);
+      return run_.simulation->report();
+    });
+    const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
+    batch_ = is_short ? std::min(2 * batch_, Simulation::most_steps_at_once) : std::max<std::uint64_t>(batch_ / 2, 1);
+  }
+
+  void advance_to_time(double target) {
+    while (report_.time < target && !stopped()) step([&] { return run_.simulation->advance_toward(target); });
+    record_unless_recorded();
+  }
+
+  template <class Advance>
+  void step(const Advance& advance) {
+    report_ = progress_.times.stepping.time(advance);
+    if (!options_.quiet) show_progress(status());
+    if (checkpoints_.is_due() && report_.steps > 0) keep_checkpoint(progress_, history_.text());
+  }
+
+  // Not of a run that has failed: the one before is worth more. At step 0 the history has no row, for a run begins with one.
+  void keep_checkpoint(RunProgress progress, const std::string& history) {
+    if (report_.non_finite) return;
+    progress.times = progress_.times;
+    progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
+  }
+
+  // An interrupt may have put the latest row between two frames, or left it without its energy: it is made again.
+  void keep_interrupted() {
+    if (checkpoints_.is_wanted() && is_interrupted())
+      keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
+  }
+
+  void record_unless_recorded() {
+    if (report_.steps != progress_.recorded_steps) record();
+  }
+
+  void record() {
+    before_row_ = {progress_, history_.text().size()};
+    state_ = run_.simulation->state();
+    Measurement& now = progress_.latest;
+    now = progress_.times.measuring.time([&] { return measured(); });
+    if (report_.steps == 0) progress_.first = now;
+    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic);
+    const double drift = std::abs(now.energy() - progress_.first.energy());
+    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    progress_.recorded_steps = report_.steps;
+    history_.append({.step = report_.steps,
+                     .time = report_.time,
+                     .kinetic = now.kinetic,
+                     .elastic = now.elastic,
+                     .gravitational = now.gravitational,
+                     .momentum = now.momentum,
+                     .angular_momentum = now.angular_momentum,
+                     .contact_steps = report_.contact_steps,
+                     .reverted_vertices = report_.reverted_vertices});
+  }
+
+  // After Ctrl-C for a moment only; without the elastic energy where that is not enough.
+  Measurement measured() {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(patience);
+    return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_,
+                   [end] { return is_interrupted() && Clock::now() > end; });
+  }
+
+  void write_frame() {
+    progress_.times.writing.time([&] { frames_.write(state_); });
+    progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
+  }
+
+  // At last: when a video can't be ended, all else is there. How the run itself ended says more than that.
+  int end_frames(int exit_code) {
+    try {
+      frames_.close();
+      show_frames();
+    } catch (const Error& error) {
+      if (exit_code == 0) throw;
+      fmt::print(stderr, "pliant: {}\n", error.what());
+    }
+    return exit_code;
+  }
+
+  void show_frames() const {
+    if (options_.quiet || frames_.count() == 0) return;
+    if (options_.video.empty())
+      fmt::print("frames:  {} ({})\n", (folder_ / "frames").string(), counted(frames_.count(), "file"));
+    else
+      fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
+  }
+
+  // The summary is small: it may fit where the state does not.
+  void write_end() {
+    const std::optional<Error> lost = write_state();
+    write_summary(folder_ / summary_name, summary_of(status()));
+    if (!options_.quiet) show_end(status());
+    if (const auto what = instability_of(status()))
+      fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
+    if (lost) throw *lost;
+  }
+
+  std::optional<Error> write_state() const try {
+    const Model& model = run_.start.model;
+    write_final_state(folder_ / final_state_name, model, state_.world_positions(model), state_.world_velocities(model));
+    return {};
+  } catch (const Error& error) {
+    return error;
+  }
+
+  const RunOptions& options_;
+  PreparedRun& run_;
+  std::filesystem::path folder_;
+  ThreadPool measuring_pool_;
+  RunProgress progress_;
+  FrameSink frames_;  // before any file is touched: there may be nothing to draw with
+  CheckpointKeeper checkpoints_;
+  HistoryFile history_;
+  struct {
+    RunProgress progress;
+    std::size_t history_length;
+  } before_row_;  // the latest one
+  StepReport report_;
+  std::uint64_t batch_ = 1;  // steps between reports
+  State state_;
+};
+
+// Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.
+void expect_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::path existing = std::filesystem::absolute(folder, failure), missing;
+  while (!std::filesystem::exists(existing, failure) && existing.has_relative_path())
+    existing = (missing = existing).parent_path();
+  if (!std::filesystem::is_directory(existing, failure))
+    throw Error(ErrorKind::command_line, existing.string(), "is no folder", "name another place by --out");
+  if (missing.empty() && access(existing.c_str(), W_OK | X_OK) != 0)
+    throw Error(ErrorKind::command_line, existing.string(), "can't be written", "name another place by --out");
+  if (missing.empty()) return;
+  std::filesystem::create_directory(missing, failure);
+  if (failure) throw Error(ErrorKind::command_line, missing.string(), "this folder can't be made", "name another place by --out");
+  std::filesystem::remove(missing, failure);
+}
+
+// Before any of it is replaced, and not after hours of steps.
+void expect_outputs(const RunOptions& options) {
+  const std::filesystem::path folder = folder_of(options);
+  expect_folder(folder);
+  for (const char* name : output_names) expect_replaceable(folder / name);
+  if (options.frames != FrameFormat::none) expect_folder(folder / "frames");
+}
+
+// Where nothing can encode a video its pictures are written.
+RunOptions drawable(RunOptions options) {
+  if (options.video.empty() || VideoFile::has_encoder()) return options;
+  options.video.clear();
+  options.frames = FrameFormat::png;
+  return options;
+}
+
+}  // namespace
+
+std::filesystem::path scene_of(const RunOptions& options) { return options.base / options.scene; }
+
+std::filesystem::path folder_of(const RunOptions& options) {
+  return options.base / (options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out);
+}
+
+int run(const RunOptions& given) {
+  std::optional<Resumed> from;
+  if (!given.resume.empty()) from = load_resumed(given);
+  const RunOptions options = from ? resumed_options(given, from->checkpoint) : drawable(given);
+  if (!options.check || !options.out.empty()) expect_outputs(options);
+  const std::unique_ptr<PreparedRun> run = prepare_run(options);
+  PreparedRun& prepared = *run;
+  if (from) resume(given, from->checkpoint, prepared);
+  if (!given.video.empty() && options.video.empty())
+    prepared.warnings.push_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
+  for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+  if (options.check) {
+    show_check(prepared);
+    return 0;
+  }
+  watch_for_interrupts();
+  return Run(options, prepared, std::move(from)).execute();
+}
+
+}  // namespace pliant::app

@@ -1,0 +1,71 @@
+// The panel beside the scene: shows facts, and edits wishes, which the viewer fulfils.
+#pragma once
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene_description.hpp"
+#include "view/look.hpp"
+#include "view/observer.hpp"
+#include "window/window.hpp"
+
+namespace pliant::view {
+
+/// What the panel can ask for. It changes what it is given, and nothing else.
+struct Wishes {
+  bool is_paused = false, times_passes = false, is_on_gpu = false;
+  double speed = 1;
+  Settings settings;
+  Shows shows;
+  std::optional<std::filesystem::path> scene;  // to be opened
+  bool restarts = false, steps = false, steps_back = false;
+
+  bool operator==(const Wishes&) const = default;
+};
+
+/// What the panel tells.
+struct Facts {
+  std::string title, device, message;
+  std::vector<std::filesystem::path> scenes;  // to choose from
+  std::filesystem::path scene;
+  std::vector<std::string> bodies;
+  std::uint64_t step = 0, vertices = 0;
+  double time = 0, time_step = 0, pictures_per_second = 0;  // [s]; time_step 0: a tolerance governs it
+  std::optional<double> tolerance;
+  double factor = 1;           // simulated by real time
+  unsigned deepest_level = 0;  // of the trees
+  StepReport report;
+  const Observation* observation = nullptr;
+};
+
+class Panel {
+ public:
+  /// All it draws is `scale` times as large as on a usual display. Needs a current gl::Context while it lives. One at a time.
+  explicit Panel(float scale);
+  ~Panel();
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+  /// Hears of the mouse, also while nothing is shown; of one press or release a picture. True where it is the panel's: pressed
+  /// over what is shown, until it is let go, or turned there.
+  bool takes(const gl::WindowEvent& event);
+  /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
+  void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
+  /// Draws the help alone.
+  void draw_help(const glm::uvec2& size, double seconds, const std::string& help);
+  /// Nothing is shown until it draws again.
+  void hide();
+  /// Of the latest picture: itself, the help, an open list.
+  [[nodiscard]] std::size_t window_count() const;
+
+ private:
+  void begin(const glm::uvec2& size, double seconds);
+  void end();
+  struct Mouse;
+  std::unique_ptr<Mouse> mouse_;
+};
+
+}  // namespace pliant::view
