@@ -73,11 +73,10 @@ void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std
   app.add_option_function<std::string>(name, set, help)->check(CLI::IsMember(words));
 }
 
-void add_device(CLI::App& command, app::DeviceChoice& choice) {
-  add_choice<std::optional<app::DeviceKind>>(
-      command, "--device", choice.kind,
-      {{"auto", app::DeviceKind::automatic}, {"cpu", app::DeviceKind::cpu}, {"gpu", app::DeviceKind::gpu}},
-      "Where to simulate (default auto: a hardware GPU, else the CPU)");
+void add_device(CLI::App& command, DeviceChoice& choice) {
+  add_choice<std::optional<DeviceKind>>(command, "--device", choice.kind,
+                                        {{"auto", DeviceKind::automatic}, {"cpu", DeviceKind::cpu}, {"gpu", DeviceKind::gpu}},
+                                        "Where to simulate (default auto: a hardware GPU, else the CPU)");
   command.add_option("--precision", choice.precision, "Bits of the forces; 64 on the CPU alone")->check(CLI::IsMember({32, 64}));
   command.add_option("--threads", choice.threads, "Threads of the CPU (default: one a processor)")
       ->transform(whole_number(1, 4096));
@@ -89,7 +88,7 @@ void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
       ->take_all();
 }
 
-void add_length(CLI::App& run, app::RunOptions& options) {
+void add_length(CLI::App& run, RunOptions& options) {
   CLI::Option* steps = run.add_option("--steps", options.steps, "Number of steps, instead of the scene's duration")
                            ->transform(whole_number(0, 300'000'000));
   run.add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
@@ -101,7 +100,7 @@ void add_length(CLI::App& run, app::RunOptions& options) {
   run.add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
 }
 
-void add_outputs(CLI::App& run, app::RunOptions& options) {
+void add_outputs(CLI::App& run, RunOptions& options) {
   run.add_option("--out", options.out, "Folder to write (default out/SCENE)")->check(not_empty());
   add_choice<FrameFormat>(run, "--frames", options.frames,
                           {{"none", FrameFormat::none},
@@ -116,7 +115,7 @@ void add_outputs(CLI::App& run, app::RunOptions& options) {
       ->excludes(run.get_option("--frames"));
 }
 
-void add_checkpoints(CLI::App& run, app::RunOptions& options) {
+void add_checkpoints(CLI::App& run, RunOptions& options) {
   CLI::Option* checkpoint =
       run.add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
           ->check(not_empty());
@@ -133,10 +132,10 @@ void add_checkpoints(CLI::App& run, app::RunOptions& options) {
 
 void refuse_beside_resume(CLI::App& run) {
   CLI::Option* resume = run.get_option("--resume");
-  const auto allowed = app::options_beside_resume();
+  const auto allowed = options_beside_resume();
   const auto is_refused = [&](const CLI::Option* option) {
     return option != resume && option != run.get_help_ptr() &&
-           std::ranges::find(allowed, option->get_name(), &app::OptionBesideResume::name) == allowed.end();
+           std::ranges::find(allowed, option->get_name(), &OptionBesideResume::name) == allowed.end();
   };
   for (CLI::Option* option : run.get_options(is_refused)) resume->excludes(option);
 }
@@ -148,7 +147,7 @@ void expect_beginning(const CLI::App& run) {
     throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
 }
 
-void add_run(CLI::App& program, app::RunOptions& options) {
+void add_run(CLI::App& program, RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
   run->add_option("scene", options.scene, "Scene file (TOML)");
   add_device(*run, options.device);
@@ -276,7 +275,7 @@ int execute(int count, char** arguments) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
   program.failure_message(complaint_of);
-  app::RunOptions run;
+  RunOptions run;
   app::ViewOptions view;
   app::InfoOptions info;
   app::BenchOptions bench;
@@ -291,7 +290,7 @@ int execute(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::command_line);
   }
-  if (program.got_subcommand("run")) return app::run(run);
+  if (program.got_subcommand("run")) return run_scene(run);
   if (program.got_subcommand("view")) {
     app::view(view);
     return 0;

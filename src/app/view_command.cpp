@@ -20,7 +20,7 @@ void view(const ViewOptions& options) {
   view::LoadedScene scene = view::load(options.scene, options.overrides);
   for (const std::string& warning : scene.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   static_cast<void>(plan_time(scene.description, scene.start.model));
-  gl::Window window(scene.description.output.size, scene.description.title);
+  view::Window window(scene.description.output.size, scene.description.title);
   std::unique_ptr<Device> device = choose_device(options.device, window.context());
   const auto make_device = [&](std::string_view kind) {
     return kind == "gpu" ? make_gpu_device(window.context()) : make_cpu_device(options.device.threads, 32);

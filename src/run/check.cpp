@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 // Times a step with every body deformed, so that no force is skipped; a second one, unless that would take long, because the
@@ -84,4 +84,4 @@ void show_check(PreparedRun& run) {
              std::isnan(estimate.seconds) ? "unknown" : fmt::format("about {:.3g} s", estimate.seconds));
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

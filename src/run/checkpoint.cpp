@@ -14,7 +14,7 @@
 #include "output/file.hpp"
 #include "physics/layout.glsl"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 // These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
@@ -248,4 +248,4 @@ void CheckpointKeeper::write(const Checkpoint& checkpoint) {
   latest_ = Clock::now();
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -15,7 +15,7 @@
 #include "run/prepared_run.hpp"
 #include "simulation/measure.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 /// Where the wall time goes.
 struct RunTimes {
@@ -99,4 +99,4 @@ class CheckpointKeeper {
   Clock::time_point latest_ = Clock::now();
 };
 
-}  // namespace pliant::app
+}  // namespace pliant

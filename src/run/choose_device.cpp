@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 // Where none is asked for.
@@ -40,4 +40,4 @@ std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& w
   return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -6,7 +6,7 @@
 #include "device/device.hpp"
 #include "gl/context.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 enum class DeviceKind { automatic, cpu, gpu };
 
@@ -28,4 +28,4 @@ void expect_consistent(const DeviceChoice& choice);
 /// The same, where the only GPU is that of a window.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& window);
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -10,7 +10,7 @@
 #include "render/drawn_buffers.hpp"
 #include "render/frame_renderer.hpp"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 render::SceneBox box_of(const PreparedRun& run) { return render::box_around(run.start.state.world_positions(run.start.model)); }
@@ -94,4 +94,4 @@ void FrameSink::close() {
   if (video_) video_->close();
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -9,7 +9,7 @@
 #include "output/video.hpp"
 #include "run/prepared_run.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 struct FrameTargets {
   FrameFormat format = FrameFormat::none;
@@ -45,4 +45,4 @@ class FrameSink {
   int count_;
 };
 
-}  // namespace pliant::app
+}  // namespace pliant

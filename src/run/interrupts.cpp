@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <ctime>
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 std::atomic<std::int64_t> first_interrupt{0};  // [ns] of the monotonic clock; 0: none yet
@@ -35,4 +35,4 @@ void watch_for_interrupts() {
 
 bool is_interrupted() { return first_interrupt != 0; }
 
-}  // namespace pliant::app
+}  // namespace pliant

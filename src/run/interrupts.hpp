@@ -2,7 +2,7 @@
 #pragma once
 #include <chrono>
 
-namespace pliant::app {
+namespace pliant {
 
 inline constexpr int exit_interrupted = 130;  // as shells have it after Ctrl-C
 
@@ -18,4 +18,4 @@ void watch_for_interrupts();
   return after_first >= std::chrono::seconds(1);
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

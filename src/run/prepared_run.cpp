@@ -10,7 +10,7 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 // An option replaces what the scene says; but with --set both come from the command line.
@@ -102,4 +102,4 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   return prepared;
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -11,7 +11,7 @@
 #include "run/run_scene.hpp"
 #include "simulation/simulation.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 struct PreparedRun {
   std::filesystem::path working_folder;  // that relative places are in; empty if it had gone at the start
@@ -30,4 +30,4 @@ struct PreparedRun {
 /// stability bound and of bodies that overlap at the start.
 [[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options);
 
-}  // namespace pliant::app
+}  // namespace pliant

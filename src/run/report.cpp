@@ -14,7 +14,7 @@
 #include "run/interrupts.hpp"
 #include "simulation/breakdown.hpp"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
@@ -140,4 +140,4 @@ void show_end(const RunStatus& status) {
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -7,7 +7,7 @@
 #include "run/checkpoint.hpp"
 #include "run/prepared_run.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 /// A run as far as it has come.
 struct RunStatus {
@@ -29,4 +29,4 @@ void show_beginning(const RunStatus& status);
 void show_progress(const RunStatus& status);
 void show_end(const RunStatus& status);
 
-}  // namespace pliant::app
+}  // namespace pliant

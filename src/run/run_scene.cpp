@@ -23,7 +23,7 @@
 #include "run/report.hpp"
 #include "simulation/measure.hpp"
 
-namespace pliant::app {
+namespace pliant {
 namespace {
 
 constexpr double patience = 1;           // that Ctrl-C has with measuring [s]
@@ -270,7 +270,7 @@ std::filesystem::path folder_of(const RunOptions& options) {
   return options.base / (options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out);
 }
 
-int run(const RunOptions& given) {
+int run_scene(const RunOptions& given) {
   std::optional<Resumed> from;
   if (!given.resume.empty()) from = load_resumed(given);
   const RunOptions options = from ? resumed_options(given, from->checkpoint) : drawable(given);
@@ -289,4 +289,4 @@ int run(const RunOptions& given) {
   return Run(options, prepared, std::move(from)).execute();
 }
 
-}  // namespace pliant::app
+}  // namespace pliant

@@ -9,7 +9,7 @@
 #include "output/frames.hpp"
 #include "run/choose_device.hpp"
 
-namespace pliant::app {
+namespace pliant {
 
 inline constexpr int exit_non_finite = 5;
 inline constexpr double default_checkpoint_interval = 300;  // [s] of wall time
@@ -48,6 +48,6 @@ struct RunOptions {
 
 /// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp); what there is was written in each case. Throws
 /// Error.
-[[nodiscard]] int run(const RunOptions& options);
+[[nodiscard]] int run_scene(const RunOptions& options);
 
-}  // namespace pliant::app
+}  // namespace pliant

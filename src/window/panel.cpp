@@ -272,21 +272,21 @@ Panel::~Panel() {
   ImGui::DestroyContext();
 }
 
-bool Panel::takes(const gl::WindowEvent& event) {
+bool Panel::takes(const WindowEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
   const auto at = [&](const glm::dvec2& place) { io.MousePos = {static_cast<float>(place.x), static_cast<float>(place.y)}; };
-  if (const auto* moved = std::get_if<gl::MouseMoved>(&event)) {
+  if (const auto* moved = std::get_if<MouseMoved>(&event)) {
     at(moved->to);
     return mouse_->is_down[0] || mouse_->is_down[1];
   }
-  if (const auto* pressed = std::get_if<gl::MousePressed>(&event)) {
+  if (const auto* pressed = std::get_if<MousePressed>(&event)) {
     at(pressed->place);
     if (!mouse_->takes_press()) return false;
     return mouse_->is_down[static_cast<std::size_t>(pressed->button)] = true;
   }
-  if (const auto* released = std::get_if<gl::MouseReleased>(&event))
+  if (const auto* released = std::get_if<MouseReleased>(&event))
     return std::exchange(mouse_->is_down[static_cast<std::size_t>(released->button)], false);
-  const auto* scrolled = std::get_if<gl::MouseScrolled>(&event);
+  const auto* scrolled = std::get_if<MouseScrolled>(&event);
   if (scrolled == nullptr || !mouse_->is_over_window()) return false;
   io.MouseWheel += static_cast<float>(scrolled->notches);
   return true;

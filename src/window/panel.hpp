@@ -51,7 +51,7 @@ class Panel {
 
   /// Hears of the mouse, also while nothing is shown; of one press or release a picture. True where it is the panel's: pressed
   /// over what is shown, until it is let go, or turned there.
-  bool takes(const gl::WindowEvent& event);
+  bool takes(const WindowEvent& event);
   /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
   void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
   /// Draws the help alone.

@@ -50,7 +50,7 @@ std::filesystem::path free_picture_name(const std::string& stem) {
 }  // namespace
 
 struct Viewer::Command {
-  std::string_view key;  // as gl::KeyPressed names it
+  std::string_view key;  // as KeyPressed names it
   std::string_view help;
   void (Viewer::*execute)();
   bool repeats = false;        // while the key is held, once a picture
@@ -84,7 +84,7 @@ std::string Viewer::help() {
          "drop        a scene or an OBJ file, to open it\n";
 }
 
-Viewer::Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options)
+Viewer::Viewer(Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options)
     : window_(window), device_(std::move(device)), make_device_(options.make_device), playback_(options.pace), observer_(now) {
   if (options.starts_paused) playback_.pause();
   open(std::move(scene));
@@ -145,16 +145,16 @@ void Viewer::await_events() {
 void Viewer::handle_events() {
   bool is_heard = false;
   while (!events_.empty() && !window_.is_closed() && !is_heard) {
-    const gl::WindowEvent event = std::move(events_.front());
+    const WindowEvent event = std::move(events_.front());
     events_.pop_front();
     if (panel_ == nullptr || !panel_->takes(event))
       std::visit([this](const auto& e) { handle(e); }, event);
     else
-      is_heard = std::holds_alternative<gl::MousePressed>(event) || std::holds_alternative<gl::MouseReleased>(event);
+      is_heard = std::holds_alternative<MousePressed>(event) || std::holds_alternative<MouseReleased>(event);
   }
 }
 
-void Viewer::handle(const gl::KeyPressed& event) {
+void Viewer::handle(const KeyPressed& event) {
   const auto command = std::ranges::find(commands(), event.name, &Command::key);
   if (command == commands().end()) return;
   if (event.is_repeat && (!command->repeats || std::exchange(has_repeated_, true))) return;
@@ -163,8 +163,8 @@ void Viewer::handle(const gl::KeyPressed& event) {
 }
 
 // The body is pulled in the plane of the picture in which the vertex was picked. Positions visit the CPU for that one time.
-void Viewer::handle(const gl::MousePressed& event) {
-  if (event.button != gl::MouseButton::left || !event.with_control) return;
+void Viewer::handle(const MousePressed& event) {
+  if (event.button != MouseButton::left || !event.with_control) return;
   const std::vector<glm::vec4> positions = session_->simulation().world_positions();
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
   const std::optional<std::uint32_t> vertex = pick_vertex(session_->model(), positions, ray_through(camera_, event.place, size));
@@ -173,25 +173,25 @@ void Viewer::handle(const gl::MousePressed& event) {
   session_->pull(pull_ = Pull{.vertex = *vertex, .target = pulled_from_});
 }
 
-void Viewer::handle(const gl::MouseReleased& event) {
-  if (event.button != gl::MouseButton::left) return;
+void Viewer::handle(const MouseReleased& event) {
+  if (event.button != MouseButton::left) return;
   pull_.reset();
   session_->pull(pull_);
 }
 
-void Viewer::handle(const gl::MouseMoved& event) {
+void Viewer::handle(const MouseMoved& event) {
   if (!event.held) return;
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
   if (pull_) {
     pull_->target = meet_plane(ray_through(camera_, event.to, size), pulled_from_, render::axes_of(camera_).back);
     return session_->pull(pull_);
   }
-  camera_ = (*event.held == gl::MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
+  camera_ = (*event.held == MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
 }
 
-void Viewer::handle(const gl::MouseScrolled& event) { camera_ = zoom(camera_, event.notches); }
+void Viewer::handle(const MouseScrolled& event) { camera_ = zoom(camera_, event.notches); }
 
-void Viewer::handle(const gl::FilesDropped& event) {
+void Viewer::handle(const FilesDropped& event) {
   message_.clear();
   try_to([&] { open_file(event.files.front()); });
 }

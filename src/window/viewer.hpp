@@ -33,7 +33,7 @@ class Viewer {
   [[nodiscard]] static std::string help();
 
   /// The window must outlive it; a GPU device runs in its context. Throws Error.
-  Viewer(gl::Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options);
+  Viewer(Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options);
 
   /// Until the window is closed. What a user's wish leads to that can't be is told on standard error and in the title; only a
   /// device that fails throws Error.
@@ -47,13 +47,13 @@ class Viewer {
   void open(LoadedScene scene);
   void await_events();
   void handle_events();
-  void handle(const gl::KeyPressed& event);
-  void handle(const gl::MousePressed& event);
-  void handle(const gl::MouseReleased& event);
-  void handle(const gl::MouseMoved& event);
-  void handle(const gl::MouseScrolled& event);
-  void handle(const gl::FilesDropped& event);
-  void handle(const gl::PictureNeeded&) { shown_.reset(); }
+  void handle(const KeyPressed& event);
+  void handle(const MousePressed& event);
+  void handle(const MouseReleased& event);
+  void handle(const MouseMoved& event);
+  void handle(const MouseScrolled& event);
+  void handle(const FilesDropped& event);
+  void handle(const PictureNeeded&) { shown_.reset(); }
   void try_to(const std::function<void()>& wish);
   void play();
   void tell_if_broken();
@@ -82,7 +82,7 @@ class Viewer {
   void tell();  // in the title, and in the report if there is one
   [[nodiscard]] std::string title() const;
 
-  gl::Window& window_;
+  Window& window_;
   std::unique_ptr<Device> device_;
   std::function<std::unique_ptr<Device>(std::string_view)> make_device_;
   Playback playback_;
@@ -94,7 +94,7 @@ class Viewer {
   std::unique_ptr<Panel> panel_;  // once it has been asked for
   bool shows_panel_ = false, shows_help_ = false;
   Observer observer_;
-  std::deque<gl::WindowEvent> events_;         // not handled yet
+  std::deque<WindowEvent> events_;             // not handled yet
   std::vector<std::filesystem::path> scenes_;  // beside the one that is shown
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]

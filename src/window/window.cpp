@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 
-namespace pliant::gl {
+namespace pliant::view {
 namespace {
 
 constexpr const char* remedy = "`pliant run SCENE --frames png` draws without a window";
@@ -49,7 +49,7 @@ GLFWwindow* make_window(const glm::uvec2& size, const std::string& title) {
   return window;
 }
 
-WindowContext context_of(GLFWwindow* window) {
+gl::WindowContext context_of(GLFWwindow* window) {
   return {.find = glfwGetProcAddress, .make_current = [window] { glfwMakeContextCurrent(window); }};
 }
 
@@ -89,7 +89,7 @@ struct Window::Impl {
 
   Library library;
   GLFWwindow* window;
-  Context context;
+  gl::Context context;
   std::vector<WindowEvent> events;
   glm::uvec2 framebuffer_size{0};     // 0 x 0 while minimised
   glm::dvec2 pixels{1.0};             // in a screen unit
@@ -162,7 +162,7 @@ Window::Window(const glm::uvec2& size, const std::string& title) : impl_(std::ma
 
 Window::~Window() = default;
 
-Context& Window::context() { return impl_->context; }
+gl::Context& Window::context() { return impl_->context; }
 
 glm::uvec2 Window::framebuffer_size() const { return impl_->framebuffer_size; }
 
@@ -190,4 +190,4 @@ void Window::set_title(const std::string& title) { glfwSetWindowTitle(impl_->win
 
 void Window::swap() { glfwSwapBuffers(impl_->window); }
 
-}  // namespace pliant::gl
+}  // namespace pliant::view

@@ -10,7 +10,7 @@
 
 #include "gl/context.hpp"
 
-namespace pliant::gl {
+namespace pliant::view {
 
 enum class MouseButton { left, right };
 
@@ -51,7 +51,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   /// The window's own, current on this thread.
-  [[nodiscard]] Context& context();
+  [[nodiscard]] gl::Context& context();
   /// [pixels]; 0 x 0 while there is nothing to draw into, as when minimised.
   [[nodiscard]] glm::uvec2 framebuffer_size() const;
   /// How much larger than on a usual display its user wants what is drawn, such as 2: the window was made larger so itself.
@@ -72,4 +72,4 @@ class Window {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace pliant::gl
+}  // namespace pliant::view

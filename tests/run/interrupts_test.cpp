@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace pliant::app {
+namespace pliant {
 
 TEST_CASE("a second Ctrl-C counts from a second after the first on, and not before") {
   using namespace std::chrono_literals;
@@ -12,4 +12,4 @@ TEST_CASE("a second Ctrl-C counts from a second after the first on, and not befo
     CHECK(is_another_interrupt(after));
 }
 
-}  // namespace pliant::app
+}  // namespace pliant
