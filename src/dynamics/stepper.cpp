@@ -114,9 +114,12 @@ std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
   return stage_passes("runge_kutta_stage", from_half);
 }
 
-std::vector<Pass> Stepper::following_passes(std::uint32_t from_half) const {
-  return {make_pass(bodies_.arrays, "follow_bodies", {{"from_half", from_half}}, bodies_.body_count),
-          make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count)};
+Pass Stepper::following_pass(std::uint32_t from_half) const {
+  return make_pass(bodies_.arrays, "follow_bodies", {{"from_half", from_half}}, bodies_.body_count);
+}
+
+Pass Stepper::restating_pass(std::uint32_t from_half) const {
+  return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
 Pass Stepper::refresh_pass() const {

@@ -27,8 +27,10 @@ class Stepper {
   [[nodiscard]] std::vector<Pass> first_passes() const;
   /// The passes that take the state in `from_half` one step on, into the other half, and bound every body there.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t from_half) const;
-  /// After passes(): frames follow their bodies' rotation. Each may run beside a pass that uses neither frames nor motions.
-  [[nodiscard]] std::vector<Pass> following_passes(std::uint32_t from_half) const;
+  /// After passes(): frames follow their bodies' rotation; then what is stated in them is restated. Either may run beside a pass
+  /// that uses neither frames nor motions.
+  [[nodiscard]] Pass following_pass(std::uint32_t from_half) const;
+  [[nodiscard]] Pass restating_pass(std::uint32_t from_half) const;
   /// Sums the spring forces at the step's start, of bodies whose kept ones are stale. Part of a splitting's step.
   [[nodiscard]] Pass refresh_pass() const;
 

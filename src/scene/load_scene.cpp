@@ -243,7 +243,6 @@ class TableReader {
 const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none), DampingLaw::none},
                                                       {name_of(DampingLaw::constant), DampingLaw::constant},
                                                       {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
-const std::vector<Choice<ContactResponse>> responses = {{"none", ContactResponse::none}, {"reflect", ContactResponse::reflect}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
@@ -272,7 +271,7 @@ void read_table(TableReader& table, TreeDescription& tree) {
 }
 
 void read_table(TableReader& table, CollisionDescription& collision) {
-  table.read("response", collision.response, responses);
+  table.read("response", collision.response);
   table.read("elasticity", collision.elasticity, fraction);
   table.read("search", collision.search, searches);
   table.read("triangle_test", collision.triangle_test, triangle_tests);

@@ -14,7 +14,7 @@ namespace pliant {
 /// A value that a later layer resolves, with the place to name when it cannot.
 struct Named {
   std::string value;
-  std::string where;  // "file:line: field"
+  std::string where = {};  // "file:line: field"
 };
 
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
@@ -22,7 +22,6 @@ enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
 constexpr const char* name_of(DampingLaw law) {
   return law == DampingLaw::none ? "none" : law == DampingLaw::constant ? "constant" : "adaptive";
 }
-enum class ContactResponse { none, reflect };
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };
 enum class TreeSplit { centre };
@@ -46,7 +45,7 @@ struct TreeDescription {
 };
 
 struct CollisionDescription {
-  ContactResponse response = ContactResponse::reflect;
+  Named response{"reflect"};  // of the list of responses, or none
   double elasticity = 0.9;
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;

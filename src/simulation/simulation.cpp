@@ -13,10 +13,6 @@ namespace {
 
 using physics::Control;
 
-void append(std::vector<Pass>& passes, std::vector<Pass> more) {
-  passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
 std::uint64_t total(const Control& control, std::uint32_t counter) {
   return (static_cast<std::uint64_t>(control.total_high[counter]) << 32) | control.total_low[counter];
 }
@@ -49,44 +45,7 @@ void expect_groups_met(const std::vector<physics::Status>& statuses) {
               "close other programs that use the GPU, or use --device cpu");
 }
 
-// Frames follow beside the last two passes of the search, which use none of what changes; pair_bodies, the first, does.
-std::vector<Pass> search_while_following(std::vector<Pass> search, const std::vector<Pass>& following) {
-  const bool beside = search.size() > following.size();
-  for (std::size_t k = 0; k < following.size(); ++k) {
-    const auto place = search.end() - static_cast<std::ptrdiff_t>(beside ? following.size() - k : 0);
-    search.insert(place, beside ? beside_next(following[k]) : following[k]);
-  }
-  return search;
-}
-
-// Whether a step stands is known when contacts are; no frame follows one that does not.
-std::vector<Pass> search_and_judge(std::vector<Pass> search, const std::vector<Pass>& following, const Pacer& pacer,
-                                   std::uint32_t from_half) {
-  std::vector<Pass> passes{pacer.estimating_pass()};
-  if (!search.empty()) search.push_back(pacer.contact_pass(from_half));
-  append(passes, std::move(search));
-  append(passes, pacer.judging_passes(from_half));
-  append(passes, following);
-  return passes;
-}
-
 }  // namespace
-
-std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
-                              std::uint32_t from_half, const Pacer* pacer) {
-  std::vector<Pass> passes;
-  if (pacer != nullptr) passes.push_back(pacer->beginning_pass());
-  append(passes, stepper.passes(from_half));
-  std::vector<Pass> search;
-  if (collider != nullptr) search = collider->contact_passes(1 - from_half);
-  const std::vector<Pass> following = stepper.following_passes(from_half);
-  append(passes, pacer == nullptr ? search_while_following(std::move(search), following)
-                                  : search_and_judge(std::move(search), following, *pacer, from_half));
-  if (collider != nullptr) append(passes, collider->response_passes(from_half));
-  // The next step's first pass asks for nothing that changes.
-  passes.push_back(beside_next(make_pass(bodies.arrays, "finish_step", {}, physics::counter_count)));
-  return passes;
-}
 
 Simulation::Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan,
                        const CollisionDescription& collision)
@@ -96,8 +55,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       stepper_(bodies_, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
       collider_(bodies_, model, collision),
-      fixed_step_(plan.time_step),
-      responds_(collision.response == ContactResponse::reflect) {
+      fixed_step_(plan.time_step) {
   if (plan.tolerance) {
     pacer_.emplace(bodies_, model, stepper_, *plan.integrator, plan.damping_law,
                    PaceLimits{.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
@@ -108,7 +66,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
-  return step_passes(bodies_, stepper_, responds_ ? &collider_ : nullptr, from_half, pacer_ ? &*pacer_ : nullptr);
+  return step_passes(bodies_, stepper_, collider_, from_half, pacer_ ? &*pacer_ : nullptr);
 }
 
 void Simulation::queue(std::uint64_t steps) {
@@ -177,7 +135,7 @@ StepReport Simulation::report() {
   }
   add_collision_counts(report, control);
   const std::uint64_t searches = report.steps + (report.adaptive ? report.adaptive->rejected : 0);
-  if (responds_ && collider_.uses_trees())
+  if (collider_.response() != nullptr && collider_.uses_trees())
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
   expect_groups_met(bodies_.statuses.download());
   add_force_counts(report, model_, bodies_.tallies.download());
@@ -208,7 +166,7 @@ void Simulation::restore(std::string_view saved) {
 
 std::vector<std::uint32_t> Simulation::touching_vertices() {
   const std::uint32_t latest = control().step - 1;
-  const std::vector<std::uint32_t> marks = collider_.marks();
+  const std::vector<std::uint32_t> marks = collider_.touching().marks();
   std::vector<std::uint32_t> touching;
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (latest > 0 && marks[i] == latest) touching.push_back(i);
@@ -222,18 +180,19 @@ Intersections Simulation::intersections() {
   probe.non_finite_step = 0;
   probe.non_finite_vertex = physics::no_vertex;
   const std::uint32_t current = half();
-  const std::vector<std::uint32_t> marks_before = collider_.marks();
+  const std::vector<std::uint32_t> marks_before = collider_.touching().marks();
   bodies_.control.upload(std::span(&probe, 1));
   bodies_.prepare_search();
-  device_.run(collider_.bounding_passes(current));
-  device_.run(collider_.contact_passes(current));
+  const Pass bounding = collider_.bounding_pass(current);
+  device_.run({&bounding, 1});
+  device_.run(collider_.search_passes(current));
 
   Intersections result{.pairs = bodies_.control.download().front().count[physics::contact_pairs], .bodies = {}};
-  const std::vector<std::uint32_t> marks = collider_.marks();
+  const std::vector<std::uint32_t> marks = collider_.touching().marks();
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (marks[i] == probe.step && (result.bodies.empty() || result.bodies.back() != model_.body_index(i)))
       result.bodies.push_back(model_.body_index(i));
-  collider_.restore_marks(marks_before);
+  collider_.touching().restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
   bodies_.prepare_search();  // the next step's are its own
   return result;

@@ -1,4 +1,4 @@
-// The order of one step: integrate, bound, find contacts, respond, count. Recorded once, then run without reading back.
+// Runs steps that were recorded once, without reading back, and reports on them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
+#include "simulation/step_passes.hpp"
 #include "simulation/time_plan.hpp"
 #include "state/device_bodies.hpp"
 
@@ -64,10 +65,6 @@ struct Intersections {
   std::uint64_t pairs = 0;
   std::vector<std::uint32_t> bodies;  // that take part
 };
-
-/// One step in order, from `from_half` into the other. A null collider: no contacts. A null pacer: a step of fixed length.
-[[nodiscard]] std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider* collider,
-                                            std::uint32_t from_half, const Pacer* pacer = nullptr);
 
 class Simulation {
  public:
@@ -128,7 +125,6 @@ class Simulation {
   std::optional<Pacer> pacer_;                     // where a tolerance governs the steps
   physics::Pace known_pace_{};                     // of the latest report
   double fixed_step_;                              // else their length [s]
-  bool responds_;                                  // to contacts; else none are looked for
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once for all who ask between steps
   std::uint64_t queued_steps_ = 0;                 // rejected and empty ones count here

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "collision/tree.hpp"
+#include "collision/trees/tree.hpp"
 #include "model/model.hpp"
 #include "render/line_overlay.hpp"
 

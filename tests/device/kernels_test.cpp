@@ -10,6 +10,7 @@
 #include "dynamics/grip.hpp"
 #include "gl/context.hpp"
 #include "gl/shader_source.hpp"
+#include "simulation/step_passes.hpp"
 #include "support/collision_scene.hpp"
 #include "support/has.hpp"
 
@@ -45,7 +46,7 @@ struct Bench {
 
   // With a pull at its end.
   std::vector<Pass> step(std::uint32_t from_half) {
-    std::vector<Pass> passes = step_passes(bodies, stepper, &collider, from_half, pacer ? &*pacer : nullptr);
+    std::vector<Pass> passes = step_passes(bodies, stepper, collider, from_half, pacer ? &*pacer : nullptr);
     std::ranges::copy(grip.passes(1 - from_half), std::back_inserter(passes));
     return passes;
   }
@@ -157,7 +158,7 @@ BufferId buffer_of(const Bench& bench, const Pass& pass, std::string_view array)
 // By the declarations of the kernel's file and of all that it includes.
 std::vector<Written> written_arrays(const Bench& cpu, const Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
   std::set<std::string> names;
-  for (const auto& array : gpu.device->signature(gpu_pass.call.kernel).arrays)
+  for (const auto& array : cpu.device->signature(cpu_pass.call.kernel).arrays)
     if (array.use == ArrayUse::write) names.insert(array.array);
   std::vector<Written> written;
   for (const std::string& name : names)
@@ -228,8 +229,9 @@ void compare_pass(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_
 }
 
 void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::string_view>& seen) {
-  for (const auto& [on_cpu, on_gpu] : {std::pair{cpu.stepper.first_passes(), gpu.stepper.first_passes()},
-                                       {cpu.collider.bounding_passes(0), gpu.collider.bounding_passes(0)}}) {
+  for (const auto& [on_cpu, on_gpu] :
+       {std::pair{cpu.stepper.first_passes(), gpu.stepper.first_passes()},
+        {std::vector{cpu.collider.bounding_pass(0)}, std::vector{gpu.collider.bounding_pass(0)}}}) {
     compare_pass(cpu, gpu, on_cpu.front(), on_gpu.front());
     seen.insert(on_cpu.front().name);
   }
@@ -321,14 +323,15 @@ TEST_CASE("boxes of trees are the same bits on CPU and GPU, and bound their tria
   for (std::size_t i = start.model.bodies[1].first_vertex; i < positions.size(); ++i) positions[i].x -= 0.3f;
   for (const auto& bench : benches) {
     bench->bodies.world_positions.upload(positions, positions.size());
-    for (const auto& passes : {bench->collider.bounding_passes(1), bench->collider.contact_passes(1)}) bench->device->run(passes);
+    for (const auto& passes : {std::vector{bench->collider.bounding_pass(1)}, bench->collider.search_passes(1)})
+      bench->device->run(passes);
     const Forest& forest = bench->collider.forest();
-    const auto boxes = bench->collider.node_boxes();
+    const auto boxes = bench->collider.trees().node_boxes();
     std::size_t wrong = 0, kept = 0;
     std::vector<unsigned> depth(forest.nodes.size(), 0);
     for (std::size_t n = 0; n < forest.nodes.size(); ++n) {
       if (forest.nodes[n].y != no_node) depth[n] = depth[forest.nodes[n].y] + 1;
-      if (depth[n] < bench->collider.start_depth()) continue;
+      if (depth[n] < bench->collider.trees().start_depth()) continue;
       ++kept;
       glm::vec3 lower(1e30f), upper(-1e30f);
       for (std::uint32_t t = forest.nodes[n].z; t < forest.nodes[n].w; ++t)

@@ -1,7 +1,7 @@
 // Stages that one dispatch runs, with work groups that wait for each other, against a dispatch a stage.
 #include <catch2/catch.hpp>
 
-#include "dynamics/stepper.hpp"
+#include "simulation/step_passes.hpp"
 #include "support/evolve.hpp"
 
 namespace pliant {
@@ -42,7 +42,7 @@ Outcome after_five_steps(Device& device, const ModelAndState& start, const Metho
   CHECK((all_stages ? passes <= 3 : passes >= stepper.stage_count()));
   for (std::uint32_t step = 0; step < 5; ++step) {
     device.run(stepper.passes(step % 2));
-    device.run(stepper.following_passes(step % 2));
+    for (const Pass& pass : {stepper.following_pass(step % 2), stepper.restating_pass(step % 2)}) device.run({&pass, 1});
   }
   return outcome_of(bodies, 1);
 }
@@ -63,9 +63,10 @@ AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start,
   const Stepper stepper(bodies, *plan.integrator, plan.damping_law, plan.time_step, Stages::of_estimates);
   Pacer pacer(bodies, start.model, stepper, *plan.integrator, plan.damping_law,
               {.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
+  const Collider collider(bodies, start.model, {.response = {"none"}});
   device.run(stepper.first_passes());
   pacer.aim_at(6 / omega);
-  for (std::uint32_t step = 0; step < 24; ++step) device.run(step_passes(bodies, stepper, nullptr, step % 2, &pacer));
+  for (std::uint32_t step = 0; step < 24; ++step) device.run(step_passes(bodies, stepper, collider, step % 2, &pacer));
   const physics::Pace pace = pacer.pace();
   return {outcome_of(bodies, 0), pace.accepted, pace.rejected, pace.verdict, pace.time, pace.allowed};
 }

@@ -14,14 +14,14 @@
 namespace pliant {
 namespace {
 
-CollisionDescription with_response(ContactResponse response) {
+CollisionDescription with_response(Named response) {
   CollisionDescription collision;
   collision.response = response;
   return collision;
 }
 
 struct Run {
-  Run(Device& device, const ModelAndState& start, const Adaptive& adaptive, ContactResponse response = ContactResponse::none)
+  Run(Device& device, const ModelAndState& start, const Adaptive& adaptive, Named response = Named{"none"})
       : simulation(device, start.model, start.state, plan_of(adaptive, start.model), with_response(response)) {}
   Simulation simulation;
 };
@@ -62,7 +62,7 @@ std::uint64_t nodes_of_a_search(const Collider& collider) {
   std::vector<unsigned> depths;
   for (const glm::uvec4& node : collider.forest().nodes) depths.push_back(node.y == no_node ? 0 : depths[node.y] + 1);
   return static_cast<std::uint64_t>(
-      std::ranges::count_if(depths, [&](unsigned depth) { return depth >= collider.start_depth(); }));
+      std::ranges::count_if(depths, [&](unsigned depth) { return depth >= collider.trees().start_depth(); }));
 }
 
 double largest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
@@ -195,7 +195,7 @@ TEST_CASE("the way in a contact is held against the finest body's edges, whichev
     }
     const ModelAndState start = build_model(bodies, glm::dvec3(0.0));
     const auto device = make_cpu_device(1, 64);
-    Run run(*device, start, {"dop853", 1e-2, 0.2}, ContactResponse::reflect);
+    Run run(*device, start, {"dop853", 1e-2, 0.2}, Named{"reflect"});
     StepReport before = run.simulation.report(), report = before;
     while (report.contact_steps == 0 && report.time < 0.2) report = run.simulation.advance_toward(0.2, 1);
     REQUIRE(report.contact_steps == 1);
@@ -209,7 +209,7 @@ TEST_CASE("the way in a contact is held against the finest body's edges, whichev
 TEST_CASE("stages that only estimates use are taken with a tolerance alone") {
   const ModelAndState start = squashed();
   const auto device = make_cpu_device(1, 64);
-  Simulation fixed(*device, start.model, start.state, plan_of({"vern8", 0.01}), with_response(ContactResponse::none));
+  Simulation fixed(*device, start.model, start.state, plan_of({"vern8", 0.01}), with_response(Named{"none"}));
   fixed.advance(3);
   CHECK(fixed.report().force_evaluations == 3 * 12);
   Run run(*device, start, {"vern8"});
@@ -223,7 +223,7 @@ TEST_CASE("a step rejected for its error or in contact changes nothing") {
   for (const TestDevice& test : all_devices())
     for (const double tolerance : {1e-6, 0.1}) {
       CAPTURE(test.name, tolerance);
-      Run run(*test.device, start, {.tolerance = tolerance, .first_step = huge}, ContactResponse::reflect);
+      Run run(*test.device, start, {.tolerance = tolerance, .first_step = huge}, Named{"reflect"});
       const auto positions = drawn_positions(run.simulation);
       StepReport report = run.simulation.advance_toward(huge);  // as many steps as the length allowed suggests: one
       REQUIRE((report.steps == 0 && report.adaptive->rejected == 1 && report.time == 0));
@@ -235,7 +235,7 @@ TEST_CASE("a step rejected for its error or in contact changes nothing") {
       // What can't be seen is as it was, too: the step that stands at last, and what follows, might as well have come first.
       while (report.steps == 0) report = run.simulation.advance_toward(report.time + report.adaptive->next_step);
       REQUIRE(report.steps == 1);
-      Run direct(*test.device, start, {.tolerance = tolerance, .first_step = report.time}, ContactResponse::reflect);
+      Run direct(*test.device, start, {.tolerance = tolerance, .first_step = report.time}, Named{"reflect"});
       CHECK(direct.simulation.advance_toward(report.time).adaptive->rejected == 0);
       CHECK(same_bits(run.simulation.state(), direct.simulation.state()));
       CHECK((drawn_positions(run.simulation) == drawn_positions(direct.simulation)));
@@ -329,7 +329,7 @@ TEST_CASE("adaptive runs with contacts give the same bits on any number of threa
   State state;
   for (const unsigned threads : {1u, 2u, 7u}) {
     const auto device = make_cpu_device(threads, 32);
-    Run run(*device, start, {.law = DampingLaw::adaptive}, ContactResponse::reflect);
+    Run run(*device, start, {.law = DampingLaw::adaptive}, Named{"reflect"});
     const StepReport now = run.simulation.advance_to(0.3);
     CHECK(now.contact_steps > 0);
     CHECK(now.time == 0.3);
@@ -343,7 +343,7 @@ TEST_CASE("the step after one with a contact is no longer than the first") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
   const double first = 2e-4;
-  Run run(*device, start, {.first_step = first}, ContactResponse::reflect);
+  Run run(*device, start, {.first_step = first}, Named{"reflect"});
   StepReport report = run.simulation.report();
   int long_steps_before_contacts = 0, long_steps_with_contact = 0;
   bool contact_before = false;
@@ -367,7 +367,7 @@ TEST_CASE("bodies that meet fast part again, however long steps were before the 
     setups[0].description.velocity = {16, 0, 0};
     setups[1].description.velocity = {-16, 0, 0};
     const ModelAndState start = build_model(setups, {0, 0, 0});
-    Run run(*test.device, start, {.tolerance = 1e-2, .first_step = 0.02}, ContactResponse::reflect);
+    Run run(*test.device, start, {.tolerance = 1e-2, .first_step = 0.02}, Named{"reflect"});
     const StepReport report = run.simulation.advance_to(0.4);
     CHECK(report.adaptive->rejected_in_contact > 0);
     CHECK(report.contact_steps > 0);
@@ -407,7 +407,7 @@ TEST_CASE("triangles that touch are found whatever the latest step was") {
 TEST_CASE("every search refits or skips every tree, also of steps that are rejected") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
-  Run run(*device, start, {}, ContactResponse::reflect);
+  Run run(*device, start, {}, Named{"reflect"});
   const StepReport report = run.simulation.advance_to(0.2);
   REQUIRE(report.adaptive->rejected > 0);
   const std::uint64_t searches = report.steps + report.adaptive->rejected;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "collision/oracle.hpp"
+#include "collision/contacts/oracle.hpp"
 #include "gl/context.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
@@ -62,12 +62,14 @@ PairSet pairs_by_tree(Device& device, const ModelAndState& start, const Collisio
   Collider collider(bodies, start.model, description);
   bodies.world_positions.upload(positions);
   bodies.prepare_search();
-  device.run(collider.bounding_passes(0));
-  device.run(collider.contact_passes(0));
+  const Pass bounding = collider.bounding_pass(0);
+  device.run({&bounding, 1});
+  device.run(collider.search_passes(0));
   const Forest& forest = collider.forest();
   const PairSet all = as_set(intersecting_pairs(start.model, positions, description.triangle_test));
   PairSet listed;
-  for (const glm::uvec2& pair : collider.leaf_pairs()) add_pairs(listed, forest, forest.nodes[pair.x], forest.nodes[pair.y]);
+  for (const glm::uvec2& pair : collider.trees().leaf_pairs())
+    add_pairs(listed, forest, forest.nodes[pair.x], forest.nodes[pair.y]);
   PairSet found;
   std::set_intersection(listed.begin(), listed.end(), all.begin(), all.end(), std::inserter(found, found.end()));
   CHECK(bodies.control.download().front().count[physics::contact_pairs] == all.size());

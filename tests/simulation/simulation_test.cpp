@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "collision/oracle.hpp"
+#include "collision/contacts/oracle.hpp"
 #include "support/collision_scene.hpp"
 #include "support/has.hpp"
 
@@ -100,7 +100,7 @@ TEST_CASE("vertices in contact go back bit for bit with their velocity reversed 
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
     CollisionDescription none, reflect;
-    none.response = ContactResponse::none;
+    none.response = Named{"none"};
     reflect.elasticity = 0.7;
     Simulation simulation(*test.device, start.model, start.state, plan_of(usual), reflect);
     std::size_t reverted = 0;
@@ -109,7 +109,7 @@ TEST_CASE("vertices in contact go back bit for bit with their velocity reversed 
       const State from = simulation.state();
       const Outcome free = collide(*test.device, {start.model, from}, usual, 1, none);
       simulation.advance(1);
-      const auto marks = simulation.collider().marks();
+      const auto marks = simulation.collider().touching().marks();
       const auto after = simulation.world_positions();
       const State to = simulation.state();
       for (std::size_t i = 0; i < marks.size(); ++i) {
@@ -136,7 +136,7 @@ StepReport check_marks(Device& device, const ModelAndState& start) {
   const std::vector<bool> touched = touched_vertices(start.model, pairs);
   CHECK(std::count(touched.begin(), touched.end(), true) > 10);
   CHECK(std::count(touched.begin(), touched.end(), false) > 10);
-  const auto marks = simulation.collider().marks();
+  const auto marks = simulation.collider().touching().marks();
   for (std::size_t i = 0; i < marks.size(); ++i) CHECK((marks[i] == 1) == touched[i]);
   return simulation.report();
 }
@@ -215,7 +215,7 @@ TEST_CASE("pairs beyond the list's capacity are tested where they are found, and
 TEST_CASE("bodies that have parted are no longer reported as touching", "[gl]") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   CollisionDescription none;
-  none.response = ContactResponse::none;  // they pass through each other
+  none.response = Named{"none"};  // they pass through each other
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
     Simulation simulation(*test.device, start.model, start.state, plan_of(usual), none);
@@ -245,8 +245,9 @@ std::uint32_t contacts_at_gap(Device& device, float gap, const CollisionDescript
   const Collider collider(bodies, start.model, description);
   bodies.world_positions.upload(positions);  // the very bits: the model rounds
   bodies.prepare_search();
-  device.run(collider.bounding_passes(0));
-  device.run(collider.contact_passes(0));
+  const Pass bounding = collider.bounding_pass(0);
+  device.run({&bounding, 1});
+  device.run(collider.search_passes(0));
   const physics::Control control = bodies.control.download().front();
   CHECK(control.near_pair_count == 1);
   CHECK(control.count[physics::contact_pairs] == intersecting_pairs(start.model, positions, description.triangle_test).size());

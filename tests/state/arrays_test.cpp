@@ -62,11 +62,11 @@ TEST_CASE("parameters go by name, and each has the kernel's type") {
   DeviceBodies bodies(*device, start.model, start.state);
   bodies.arrays.make<double>("kept_force", 3 * start.model.vertex_count());
   bodies.arrays.make<std::uint32_t>("mark", start.model.vertex_count());
-  const auto record = [&](Parameters parameters) { return make_pass(bodies.arrays, "respond", parameters, 1); };
+  const auto record = [&](Parameters parameters) { return make_pass(bodies.arrays, "reflect", parameters, 1); };
   CHECK_NOTHROW(record({{"elasticity", 0.9}, {"from_half", 0u}}));
   CHECK(record({{"elasticity", 0.9}, {"from_half", 1u}}).call.parameters ==
         record({{"from_half", 1u}, {"elasticity", 0.9}}).call.parameters);
-  CHECK_THROWS_WITH(record({{"elasticity", 0.9}}), Contains("respond") && Contains("from_half"));
+  CHECK_THROWS_WITH(record({{"elasticity", 0.9}}), Contains("reflect") && Contains("from_half"));
   CHECK_THROWS_WITH(record({{"elasticity", 1u}, {"from_half", 0u}}), Contains("elasticity") && Contains("double"));
   CHECK_THROWS_WITH(record({{"elasticity", 0.9}, {"from_half", 0u}, {"friction", 0.5}}), Contains("friction"));
 }

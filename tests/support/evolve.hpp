@@ -70,16 +70,14 @@ inline TimePlan plan_of(const Adaptive& adaptive, const Model& model) {
 /// The state after `steps` steps, without contacts.
 inline State evolve(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps) {
   CollisionDescription apart;
-  apart.response = ContactResponse::none;
+  apart.response = Named{"none"};
   Simulation simulation(device, start.model, start.state, plan_of(method), apart);
   simulation.advance(steps);
   return simulation.state();
 }
 
 /// The stiffest mode's angular frequency [1/s].
-inline double stiffest_omega(const Model& model) {
-  return stiffest_frequency(model.bodies.front());
-}
+inline double stiffest_omega(const Model& model) { return stiffest_frequency(model.bodies.front()); }
 
 /// The larger of two numbers, infinite where one is NaN: a largest error that a NaN cannot slip through.
 template <std::floating_point T>

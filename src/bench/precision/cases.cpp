@@ -36,7 +36,7 @@ PrecisionCase make_case(std::string name, std::span<const BodySetup> setups, dou
   PrecisionCase made;
   made.name = std::move(name);
   made.start = build_model(setups, glm::dvec3(0.0));
-  made.collision.response = ContactResponse::none;
+  made.collision.response = Named{"none"};
   made.omega = omega_of(made.start.model);
   made.duration = phase / made.omega;
   made.reference_steps = static_cast<std::uint64_t>(std::ceil(phase / reference_step));
@@ -73,7 +73,7 @@ PrecisionCase collision(int level, const char* name, double phase, double refere
     setups[k].description.velocity = {-0.02 * omega * side, 0, 0};
   }
   PrecisionCase made = make_case(name, setups, phase, reference_step);
-  made.collision.response = ContactResponse::reflect;
+  made.collision.response = Named{"reflect"};
   made.with_peers = false;
   return made;
 }

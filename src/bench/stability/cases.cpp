@@ -27,7 +27,7 @@ static_assert(2 * growth_samples * growth_stride == steps_of_growth);
 
 CollisionDescription alone() {
   CollisionDescription description;
-  description.response = ContactResponse::none;
+  description.response = Named{"none"};
   return description;
 }
 

@@ -33,7 +33,7 @@ PrecisionCase squashed_sphere(DampingLaw law) {
   PrecisionCase what;
   what.start = build_model({&setup, 1}, glm::dvec3(0.0));
   what.damping_law = law;
-  what.collision.response = ContactResponse::none;
+  what.collision.response = Named{"none"};
   what.omega = std::sqrt(what.start.model.vertex_count() * setup.description.stiffness);
   what.duration = 5 / what.omega;
   what.reference_steps = 500;

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "collision/degenerate_cases.hpp"
+#include "collision/contacts/degenerate_cases.hpp"
 
 namespace pliant::testing {
 namespace {

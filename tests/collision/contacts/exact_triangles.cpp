@@ -1,4 +1,4 @@
-#include "collision/exact_triangles.hpp"
+#include "collision/contacts/exact_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>

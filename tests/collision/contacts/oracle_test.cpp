@@ -1,9 +1,9 @@
-#include "collision/oracle.hpp"
+#include "collision/contacts/oracle.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "collision/degenerate_cases.hpp"
+#include "collision/contacts/degenerate_cases.hpp"
 
 namespace pliant::testing {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "collision/degenerate_cases.hpp"
-#include "collision/exact_triangles.hpp"
+#include "collision/contacts/degenerate_cases.hpp"
+#include "collision/contacts/exact_triangles.hpp"
 
 namespace pliant::testing {
 namespace {

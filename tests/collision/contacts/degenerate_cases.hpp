@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/exact_triangles.hpp"
+#include "collision/contacts/exact_triangles.hpp"
 #include "model/model.hpp"
 
 namespace pliant::testing {

@@ -1,4 +1,4 @@
-#include "collision/degenerate_cases.hpp"
+#include "collision/contacts/degenerate_cases.hpp"
 
 #include <algorithm>
 #include <fstream>

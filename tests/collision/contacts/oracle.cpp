@@ -1,4 +1,4 @@
-#include "collision/oracle.hpp"
+#include "collision/contacts/oracle.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -17,7 +17,7 @@ PARAMETER(uint, from_half)
 PARAMETER(double, elasticity)
 #include "parts/place.glsl"
 
-void respond(uint i) {
+void reflect(uint i) {
   if (mark[i] != control[0].step) return;
   uint b = uint(rest_position[i].w);
   if (status[b].activity != moving) return;

@@ -1,4 +1,4 @@
-#include "collision/tree.hpp"
+#include "collision/trees/tree.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

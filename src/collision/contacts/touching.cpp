@@ -1,0 +1,58 @@
+#include "collision/contacts/touching.hpp"
+
+#include <algorithm>
+
+#include "collision/trees/tree_search.hpp"
+
+namespace pliant {
+namespace {
+
+static_assert(static_cast<std::uint32_t>(TriangleTest::certified) == physics::certified_test);
+static_assert(static_cast<std::uint32_t>(TriangleTest::moller) == physics::moller_test);
+
+// See TreeSearch.
+constexpr std::uint32_t least_threads = 4096, most_threads = 16384;
+
+std::uint32_t largest_triangle_count(const Model& model) {
+  std::uint32_t largest = 0;
+  for (const ModelBody& body : model.bodies) largest = std::max(largest, body.triangle_count);
+  return largest;
+}
+
+}  // namespace
+
+Touching::Touching(DeviceBodies& bodies, const Model& model, TriangleTest test, std::uint32_t parallel_items,
+                   std::uint32_t most_near_pairs)
+    : bodies_(bodies),
+      triangle_test_(static_cast<std::uint32_t>(test)),
+      parallel_items_(parallel_items),
+      most_near_pairs_(most_near_pairs),
+      largest_body_(largest_triangle_count(model)) {
+  bodies.arrays.make<std::uint32_t>("mark", bodies.vertex_count);
+}
+
+Pass Touching::testing_pass(std::uint32_t half) const {
+  const std::uint32_t pairs = std::clamp(parallel_items_, least_threads, most_threads) / physics::threads_per_leaf_pair;
+  return make_pass(bodies_.arrays, "test_pairs",
+                   {{"first_position", half * bodies_.vertex_count},
+                    {"triangle_test", triangle_test_},
+                    {"leaf_pair_capacity", leaf_pair_capacity},
+                    {"pairs_at_once", pairs}},
+                   pairs * physics::threads_per_leaf_pair);
+}
+
+Pass Touching::brute_force_pass(std::uint32_t half) const {
+  const std::uint32_t pairs = pairs_at_once(parallel_items_, largest_body_, most_near_pairs_);
+  return make_pass(bodies_.arrays, "test_all_pairs",
+                   {{"first_position", half * bodies_.vertex_count},
+                    {"triangle_test", triangle_test_},
+                    {"threads_per_pair", largest_body_},
+                    {"pairs_at_once", pairs}},
+                   pairs * largest_body_);
+}
+
+std::vector<std::uint32_t> Touching::marks() const { return bodies_.arrays.get<std::uint32_t>("mark").download(); }
+
+void Touching::restore_marks(std::span<const std::uint32_t> marks) { bodies_.arrays.get<std::uint32_t>("mark").upload(marks); }
+
+}  // namespace pliant

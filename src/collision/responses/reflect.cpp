@@ -1,0 +1,23 @@
+#include "collision/responses/reflect.hpp"
+
+namespace pliant {
+namespace {
+
+class Reflect final : public Response {
+ public:
+  explicit Reflect(const ResponseSetting& setting) : bodies_(setting.bodies), elasticity_(setting.description.elasticity) {}
+
+  std::vector<Pass> after_step(std::uint32_t from_half) const override {
+    return {make_pass(bodies_.arrays, "reflect", {{"from_half", from_half}, {"elasticity", elasticity_}}, bodies_.vertex_count)};
+  }
+
+ private:
+  const DeviceBodies& bodies_;
+  double elasticity_;
+};
+
+}  // namespace
+
+std::unique_ptr<Response> make_reflect(const ResponseSetting& setting) { return std::make_unique<Reflect>(setting); }
+
+}  // namespace pliant

@@ -1,0 +1,43 @@
+// The forest on a device: refits the trees of near bodies and descends them to pairs of leaves.
+#pragma once
+#include <vector>
+
+#include "collision/trees/tree.hpp"
+#include "device/pass.hpp"
+#include "scene/scene_description.hpp"
+#include "state/device_bodies.hpp"
+
+namespace pliant {
+
+/// Threads that share a list whose length the device alone knows: as many as keep the device busy, but not too few.
+[[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
+
+// A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
+inline constexpr std::uint32_t leaf_pair_capacity = 1u << 18;
+
+class TreeSearch {
+ public:
+  /// `bodies` must outlive this. Searches are cut for `parallel_items` threads at once.
+  TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t parallel_items, std::uint32_t most_near_pairs);
+
+  /// Refits the trees of bodies that are near another to the positions at `half`.
+  [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
+  /// Lists the pairs of leaves whose boxes overlap.
+  [[nodiscard]] Pass finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const;
+
+  /// Searches start from the nodes at this depth; boxes of those above are not kept.
+  [[nodiscard]] unsigned start_depth() const { return start_depth_; }
+  /// Of the latest search: two leaves whose boxes overlap, in no fixed order, as many as fit the list.
+  [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
+  /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
+  [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
+
+ private:
+  DeviceBodies& bodies_;
+  std::uint32_t parallel_items_;
+  std::uint32_t most_near_pairs_;
+  std::uint32_t leaf_count_, node_count_;
+  unsigned start_depth_;
+};
+
+}  // namespace pliant

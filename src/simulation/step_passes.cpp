@@ -1,0 +1,75 @@
+#include "simulation/step_passes.hpp"
+
+namespace pliant {
+namespace {
+
+class List {
+ public:
+  void add(Pass pass) { passes_.push_back(std::move(pass)); }
+  void add(std::vector<Pass> passes) {
+    for (Pass& pass : passes) add(std::move(pass));
+  }
+  std::vector<Pass> take() { return std::move(passes_); }
+
+ private:
+  std::vector<Pass> passes_;
+};
+
+// Frames follow beside the passes of a search that use none of what changes.
+void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
+  const std::uint32_t half = 1 - from_half;
+  step.add(collider.pairing_passes());
+  step.add(collider.refitting_passes(half));
+  step.add(beside_next(stepper.following_pass(from_half)));
+  step.add(collider.finding_passes(half));
+  step.add(beside_next(stepper.restating_pass(from_half)));
+  step.add(collider.testing_passes(half));
+}
+
+void add_search(List& step, const Collider& collider, std::uint32_t half) {
+  step.add(collider.pairing_passes());
+  step.add(collider.refitting_passes(half));
+  step.add(collider.finding_passes(half));
+  step.add(collider.testing_passes(half));
+}
+
+void add_following(List& step, const Stepper& stepper, std::uint32_t from_half) {
+  step.add(stepper.following_pass(from_half));
+  step.add(stepper.restating_pass(from_half));
+}
+
+}  // namespace
+
+std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider,
+                              std::uint32_t from_half, const Pacer* pacer) {
+  const std::uint32_t half = 1 - from_half;
+  const Response* const response = collider.response();
+  const bool searches = response != nullptr && collider.searches();
+  List step;
+  // length
+  if (pacer != nullptr) step.add(pacer->beginning_pass());
+  // kick
+  if (searches) step.add(response->before_step(from_half));
+  // integrate
+  step.add(stepper.passes(from_half));
+  // find contacts; frames follow, but no step that a tolerance undoes
+  if (pacer != nullptr) {
+    step.add(pacer->estimating_pass());
+    if (searches) add_search(step, collider, half);
+    if (searches) step.add(pacer->contact_pass(from_half));
+    step.add(pacer->judging_passes(from_half));
+    add_following(step, stepper, from_half);
+  } else if (searches && collider.uses_trees()) {
+    add_search_while_following(step, stepper, collider, from_half);
+  } else {
+    if (searches) add_search(step, collider, half);
+    add_following(step, stepper, from_half);
+  }
+  // answer contacts
+  if (searches) step.add(response->after_step(from_half));
+  // report; the next step's first pass asks for nothing that changes
+  step.add(beside_next(make_pass(bodies.arrays, "finish_step", {}, physics::counter_count)));
+  return step.take();
+}
+
+}  // namespace pliant
