@@ -7,6 +7,7 @@
 #include "core/thread_pool.hpp"
 #include "core/version.hpp"
 #include "device/cpu/cpu_device.hpp"
+#include "device/cpu/spring_sums.hpp"
 #include "dynamics/integrator.hpp"
 #include "gl/context.hpp"
 
@@ -38,6 +39,12 @@ Json described_integrators() {
   return list;
 }
 
+Json described_cpu() {
+  Json names = Json::array();
+  for (const cpu::Isa isa : cpu::available_isas()) names.push_back(cpu::name_of(isa));
+  return {{"name", cpu::device_name()}, {"threads", thread_count(0)}, {"instruction_sets", names}};
+}
+
 Json described_devices() {
   Json gpus = Json::array();
   std::string reason;
@@ -49,7 +56,7 @@ Json described_devices() {
                     {"software", adapter.is_software},
                     {"largest_buffer_bytes", adapter.largest_buffer},
                     {"storage_blocks", adapter.storage_blocks}});
-  Json result = {{"version", version()}, {"cpu", {{"name", cpu::device_name()}, {"threads", thread_count(0)}}}, {"gpus", gpus}};
+  Json result = {{"version", version()}, {"cpu", described_cpu()}, {"gpus", gpus}};
   if (gpus.empty()) result["missing"] = reason + "; " + remedy;
   return result;
 }

@@ -11,6 +11,7 @@
 
 #include "dynamics/stepper.hpp"
 #include "support/evolve.hpp"
+#include "support/expect_error.hpp"
 
 namespace pliant::cpu {
 namespace {
@@ -291,6 +292,17 @@ TEST_CASE("every way of summing moves bodies as the plain one does, bit for bit 
         CHECK(largest < (precision == 32 ? 1e-6 : 1e-14));
       }
     }
+}
+
+TEST_CASE("an instruction set's name allows it and what is slower, and another name is an error that lists what there is") {
+  const std::vector<Isa> isas{Isa::portable, Isa::avx2};
+  CHECK((isas_up_to("avx2", isas) == isas));
+  CHECK((isas_up_to("portable", isas) == std::vector{Isa::portable}));
+  for (const char* name : {"avx512", "AVX2", "sse"}) {
+    const Error error = error_of([&] { return isas_up_to(name, isas); });
+    CHECK(error.kind() == ErrorKind::device);
+    check_says(error, {"PLIANT_ISA", name, "portable, avx2"});
+  }
 }
 
 TEST_CASE("the widest vectors are the best way of summing") {

@@ -2,9 +2,13 @@
 // the order of additions depends on no thread.
 #include "device/cpu/spring_sums.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 
 namespace pliant::cpu {
@@ -25,6 +29,11 @@ std::vector<Isa> find_isas() {
   return isas;
 }
 
+std::vector<Isa> find_allowed_isas() {
+  const char* const most = std::getenv(isa_variable);
+  return most == nullptr || *most == '\0' ? find_isas() : isas_up_to(most, find_isas());
+}
+
 template <class Real>
 TileFunction<Real> tile_function(Isa isa) {
 #ifdef PLIANT_X86_TILES
@@ -38,8 +47,17 @@ TileFunction<Real> tile_function(Isa isa) {
 }  // namespace
 
 std::span<const Isa> available_isas() {
-  static const std::vector<Isa> isas = find_isas();
+  static const std::vector<Isa> isas = find_allowed_isas();
   return isas;
+}
+
+std::vector<Isa> isas_up_to(std::string_view most, std::span<const Isa> isas) {
+  const auto place = std::ranges::find(isas, most, name_of);
+  if (place != isas.end()) return {isas.begin(), place + 1};
+  std::string names;
+  for (const Isa isa : isas) names += (names.empty() ? "" : ", ") + std::string(name_of(isa));
+  throw Error(ErrorKind::device, isa_variable, fmt::format("this machine has no instruction set \"{}\"", most),
+              fmt::format("unset the variable, or set it to one of {}", names));
 }
 
 std::string_view name_of(Isa isa) {

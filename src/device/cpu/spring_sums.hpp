@@ -14,8 +14,14 @@ namespace pliant::cpu {
 
 enum class Isa { portable, avx2, avx512 };
 
-/// What this machine runs, the fastest last.
+/// The environment variable that names the fastest instruction set to use.
+inline constexpr const char* isa_variable = "PLIANT_ISA";
+
+/// What this machine runs and PLIANT_ISA allows, the fastest last. Reads the variable once. Throws Error (device) where the
+/// machine does not have what the variable names.
 [[nodiscard]] std::span<const Isa> available_isas();
+/// The first of `isas`, up to the one of that name. Throws Error (device) where none has it.
+[[nodiscard]] std::vector<Isa> isas_up_to(std::string_view most, std::span<const Isa> isas);
 [[nodiscard]] std::string_view name_of(Isa isa);
 
 /// One body.

@@ -1,0 +1,35 @@
+// What the program says of this machine and of its methods.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace pliant {
+
+TEST_CASE("PLIANT_ISA names the instruction set that a run and info say they use") {
+  const auto cpu_with = [](const std::string& isa) {
+    return nlohmann::json::parse(run_program("info --json", "PLIANT_ISA=" + isa + " ").output)["cpu"];
+  };
+  const nlohmann::json any = cpu_with("");
+  CHECK(any["instruction_sets"][0] == "portable");
+  CHECK(cpu_with("portable")["instruction_sets"] == std::vector<std::string>{"portable"});
+  CHECK(cpu_with(any["instruction_sets"].back()) == any);
+  const std::string name = cpu_with("portable")["name"];
+  CHECK_THAT(name, Catch::EndsWith("baseline vectors"));
+  const test::ScratchFolder folder;
+  const ProgramResult run = run_program(
+      "run " + shipped_scene("two_spheres") + " --device cpu --steps 1 --out " + folder.path.string(), "PLIANT_ISA=portable ");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.output, Catch::Contains(name));
+}
+
+TEST_CASE("an instruction set that the machine does not have ends with exit code 4") {
+  for (const std::string& arguments : {std::string("info"), "run --device cpu --steps 1 " + shipped_scene("two_spheres")}) {
+    const ProgramResult result = run_program(arguments, "PLIANT_ISA=avx1024 ");
+    CHECK(result.exit_code == 4);
+    CHECK_THAT(result.output, Catch::Contains("PLIANT_ISA") && Catch::Contains("avx1024") && Catch::Contains("portable"));
+  }
+}
+
+}  // namespace pliant
