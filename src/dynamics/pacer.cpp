@@ -45,6 +45,7 @@ double largest_contact_motion(const Model& model) {
 physics::Pace first_pace(const Model& model, const StagedMethod& method, const PaceLimits& limits) {
   PLIANT_EXPECT(limits.tolerance > 0 && limits.first_step > 0 && limits.largest_step > 0);
   physics::Pace pace{};
+  pace.end = limits.end;
   pace.tolerance = limits.tolerance;
   pace.largest_step = std::min(limits.largest_step, unbounded);
   pace.first_step = std::min(limits.first_step, pace.largest_step);

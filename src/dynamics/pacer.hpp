@@ -18,6 +18,7 @@ struct PaceLimits {
   double tolerance = 0;     // of the error; above 0
   double first_step = 0;    // at the start, and the longest after a contact [s]
   double largest_step = 0;  // [s]; may be infinite
+  double end = 0;           // of the run [s]: one that would take over 3e8 steps to it ends
 };
 
 /// How many steps to queue toward `target` [s], `most` at most: what is beyond it costs time for nothing, and so does waiting for

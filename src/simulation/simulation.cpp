@@ -57,8 +57,10 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       collider_(bodies_, model, collision),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {
-    pacer_.emplace(bodies_, model, stepper_, *plan.integrator, plan.damping_law,
-                   PaceLimits{.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
+    pacer_.emplace(
+        bodies_, model, stepper_, *plan.integrator, plan.damping_law,
+        PaceLimits{
+            .tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound, .end = plan.duration});
     known_pace_ = pacer_->pace();
   }
   device.run(stepper_.first_passes());
@@ -130,8 +132,11 @@ StepReport Simulation::report() {
   if (pacer_) add_pace(report);
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
-    report.non_finite =
-        NonFinite{report.steps, body, control.non_finite_vertex - model_.bodies[body].first_vertex, known_pace_.failed_step};
+    report.non_finite = NonFinite{.step = report.steps,
+                                  .body = body,
+                                  .vertex = control.non_finite_vertex - model_.bodies[body].first_vertex,
+                                  .failed_step = known_pace_.failed_step,
+                                  .takes_too_many = known_pace_.failure == physics::too_many_steps};
   }
   add_collision_counts(report, control);
   const std::uint64_t searches = report.steps + (report.adaptive ? report.adaptive->rejected : 0);

@@ -20,11 +20,12 @@
 
 namespace pliant {
 
-/// The first vertex that went non-finite, or whose error meets the tolerance with no step.
+/// The first vertex that went non-finite, or whose error ended a run with a tolerance.
 struct NonFinite {
   std::uint64_t step = 0;              // the step that made it, from 1
   std::uint32_t body = 0, vertex = 0;  // vertex of the body
-  double failed_step = 0;              // the shortest step tried, if its error was still too large [s]; else 0
+  double failed_step = 0;              // the step whose error ended the run [s]; else 0
+  bool takes_too_many = false;         // at the length that errors have come to, more steps are left than a run may have
 
   bool operator==(const NonFinite&) const = default;
 };

@@ -12,11 +12,10 @@
 #include "dynamics/automatic_integrator.hpp"
 #include "dynamics/stability.hpp"
 #include "dynamics/stepper.hpp"
+#include "physics/pace.glsl"
 
 namespace pliant {
 namespace {
-
-constexpr double largest_step_count = 3e8;  // counts of forces on the device have 32 bits
 
 double automatic_step(double bound /* for strained bodies */, double frame_rate) {
   const double frame_time = 1 / frame_rate;
@@ -118,7 +117,7 @@ double shortest_bound(const TimePlan& plan, const Model& model, const Bound& bou
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
   const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance the least there can be
   const std::string& where = scene.simulation.length_where;
-  if (!(count <= largest_step_count))
+  if (!(count <= physics::most_steps()))
     throw Error(fault_of(where), where.empty() ? scene.file.string() : where, "the run takes more than 3e8 steps",
                 "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
   return static_cast<std::uint64_t>(count);

@@ -41,6 +41,16 @@ void touch(Pace& pace, glm::vec3 way) {
   extend(pace.least_z, pace.most_z, way.z);
 }
 
+// Judges steps with errors of this function until the run ends by one, or has come to its end; or gives up.
+template <class Error>
+Pace run_with(Pace pace, Error error_of, int most = 10'000) {
+  for (int k = 0; k < most && pace.failure == physics::no_failure && pace.time < pace.target; ++k) {
+    const double taken = physics::next_step(pace);
+    judge_with(pace, taken, error_of(taken));
+  }
+  return pace;
+}
+
 // The steps to a target where each has this error, by the controller.
 std::uint64_t steps_taken(Pace pace, double target, float error) {
   pace.target = target;
@@ -264,6 +274,76 @@ TEST_CASE("the shortest step stands in contact, and with too large an error says
   CHECK((pace.accepted == 1 && pace.failed_step == 0));
   judge_with(pace, physics::shortest_step(pace), 1);
   CHECK((pace.accepted == 2 && pace.failed_step == physics::shortest_step(pace_with(1e-6))));
+}
+
+TEST_CASE("an error that three halvings do not lower ends the run") {
+  for (const float error : {1.1e-6f, 1e-3f, 1e30f}) {
+    CAPTURE(error);
+    const Pace pace = run_with(pace_with(1e-6), [&](double) { return error; });
+    CHECK(pace.failure == physics::no_length_meets);
+    CHECK(pace.failed_step == pace.time);
+    CHECK((pace.failed_step <= 0.01 / 8 && pace.failed_step > 0.01 / 8 / 3.01));
+  }
+}
+
+TEST_CASE("an error that falls, however slowly and unevenly, or is infinite at first ends no run") {
+  const auto slowly = [](double step) { return static_cast<float>(1e-3 * std::cbrt(step)); };
+  const auto unevenly = [k = 0](double step) mutable { return static_cast<float>((k++ % 2 == 0 ? 2 : 1) * step * step); };
+  const auto infinitely = [](double step) { return step > 1e-6 ? std::numeric_limits<float>::infinity() : 0.0f; };
+  Pace pace = pace_with(1e-6);
+  pace.target = 0.001;
+  CHECK(run_with(pace, slowly).failure == physics::no_failure);
+  CHECK(run_with(pace, unevenly).failure == physics::no_failure);
+  CHECK(run_with(pace, infinitely).failure == physics::no_failure);
+}
+
+// As where forces in fp32 round: nothing is wrong with steps so short that nothing moves.
+TEST_CASE("a run ends where the steps left at its pace are more than it may have, and else goes on") {
+  for (const double length : {1e-10, 1e-12}) {
+    const auto rounding = [&](double step) { return step < length ? 0.0f : static_cast<float>(step); };
+    CAPTURE(length);
+    Pace pace = pace_with(1e-30);
+    pace.end = pace.target = 1;
+    const Pace too_long = run_with(pace, rounding);
+    CHECK(too_long.failure == physics::too_many_steps);
+    CHECK((too_long.failed_step > length / 10 && too_long.failed_step < 10 * length && too_long.time < 1e-5));
+    pace.end = pace.target = 1e7 * length;  // an average step is longer than a tenth
+    CHECK(run_with(pace, rounding, 3'000).failure == physics::no_failure);
+  }
+}
+
+TEST_CASE("a run ends where steps of the aimed error are too many, too") {
+  Pace pace = pace_with(1e-13);
+  pace.end = pace.target = 1;
+  const Pace ended = run_with(pace, [](double step) { return static_cast<float>(step); });
+  CHECK((ended.failure == physics::too_many_steps && ended.rejected < 100));
+  CHECK(ended.failed_step == Approx(1e-14).epsilon(0.01));
+}
+
+TEST_CASE("short steps on the way past a kink, or in contact, end no run") {
+  Pace pace = pace_with(1e-13);
+  pace.end = pace.target = 1e3;
+  // Each straddles the kink at 0.1 s until it is short enough: far below 1e3 / 3e8.
+  const auto kinked = [&](double step) {
+    const bool straddles = pace.time < 0.1 && pace.time + step > 0.1;
+    return static_cast<float>(straddles ? step * step : 1e-13 * std::pow(step, 8));
+  };
+  double shortest = 1;
+  for (int k = 0; k < 20'000 && pace.failure == physics::no_failure && pace.time < pace.target; ++k) {
+    const double taken = physics::next_step(pace);
+    shortest = std::min(shortest, taken);
+    judge_with(pace, taken, kinked(taken));
+  }
+  CHECK(shortest < 1e3 / 3e8);
+  CHECK(pace.time == pace.target);
+  pace = pace_with(1e-6);
+  pace.end = pace.target = 1e12;
+  for (int k = 0; k < 5'000; ++k) {
+    touch(pace, {1e-3f, 0, 0});
+    touch(pace, {0, 0, 0});
+    judge_with(pace, physics::next_step(pace), 0);
+  }
+  CHECK((pace.failure == physics::no_failure && pace.accepted == 5'000));
 }
 
 }  // namespace pliant

@@ -6,6 +6,7 @@
 #include "dynamics/automatic_integrator.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "simulation/breakdown.hpp"
 #include "support/collision_scene.hpp"
 #include "support/expect_error.hpp"
 #include "support/oscillator.hpp"
@@ -321,6 +322,28 @@ TEST_CASE("a run that no step can continue ends as non-finite and names the vert
     CHECK(run.simulation.advance_toward(2).steps == 1);
     CHECK(same_bits(run.simulation.state(), state));
   }
+}
+
+TEST_CASE("a run whose tolerance no rounding meets ends, with a state to write and a vertex to name", "[gl][long]") {
+  const ModelAndState start = squashed();
+  for (const TestDevice& test : all_devices())
+    for (const char* integrator : {"vern8", "dprkn12"}) {
+      CAPTURE(test.name, integrator);
+      TimePlan plan = plan_of(Adaptive{integrator, 1e-30}, start.model);
+      plan.duration = 1e5 / stiffest_omega(start.model);
+      Simulation simulation(*test.device, start.model, start.state, plan, with_response(ContactResponse::none));
+      const StepReport report = simulation.advance_to(plan.duration);
+      REQUIRE(report.non_finite);
+      CHECK(report.non_finite->failed_step > 0);
+      CHECK(report.steps + report.adaptive->rejected < 3000);
+      CHECK_THAT(describe_breakdown(*report.non_finite, plan, start.model),
+                 Catch::Contains("1e-30") && Catch::Contains("step " + std::to_string(report.steps) + " at vertex") &&
+                     Catch::Contains("loosen the tolerance"));
+      const State state = simulation.state();
+      CHECK(largest_distance(state.world_positions(start.model), start.state.world_positions(start.model)) < 0.1);
+      CHECK(simulation.advance_toward(plan.duration).steps == report.steps);
+      CHECK(same_bits(simulation.state(), state));
+    }
 }
 
 TEST_CASE("adaptive runs with contacts give the same bits on any number of threads") {

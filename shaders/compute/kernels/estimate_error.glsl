@@ -34,7 +34,6 @@ void estimate_error(uint i) {
   uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
   uint error = joined_error(first, second);
   atomicMax(pace[0].error, error);
-  // The shortest step stands, but ends the run where its error is too large: by this vertex, if by none before it.
-  if (h <= shortest_step(pace[0]) && judged_error(error, pace[0].tolerance) > double(1))
-    atomicMin(status[b].non_finite_vertex, i);
+  // The run ends by this vertex, if by none before it. The mark of a step that is undone goes with it.
+  if (failure_of(pace[0], h, error) != no_failure) atomicMin(status[b].non_finite_vertex, i);
 }
