@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/expect.hpp"
+#include "dynamics/forces/force.hpp"
 
 namespace pliant {
 namespace {
@@ -173,7 +174,14 @@ double undamped_amplification(const Integrator& integrator, double omega_step) {
   return amplification(nystrom_tableau(integrator), omega_step);
 }
 
-double stiffest_frequency(const ModelBody& body) { return std::sqrt(body.vertex_count * body.stiffness / body.vertex_mass); }
+double stiffest_frequency_squared(const ModelBody& body) {
+  double sum = 0;
+  for (const Force& force : forces())
+    if (force.acts_on(body)) sum += force.frequency_squared(body);
+  return sum;
+}
+
+double stiffest_frequency(const ModelBody& body) { return std::sqrt(stiffest_frequency_squared(body)); }
 
 double largest_damping_rate(const ModelBody& body, DampingLaw law) {
   if (law == DampingLaw::none) return 0;
@@ -194,8 +202,7 @@ double step_bound(const Integrator& integrator, double omega_squared, double dam
 
 double step_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law) {
   const double rate = largest_damping_rate(body, law);
-  const double stiffest = body.vertex_count * body.stiffness / body.vertex_mass;  // omega^2
-  return std::min(step_bound(integrator, stiffest, rate), step_bound(integrator, 0, rate));
+  return std::min(step_bound(integrator, stiffest_frequency_squared(body), rate), step_bound(integrator, 0, rate));
 }
 
 double drag_bound(const Integrator& integrator, const ModelBody& body, DampingLaw law) {

@@ -69,8 +69,13 @@ std::size_t Stepper::most_drags(const Integrator& integrator) {
   return physics::tableau_size / stage_rows(nystrom_tableau(integrator), true).size();
 }
 
-Stepper::Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step, Stages stages)
-    : bodies_(bodies), integrator_(integrator), law_(static_cast<std::uint32_t>(law)), time_step_(time_step) {
+Stepper::Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step, Stages stages,
+                 const AddedForces* added_forces)
+    : bodies_(bodies),
+      added_forces_(added_forces),
+      integrator_(integrator),
+      law_(static_cast<std::uint32_t>(law)),
+      time_step_(time_step) {
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t count = bodies.vertex_count;
   bodies.set_time_step(time_step);
@@ -111,7 +116,7 @@ std::vector<Pass> Stepper::first_passes() const {
 
 std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
   if (const auto* splitting = std::get_if<Splitting>(&integrator_.method)) return splitting_passes(*splitting, from_half);
-  return stage_passes("runge_kutta_stage", from_half);
+  return stage_passes("runge_kutta_stage", from_half, physics::slot_of_stage);
 }
 
 Pass Stepper::following_pass(std::uint32_t from_half) const {
@@ -127,15 +132,26 @@ Pass Stepper::refresh_pass() const {
   return make_pass(bodies_.arrays, "refresh_force", kernel, {}, static_cast<std::uint32_t>(bodies_.shares.size()));
 }
 
-std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half) const {
+std::vector<Pass> Stepper::added_passes(std::uint32_t slot) const {
+  return added_forces_ == nullptr ? std::vector<Pass>{} : added_forces_->passes(slot);
+}
+
+std::uint32_t Stepper::adds_force() const { return added_forces_ != nullptr && added_forces_->any() ? 1 : 0; }
+
+std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const {
   const DeviceBodies& b = bodies_;
   const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, b.all_stages_at_once);
   std::vector<Pass> passes;
-  for (std::uint32_t stage = 0; stage < (b.all_stages_at_once ? 1 : stage_count_); ++stage)
-    passes.push_back(
-        make_pass(b.arrays, name, kernel,
-                  {{"from_half", from_half}, {"damping_law", law_}, {"stage_index", stage}, {"stage_count", stage_count_}},
-                  static_cast<std::uint32_t>(b.shares.size())));
+  for (std::uint32_t stage = 0; stage < (b.all_stages_at_once ? 1 : stage_count_); ++stage) {
+    std::ranges::move(added_passes(slot_of_stage(stage)), std::back_inserter(passes));
+    passes.push_back(make_pass(b.arrays, name, kernel,
+                               {{"from_half", from_half},
+                                {"damping_law", law_},
+                                {"adds_force", adds_force()},
+                                {"stage_index", stage},
+                                {"stage_count", stage_count_}},
+                               static_cast<std::uint32_t>(b.shares.size())));
+  }
   return passes;
 }
 
@@ -143,14 +159,16 @@ std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32
   const auto first = [&](const std::vector<long double>& fractions) {
     return static_cast<double>(fractions[0] * static_cast<long double>(time_step_));
   };
-  std::vector<Pass> result = {refresh_pass(), make_pass(bodies_.arrays, "first_kick",
-                                                        {{"from_half", from_half},
-                                                         {"damping_law", law_},
-                                                         {"kick_time", first(method.kick)},
-                                                         {"drift_time", first(method.drift)}},
-                                                        bodies_.vertex_count)};
-  const std::vector<Pass> stages = stage_passes("splitting_stage", from_half);
-  result.insert(result.end(), stages.begin(), stages.end());
+  std::vector<Pass> result = {refresh_pass()};
+  std::ranges::move(added_passes(physics::start_slot), std::back_inserter(result));
+  result.push_back(make_pass(bodies_.arrays, "first_kick",
+                             {{"from_half", from_half},
+                              {"damping_law", law_},
+                              {"adds_force", adds_force()},
+                              {"kick_time", first(method.kick)},
+                              {"drift_time", first(method.drift)}},
+                             bodies_.vertex_count));
+  std::ranges::move(stage_passes("splitting_stage", from_half, physics::slot_of_force), std::back_inserter(result));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "device/pass.hpp"
+#include "dynamics/forces/force.hpp"
 #include "dynamics/integrator.hpp"
 #include "scene/scene_description.hpp"
 #include "state/device_bodies.hpp"
@@ -15,11 +16,11 @@ class Stepper {
   /// no splitting.
   [[nodiscard]] static std::size_t most_drags(const Integrator& integrator);
 
-  /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `bodies` must
-  /// outlive the stepper. A method with stages takes each step's length from the bodies' frames, where `time_step` stands to
-  /// begin with.
+  /// Expects allows_damping(integrator, law), and of a Nystrom method no more drags than most_drags. `bodies` and
+  /// `added_forces`, if not null, must outlive the stepper. A method with stages takes each step's length from the bodies'
+  /// frames, where `time_step` stands to begin with.
   Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
-          Stages stages = Stages::of_result);
+          Stages stages = Stages::of_result, const AddedForces* added_forces = nullptr);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -40,10 +41,15 @@ class Stepper {
   /// A method's tableau, or one for each rate of damping among the bodies.
   void use_tableaus(Stages stages);
   /// All stages: a pass each, or one where the bodies are small enough.
-  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half) const;
+  using SlotOfStage = std::uint32_t (*)(std::uint32_t stage);
+  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const;
+  /// Set the forces beside the springs.
+  [[nodiscard]] std::vector<Pass> added_passes(std::uint32_t slot) const;
+  [[nodiscard]] std::uint32_t adds_force() const;
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
   DeviceBodies& bodies_;
+  const AddedForces* added_forces_;
   const Integrator& integrator_;
   std::uint32_t law_;
   double time_step_;

@@ -97,7 +97,9 @@ class Flattener {
 
   std::string resolve(std::string_view name, FlatShader::Origin origin) const {
     if (!name.starts_with('@')) {
-      return (std::filesystem::path(origin.file).parent_path() / name).lexically_normal().generic_string();
+      const std::string beside = (std::filesystem::path(origin.file).parent_path() / name).lexically_normal().generic_string();
+      const bool is_beside = std::ranges::find(files_, std::string_view(beside), &ShaderFile::name) != files_.end();
+      return is_beside ? beside : "compute/" + std::string(name);
     }
     const auto define = std::ranges::find(defines_, name, &Define::first);
     if (define != defines_.end()) return define->second;

@@ -31,8 +31,8 @@ struct FlatShader {
   [[nodiscard]] std::string explain(std::string_view driver_log) const;
 };
 
-/// Each file is included once. Includes are relative to the including file; `#include <...>` is dropped (C++ only).
-/// Defines go behind the #version line. Throws Error (device) when a file is missing.
+/// Each file is included once. Includes are relative to the including file or else to compute/; `#include <...>` is dropped (C++
+/// only). Defines go behind the #version line. Throws Error (device) when a file is missing.
 [[nodiscard]] FlatShader flatten_shader(std::string_view file, std::span<const Define> defines = {});
 /// The same over other files than the embedded ones; the result's origins view their names.
 [[nodiscard]] FlatShader flatten_shader(std::span<const ShaderFile> files, std::string_view file,

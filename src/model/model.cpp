@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/error.hpp"
+#include "model/inflation.hpp"
 
 namespace pliant {
 namespace {
@@ -74,6 +75,10 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
 
 glm::dvec3 rest_position(const Model& model, std::size_t vertex) { return glm::dvec3(model.rest_positions[vertex]); }
 
+[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
+  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
+}
+
 /// Appends the body's rest shape, centred on `centroid`.
 void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positions, const glm::dvec3& centroid, Model& model) {
   ModelBody body = describe_body(setup, model);
@@ -84,6 +89,7 @@ void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positio
   }
   for (const auto& [a, b, c] : setup.mesh.triangles)
     model.triangles.push_back({body.first_vertex + a, body.first_vertex + b, body.first_vertex + c});
+  if (setup.description.pressure > 0) body.inflation = inflate(setup, model, body);
   model.bodies.push_back(std::move(body));
 }
 
@@ -106,10 +112,6 @@ void append_motion(const BodyDescription& description, const Model& model, State
     const glm::dvec3 u = displacements[i], w = to_frame * velocity;
     state.motion.insert(state.motion.end(), {u.x, u.y, u.z, w.x, w.y, w.z});
   }
-}
-
-[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
-  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
 }
 
 /// NaN counts as out of reach too.

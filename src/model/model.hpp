@@ -14,6 +14,15 @@
 
 namespace pliant {
 
+/// Pressure inside a closed surface, with what its bound on steps needs of the rest shape.
+struct Inflation {
+  double pressure = 0;  // at the rest volume, nothing outside [Pa]; 0: none, and nothing below is known
+  PressureLaw law = PressureLaw::gas;
+  double rest_volume = 0;       // [m^3]
+  double gradient_squared = 0;  // of the volume, summed over the vertices [m^4]
+  double curvature = 0;         // at least the norm of the volume's second derivative [m]
+};
+
 struct ModelBody {
   std::string name;
   std::uint32_t first_vertex = 0, vertex_count = 0;
@@ -22,7 +31,8 @@ struct ModelBody {
   double vertex_mass = 1;  // [kg]
   double damping = 0;      // c [kg/s]
   double radius = 0;       // largest distance of a rest position from the centroid [m]
-  glm::dvec3 color{1.0};   // linear RGB
+  Inflation inflation;
+  glm::dvec3 color{1.0};  // linear RGB
 
   /// In which springs are summed: a power of two near the radius [m], so that changing to it is exact.
   [[nodiscard]] double unit_of_length() const;
@@ -62,7 +72,8 @@ struct ModelAndState {
 };
 
 /// Builds bodies from meshes: scale, stretch about the centroid, rotate about the mesh's origin, translate.
-/// Throws Error when a mesh has no vertices or a number comes out non-finite.
+/// Throws Error when a mesh has no vertices, a number comes out non-finite, or a mesh with pressure inside is not closed or not
+/// wound outward.
 [[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity);
 
 }  // namespace pliant

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/version.hpp"
+#include "dynamics/forces/force.hpp"
 #include "run/interrupts.hpp"
 #include "simulation/breakdown.hpp"
 
@@ -20,14 +21,16 @@ namespace {
 // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
 double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
-  for (const ModelBody& body : model.bodies) scale = std::max(scale, 1e-12 * 0.5 * body.stiffness * body.radius * body.radius);
+  for (const ModelBody& body : model.bodies)
+    for (const Force& force : forces())
+      if (force.acts_on(body)) scale = std::max(scale, 1e-12 * force.energy_scale(body));
   return scale;
 }
 
 // Against what there was at the start and what gravity has given since: neither depends on where the world's origin is.
 double energy_growth(const RunProgress& progress, const Model& model) {
   const Measurement &first = progress.first, &latest = progress.latest;
-  const double had = first.kinetic + first.elastic + std::abs(latest.gravitational - first.gravitational);
+  const double had = first.kinetic + first.elastic_size + std::abs(latest.gravitational - first.gravitational);
   return 1 + (latest.energy() - first.energy()) / std::max(had, smallest_energy(model));
 }
 

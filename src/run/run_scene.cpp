@@ -9,10 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/thread_pool.hpp"
+#include "dynamics/forces/force.hpp"
 #include "output/csv.hpp"
 #include "output/file.hpp"
 #include "run/check.hpp"
@@ -147,10 +150,11 @@ class Run {
     Measurement& now = progress_.latest;
     now = progress_.times.measuring.time([&] { return measured(); });
     if (report_.steps == 0) progress_.first = now;
-    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic);
+    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
     const double drift = std::abs(now.energy() - progress_.first.energy());
     progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
     progress_.recorded_steps = report_.steps;
+    warn_of_forces();
     history_.append({.step = report_.steps,
                      .time = report_.time,
                      .kinetic = now.kinetic,
@@ -160,6 +164,18 @@ class Run {
                      .angular_momentum = now.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices});
+  }
+
+  // Once for each force.
+  void warn_of_forces() {
+    for (const Force& force : forces()) {
+      if (force.warning == nullptr || warned_of_.contains(force.name)) continue;
+      const auto warning = force.warning(run_.start.model, state_);
+      if (!warning) continue;
+      warned_of_.insert(force.name);
+      run_.warnings.push_back(*warning);
+      fmt::print(stderr, "pliant: warning: {}\n", *warning);
+    }
   }
 
   // After Ctrl-C for a moment only; without the elastic energy where that is not enough.
@@ -228,6 +244,7 @@ class Run {
   StepReport report_;
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
+  std::set<std::string_view> warned_of_;  // forces
 };
 
 // Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.

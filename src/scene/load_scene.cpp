@@ -247,6 +247,7 @@ const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tre
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
 const std::vector<Choice<TreeSplit>> splits = {{"centre", TreeSplit::centre}};
+const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
 const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
@@ -316,6 +317,8 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("vertex_mass", body.vertex_mass, positive);
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
+  table.read("pressure", body.pressure, not_negative);
+  table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
 }
 

@@ -17,6 +17,7 @@ struct Named {
   std::string where = {};  // "file:line: field"
 };
 
+enum class PressureLaw { gas, constant };
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
 /// As scenes and reports write it.
 constexpr const char* name_of(DampingLaw law) {
@@ -88,7 +89,9 @@ struct BodyDescription {
   double vertex_mass = 1.0;               // [kg]
   std::optional<double> total_mass;       // [kg]; m = total / N
   double damping = 1.0;                   // c [kg/s]
-  glm::dvec3 color = default_color(0);    // linear RGB, 0 to 1
+  double pressure = 0.0;                  // inside, at the rest volume; nothing outside [Pa]
+  PressureLaw pressure_law = PressureLaw::gas;
+  glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
 };
 
 struct SceneDescription {

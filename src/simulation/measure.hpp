@@ -10,7 +10,8 @@ namespace pliant {
 
 struct Measurement {
   double kinetic = 0;                // [J]
-  double elastic = 0;                // [J], of all springs
+  double elastic = 0;                // [J], of all springs and other forces within bodies
+  double elastic_size = 0;           // [J], each force's counting as positive
   double gravitational = 0;          // [J], zero at the world's origin
   glm::dvec3 momentum{0.0};          // [kg m/s]
   glm::dvec3 angular_momentum{0.0};  // [kg m^2/s], about the world's origin

@@ -16,6 +16,7 @@
 #include "device/device.hpp"
 #include "physics/body.glsl"
 #include "physics/control.glsl"
+#include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
 #include "physics/pull.glsl"
 
@@ -50,6 +51,7 @@ PLIANT_ELEMENT(physics::Status, "Status")
 PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")
+PLIANT_ELEMENT(physics::Pressure, "Pressure")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT

@@ -8,10 +8,12 @@ WRITE(status)
 READ(rest_position)
 WRITE(placement)
 READ(kept_force)
+READ(added_force)
 WRITE(motion)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
+PARAMETER(uint, adds_force)  // 1: there are forces beside the springs
 PARAMETER(double, kick_time)  // [s]
 PARAMETER(double, drift_time)  // [s]
 #include "parts/kick.glsl"
@@ -25,7 +27,9 @@ void first_kick(uint i) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   uint first = in_half(from_half, vertex_count, body[b].first_vertex);
   for (uint k = 0u; k < 3u; ++k) {
-    double velocity = kicked(body[b], pose[b].gravity[k], kept_force[force_of(i) + k], dot(spring_force, spring_force),
+    double all_force = kept_force[force_of(i) + k];
+    if (adds_force != 0u) all_force += added_force[force_of(i) + k];
+    double velocity = kicked(body[b], pose[b].gravity[k], all_force, dot(spring_force, spring_force),
                              motion[velocity_of(before) + k], kick_time);
     double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) + drift_time * (velocity - motion[velocity_of(first) + k]);
     place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);

@@ -14,6 +14,7 @@ WRITE(status)
 WRITE(tally)
 WRITE(body_box)
 READ(rest_position)
+READ(added_force)
 WRITE(acceleration)
 WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
@@ -53,6 +54,7 @@ struct Pending {
   Course course;
   Rounding rounding;      // so far
   double rest;
+  double added;           // force beside the springs [N]
   double stage_velocity;  // at this stage
   double displacement;    // for the next stage, or at the end; position_weight a is missing
   double velocity;        // likewise
@@ -120,6 +122,7 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   p.course = c;
   p.rounding = rounding_so_far(i, k);
   p.rest = double(rest_position[i][int(k)]);
+  p.added = adds_force != 0u ? added_force[force_of(i) + k] : double(0);
   p.stage_velocity = motion[w];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
   p.displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
@@ -132,7 +135,8 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double a = spring_force * s.body.inverse_mass + p.course.gravity;
+  double all_force = adds_force != 0u ? spring_force + p.added : spring_force;
+  double a = all_force * s.body.inverse_mass + p.course.gravity;
   if (damping_law != damping_none)
     a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;
   acceleration[accelerations_of(stage_index, i) + k] = a;

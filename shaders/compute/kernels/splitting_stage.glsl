@@ -11,6 +11,7 @@ WRITE(tally)
 WRITE(body_box)
 READ(rest_position)
 WRITE(kept_force)
+READ(added_force)
 WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
@@ -23,7 +24,7 @@ PARAMETER(uint, damping_law)
 #include "parts/kick.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
-uint placement_slot() { return stage_index & 1u; }
+uint placement_slot() { return slot_of_force(stage_index); }
 
 // The tableau's two rows a stage.
 double kick_time() { return tableau[splitting_row_size * stage_index].x; }    // [s]
@@ -36,6 +37,7 @@ struct Pending {
   double displacement;  // after the drifts so far
   double velocity;
   double reference;  // that the next placement is relative to
+  double added;      // force beside the springs [N]
 };
 
 Pending before_force(uint i, uint k, IN(Share) s) {
@@ -45,13 +47,15 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   p.gravity = pose[s.body_index].gravity[k];
   p.displacement = motion[displacement_of(after) + k];
   p.velocity = motion[velocity_of(after) + k];
+  p.added = adds_force != 0u ? added_force[force_of(i) + k] : double(0);
   p.reference = motion[displacement_of(first) + k] + elapsed() * motion[velocity_of(first) + k];
   return p;
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
-  double velocity = kicked(s.body, p.gravity, spring_force, force_squared, p.velocity, kick_time());
+  double all_force = adds_force != 0u ? spring_force + p.added : spring_force;
+  double velocity = kicked(s.body, p.gravity, all_force, force_squared, p.velocity, kick_time());
   double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
   end_step(i, k, s, displacement, velocity, p.reference);

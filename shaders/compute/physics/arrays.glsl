@@ -26,6 +26,15 @@ ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to 
 ARRAY(error_scale, double, body, fixed, "[body][2] 1 / r [1/m], 1 / (r omega) [s/m]")
 ARRAY(pace, Pace, run, carried, "how long steps are where a tolerance governs them")
 
+// forces beside the springs
+ARRAY(added_force, double, vertex, step, "[vertex][3] of all forces but the springs at a stage, which reads them [N]; one number where there are none")
+ARRAY(pressure, Pressure, body, fixed, "inside the body, if it has any")
+ARRAY(shell_triangle, uint, triangle, fixed, "[triangle][3] vertices of bodies with pressure, counter-clockwise seen from outside")
+ARRAY(shell_part, uvec4, part, fixed, "body, first triangle, end of triangles, 0: what one thread sums")
+ARRAY(volume_part, double, part, step, "what these triangles add to the body's volume [m^3]")
+ARRAY(fan_begin, uint, vertex, fixed, "[vertex + 1] where the vertex's triangles begin in `fan`")
+ARRAY(fan, uvec2, corner, fixed, "the other two vertices of a triangle around a vertex, in its order")
+
 // contacts
 ARRAY(tree, uvec2, body, fixed, "root, number of leaves")
 ARRAY(node, uvec4, node, fixed, "left child (the right one is next; 0: leaf), parent, first triangle, end of triangles; behind all trees x: the nodes that searches start from")

@@ -24,8 +24,9 @@ const uint rounding_slot = 3u;
 // Where a vertex's position stands among the placements, in vectors of four, and its displacement.
 FN uint position_at(uint slot, uint vertex_count, uint i) { return 2u * slot * vertex_count + i; }
 FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (2u * slot + 1u) * vertex_count + i; }
-// The slot that a stage reads, and the one that it writes for the next.
+// The slot that a stage reads, a splitting's after its first kick, and the one that either writes for the next.
 FN uint slot_of_stage(uint stage) { return stage == 0u ? start_slot : stage & 1u; }
+FN uint slot_of_force(uint stage) { return stage & 1u; }
 FN uint slot_after_stage(uint stage) { return (stage + 1u) & 1u; }
 
 // `triangle`: its k-th vertex. `node_box`: the corners of a node's box.

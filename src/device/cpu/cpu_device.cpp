@@ -16,6 +16,7 @@
 #include "device/cpu/kernel_arguments.hpp"
 #include "device/cpu/spring_sums.hpp"
 #include "device/device.hpp"
+#include "device/kernel_pack.hpp"
 #include "physics/control.glsl"
 
 namespace pliant {
@@ -38,8 +39,7 @@ constexpr std::uint32_t whole_bodies = 0xffffffffu;
 
 class CpuDevice final : public Device {
  public:
-  CpuDevice(unsigned threads, int precision)
-      : pool_(threads), precision_(precision), kernels_(precision == 64 ? cpu::kernels_64() : cpu::kernels_32()) {
+  CpuDevice(unsigned threads, int precision) : pool_(threads), precision_(precision), kernels_(all_kernels_on_cpu(precision)) {
     for (const cpu::Isa isa : cpu::available_isas()) {
       variants_.push_back({std::string(cpu::name_of(isa)), whole_bodies});
       if (precision == 64)
@@ -194,7 +194,7 @@ class CpuDevice final : public Device {
 
   ThreadPool pool_;
   int precision_;
-  std::span<const cpu::KernelEntry> kernels_;
+  std::vector<cpu::KernelEntry> kernels_;
   std::vector<KernelSignature> signatures_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_{{"plain", whole_bodies}};

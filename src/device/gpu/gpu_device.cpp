@@ -11,6 +11,7 @@
 #include "core/expect.hpp"
 #include "device/gpu/kernel_source.hpp"
 #include "device/gpu/strain_bias.hpp"
+#include "device/kernel_pack.hpp"
 #include "gl/objects.hpp"
 #include "physics/control.glsl"
 
@@ -146,7 +147,7 @@ class GpuDevice final : public Device {
   KernelId build(const std::string& name, std::string_view frame, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
-    gpu::KernelSource source = gpu::kernel_source(gl::embedded_shaders(), frame, defines);
+    gpu::KernelSource source = gpu::kernel_source(files_, frame, defines);
     Kernel made{name, frame == "compute/force.comp", std::move(source.signature), gl::Program::compute(source.shader, name), {},
                 {}};
     for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
@@ -209,6 +210,7 @@ class GpuDevice final : public Device {
   gl::Context& context_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
+  std::vector<gl::ShaderFile> files_ = all_shader_files();
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;
   std::array<BufferId, max_arrays> bound_{};  // by slot; constants have slots of their own

@@ -11,5 +11,6 @@ READ_AS(placement, real4, placed)  // the slots that are read: readable only, wh
 WRITE(placement)
 #endif
 PARAMETER(uint, stage_count)
+PARAMETER(uint, adds_force)  // 1: there are forces beside the springs
 CONSTANTS(tableau, tableau_size)
 bool is_last() { return stage_index + 1u == stage_count; }

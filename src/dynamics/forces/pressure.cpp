@@ -1,0 +1,173 @@
+// Before each stage one dispatch sums the volumes in parts, and one gathers each vertex's triangles. The volume is a sum in a
+// fixed order.
+#include "dynamics/forces/pressure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/forces/pressure.glsl"
+
+namespace pliant {
+namespace {
+
+bool has_pressure(const ModelBody& body) { return body.inflation.pressure > 0; }
+
+/// The arrays of all bodies with pressure.
+struct Shells {
+  std::vector<physics::Pressure> pressures;  // a body
+  std::vector<std::uint32_t> triangles;      // three vertices each
+  std::vector<glm::uvec4> parts;
+  std::vector<std::uint32_t> fan_begins;
+  std::vector<glm::uvec2> fans;
+};
+
+// Every vertex of a body adds its parts up, so that parts should be few; and they should be short, for a thread sums one.
+std::uint32_t part_length(std::uint32_t triangle_count) {
+  return std::max<std::uint32_t>(8, static_cast<std::uint32_t>(std::sqrt(triangle_count)) / 4);
+}
+
+void add_parts(Shells& shells, std::uint32_t index, const ModelBody& body) {
+  physics::Pressure& pressure = shells.pressures[index];
+  pressure = {.at_rest = body.inflation.pressure,
+              .rest_volume = body.inflation.rest_volume,
+              .is_gas = body.inflation.law == PressureLaw::gas,
+              .first_part = static_cast<std::uint32_t>(shells.parts.size()),
+              .part_count = 0,
+              .padding = 0};
+  const auto end = static_cast<std::uint32_t>(shells.triangles.size() / 3);
+  const std::uint32_t length = part_length(body.triangle_count);
+  for (std::uint32_t first = end - body.triangle_count; first < end; first += length)
+    shells.parts.emplace_back(index, first, std::min(first + length, end), 0);
+  pressure.part_count = static_cast<std::uint32_t>(shells.parts.size()) - pressure.first_part;
+}
+
+std::vector<std::vector<glm::uvec2>> fans_of(const Model& model) {
+  std::vector<std::vector<glm::uvec2>> fans(model.vertex_count());
+  for (const ModelBody& body : model.bodies)
+    for (std::uint32_t t = body.first_triangle; has_pressure(body) && t < body.first_triangle + body.triangle_count; ++t)
+      for (int k = 0; k < 3; ++k) {
+        const auto& corners = model.triangles[t];
+        fans[corners[k]].emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+      }
+  return fans;
+}
+
+Shells shells_of(const Model& model) {
+  Shells shells;
+  shells.pressures.resize(model.bodies.size());
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    if (!has_pressure(body)) continue;
+    for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
+      shells.triangles.insert(shells.triangles.end(), model.triangles[t].begin(), model.triangles[t].end());
+    add_parts(shells, b, body);
+  }
+  for (const auto& fan : fans_of(model)) {
+    shells.fan_begins.push_back(static_cast<std::uint32_t>(shells.fans.size()));
+    shells.fans.insert(shells.fans.end(), fan.begin(), fan.end());
+  }
+  shells.fan_begins.push_back(static_cast<std::uint32_t>(shells.fans.size()));
+  return shells;
+}
+
+class AddedPressure final : public AddedForce {
+ public:
+  AddedPressure(DeviceBodies& bodies, const Shells& shells)
+      : bodies_(bodies), part_count_(static_cast<std::uint32_t>(shells.parts.size())) {
+    bodies.arrays.make("pressure", shells.pressures);
+    bodies.arrays.make("shell_triangle", shells.triangles);
+    bodies.arrays.make("shell_part", shells.parts);
+    bodies.arrays.make<double>("volume_part", shells.parts.size());
+    bodies.arrays.make("fan_begin", shells.fan_begins);
+    bodies.arrays.make("fan", shells.fans);
+  }
+
+  std::vector<Pass> passes(std::uint32_t slot, bool is_first) const override {
+    return {make_pass(bodies_.arrays, "sum_volume", {{"slot", slot}}, part_count_),
+            make_pass(bodies_.arrays, "press", {{"slot", slot}, {"is_first", is_first ? 1u : 0u}}, bodies_.vertex_count)};
+  }
+
+ private:
+  const DeviceBodies& bodies_;
+  std::uint32_t part_count_;
+};
+
+std::unique_ptr<AddedForce> make(DeviceBodies& bodies, const Model& model) {
+  return std::make_unique<AddedPressure>(bodies, shells_of(model));
+}
+
+// In the bodies' frames.
+std::vector<glm::dvec3> positions_of(const Model& model, const State& state) {
+  std::vector<glm::dvec3> positions;
+  for (std::size_t i = 0; i < model.rest_positions.size(); ++i)
+    positions.push_back(glm::dvec3(model.rest_positions[i]) +
+                        glm::dvec3(state.motion[6 * i], state.motion[6 * i + 1], state.motion[6 * i + 2]));
+  return positions;
+}
+
+double energy_at(const Inflation& inside, double volume) {
+  if (!(volume > 0)) return std::numeric_limits<double>::quiet_NaN();
+  if (inside.law == PressureLaw::constant) return -inside.pressure * (volume - inside.rest_volume);
+  return -inside.pressure * inside.rest_volume * std::log(volume / inside.rest_volume);
+}
+
+double energy(const EnergyQuestion& question) {
+  const std::vector<glm::dvec3> positions = positions_of(question.model, question.state);
+  double sum = 0;
+  for (const ModelBody& body : question.model.bodies)
+    if (has_pressure(body)) sum += energy_at(body.inflation, volume_of(question.model, body, positions));
+  return sum;
+}
+
+double energy_scale(const ModelBody& body) { return body.inflation.pressure * body.inflation.rest_volume; }
+
+// The second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 for a gas, less p times that of V. Down to half the rest volume p
+// is at most 2 p0. A shape that is pressed flat keeps its dV/dx, one that grows makes up for it by its lower pressure.
+constexpr double least_volume = 0.5;  // of the rest volume
+
+double frequency_squared(const ModelBody& body) {
+  const Inflation& inside = body.inflation;
+  const bool is_gas = inside.law == PressureLaw::gas;
+  const double of_volume = is_gas ? inside.gradient_squared / (least_volume * least_volume * inside.rest_volume) : 0;
+  const double of_shape = inside.curvature / least_volume;
+  return inside.pressure * (of_volume + of_shape) / body.vertex_mass;
+}
+
+std::optional<std::string> warning(const Model& model, const State& state) {
+  const std::vector<glm::dvec3> positions = positions_of(model, state);
+  for (const ModelBody& body : model.bodies) {
+    const double left = has_pressure(body) ? volume_of(model, body, positions) / body.inflation.rest_volume : 1;
+    if (left < least_volume)
+      return fmt::format(
+          "body \"{}\" was pressed to {:.3g} of its rest volume: the bound on steps holds down to {}, below it shorten them",
+          body.name, left, least_volume);
+  }
+  return {};
+}
+
+}  // namespace
+
+double volume_of(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  double volume = 0;
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto& [a, b, c] = model.triangles[t];
+    volume += physics::volume_below(positions[a], positions[b], positions[c]);
+  }
+  return volume;
+}
+
+Force pressure() {
+  return {.name = "pressure",
+          .is_zero_at_rest = false,
+          .acts_on = has_pressure,
+          .energy = energy,
+          .energy_scale = energy_scale,
+          .frequency_squared = frequency_squared,
+          .make = make,
+          .warning = warning};
+}
+
+}  // namespace pliant

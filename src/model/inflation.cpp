@@ -1,0 +1,76 @@
+#include "model/inflation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/error.hpp"
+#include "mesh/report.hpp"
+#include "physics/forces/pressure.glsl"
+
+namespace pliant {
+namespace {
+
+glm::dvec3 rest_position(const Model& model, std::size_t vertex) { return glm::dvec3(model.rest_positions[vertex]); }
+
+[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
+  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
+}
+
+void expect_encloses(const BodySetup& setup) {
+  const MeshReport report = report_mesh(setup.mesh);
+  if (!report.closed)
+    fail(setup.description,
+         fmt::format("pressure needs a closed mesh, and {} edges have one triangle alone", report.boundary_edge_count),
+         "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
+  if (!report.volume)
+    fail(setup.description,
+         fmt::format("pressure needs triangles that wind alike, and {} edges have two that do not",
+                     report.inconsistent_edge_count),
+         "turn these triangles, or leave the pressure out");
+  if (!(*report.volume > 0))
+    fail(setup.description,
+         "pressure needs triangles that wind counter-clockwise seen from outside, and these wind the other way",
+         "turn all triangles, or leave the pressure out");
+}
+
+// The second derivative of the volume by two vertices a and b is the cross product with what edge ab sums up: the triangles'
+// third corners, over 6, with the sign of the edge's direction. The largest sum over a vertex's edges bounds the norm
+// (Gershgorin).
+double curvature_of_volume(const Model& model, const ModelBody& body) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> third_corners;
+  for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = model.triangles[t][k], b = model.triangles[t][(k + 1) % 3], c = model.triangles[t][(k + 2) % 3];
+      third_corners[std::minmax(a, b)] += (a < b ? 1.0 : -1.0) * rest_position(model, c) / 6.0;
+    }
+  std::map<std::uint32_t, double> sums;
+  for (const auto& [edge, sum] : third_corners)
+    for (const std::uint32_t end : {edge.first, edge.second}) sums[end] += glm::length(sum);
+  double largest = 0;
+  for (const auto& [vertex, sum] : sums) largest = std::max(largest, sum);
+  return largest;
+}
+
+}  // namespace
+
+Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& body) {
+  expect_encloses(setup);
+  Inflation inside{.pressure = setup.description.pressure, .law = setup.description.pressure_law};
+  std::vector<glm::dvec3> gradients(body.vertex_count, glm::dvec3(0.0));
+  for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t corner = model.triangles[t][k];
+      const glm::dvec3 a = rest_position(model, corner), b = rest_position(model, model.triangles[t][(k + 1) % 3]),
+                       c = rest_position(model, model.triangles[t][(k + 2) % 3]);
+      gradients[corner - body.first_vertex] += physics::volume_gradient(a, b, c);
+      if (k == 0) inside.rest_volume += physics::volume_below(a, b, c);
+    }
+  for (const glm::dvec3& gradient : gradients) inside.gradient_squared += glm::dot(gradient, gradient);
+  inside.curvature = curvature_of_volume(model, body);
+  return inside;
+}
+
+}  // namespace pliant

@@ -1,0 +1,152 @@
+// Closed bodies with pressure inside: shapes known in closed form, energy, and what ends a run.
+#include "dynamics/forces/pressure.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "simulation/measure.hpp"
+#include "support/evolve.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+BodySetup balloon(int level, double pressure, PressureLaw law) {
+  BodySetup setup = sphere(level);
+  setup.description.pressure = pressure;
+  setup.description.pressure_law = law;
+  return setup;
+}
+
+double sum_of_squares(const Model& model) {
+  double sum = 0;
+  for (const glm::vec4& rest : model.rest_positions) sum += glm::dot(glm::dvec3(rest), glm::dvec3(rest));
+  return sum;
+}
+
+// The root of f between two places where it has opposite signs.
+template <class F>
+double root(F&& f, double low, double high) {
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) < 0) == (f(low) < 0) ? low : high) = middle;
+  }
+  return low;
+}
+
+// By which a body of springs k grows under pressure p0, if it grows alike everywhere: N k (s - 1) s sum|X|^2 = 3 p0 V0 for a gas,
+// N k (s - 1) sum|X|^2 = 3 p0 V0 s^2 for a constant pressure.
+double expected_scale(const Model& model) {
+  const ModelBody& body = model.bodies.front();
+  const double springs = body.vertex_count * body.stiffness * sum_of_squares(model);
+  const double push = 3 * body.inflation.pressure * body.inflation.rest_volume;
+  if (body.inflation.law == PressureLaw::gas) return root([&](double s) { return springs * (s - 1) * s - push; }, 1, 10);
+  return root([&](double s) { return springs * (s - 1) - push * s * s; }, 1, springs / (2 * push));
+}
+
+// The mean distance from the centroid against that at rest, after damped motion has died away.
+double settled_scale(Device& device, const ModelAndState& start, std::uint64_t steps) {
+  const double omega = stiffest_omega(start.model);
+  const State state = evolve(device, start, {"verlet", 0.5 / omega, DampingLaw::constant}, steps);
+  double now = 0, rest = 0;
+  for (const glm::dvec3& position : state.world_positions(start.model)) now += glm::length(position);
+  for (const glm::vec4& position : start.model.rest_positions) rest += glm::length(glm::dvec3(position));
+  return now / rest;
+}
+
+TEST_CASE("a body grows until springs hold the pressure") {
+  const auto device = make_cpu_device(2, 64);
+  for (const PressureLaw law : {PressureLaw::gas, PressureLaw::constant})
+    for (const auto& [level, tolerance] : {std::pair{0, 1e-6}, {2, 1e-2}}) {
+      BodySetup setup = balloon(level, level == 0 ? 2 : 60, law);
+      setup.description.damping = level == 0 ? 3 : 12;
+      const ModelAndState start = built(setup);
+      CAPTURE(static_cast<int>(law), level, expected_scale(start.model));
+      CHECK(expected_scale(start.model) > 1.02);
+      CHECK(settled_scale(*device, start, 4000) == Approx(expected_scale(start.model)).epsilon(tolerance));
+    }
+}
+
+double drift_of(Device& device, const ModelAndState& start, double time_step, std::uint64_t steps) {
+  ThreadPool pool(2);
+  Simulation simulation(device, start.model, start.state, plan_of(Method{"cv8", time_step}), {.response = {"none"}});
+  const Measurement first = measure(start.model, simulation.state(), glm::dvec3(0.0), pool);
+  double drift = 0, scale = 0;
+  for (std::uint64_t step = 0; step < steps; step += 20) {
+    simulation.advance(20);
+    const Measurement now = measure(start.model, simulation.state(), glm::dvec3(0.0), pool);
+    drift = std::max(drift, std::abs(now.energy() - first.energy()));
+    scale = std::max(scale, now.kinetic + now.elastic_size);
+  }
+  return drift / scale;
+}
+
+TEST_CASE("pressure keeps the energy as springs do") {
+  const auto device = make_cpu_device(2, 64);
+  BodySetup setup = sphere(1);
+  setup.description.stretch = {0.9, 1.05, 1};
+  const ModelAndState plain = built(setup);
+  const double of_springs = drift_of(*device, plain, 0.5 / stiffest_omega(plain.model), 2000);
+  for (const PressureLaw law : {PressureLaw::gas, PressureLaw::constant}) {
+    setup.description.pressure = 5;
+    setup.description.pressure_law = law;
+    const ModelAndState start = built(setup);
+    CAPTURE(of_springs);
+    CHECK(drift_of(*device, start, 0.5 / stiffest_omega(start.model), 2000) < 2 * of_springs);
+  }
+}
+
+TEST_CASE("splittings and methods with stages agree on a body with pressure") {
+  BodySetup setup = balloon(1, 5, PressureLaw::gas);
+  setup.description.spin = {0, 2, 1};  // so that its frame turns
+  const ModelAndState start = built(setup);
+  const auto device = make_cpu_device(2, 64);
+  const double time_step = 0.02 / stiffest_omega(start.model);
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::adaptive}) {
+    const auto by_stages = evolve(*device, start, {"dop853", time_step, law}, 500).world_positions(start.model);
+    const auto by_kicks = evolve(*device, start, {"verlet", time_step, law}, 500).world_positions(start.model);
+    CHECK(distance(by_stages, by_kicks) < 1e-3);
+    CHECK(distance(by_stages, start.state.world_positions(start.model)) > 0.1);
+  }
+}
+
+TEST_CASE("a body turned inside out ends the run as non-finite, and is named") {
+  BodySetup setups[] = {sphere(1), balloon(1, 5, PressureLaw::gas)};
+  setups[0].description.position = {5, 0, 0};
+  setups[1].description.stretch = {-1, 1, 1};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation simulation(*test.device, start.model, start.state, plan_of(Method{"cv8", 1e-3}), {.response = {"none"}});
+    simulation.advance(3);
+    const auto end = simulation.report().non_finite;
+    REQUIRE(end.has_value());
+    CHECK((end->step == 1 && end->body == 1));
+  }
+}
+
+TEST_CASE("pressure in a mesh that is open or wound inward is an error that says what to do") {
+  BodySetup open = balloon(1, 5, PressureLaw::gas);
+  open.mesh.triangles.pop_back();
+  check_says(error_of([&] { return built(open); }), {"closed", "3 edges"});
+  BodySetup turned = balloon(1, 5, PressureLaw::gas);
+  std::swap(turned.mesh.triangles.front()[0], turned.mesh.triangles.front()[1]);
+  check_says(error_of([&] { return built(turned); }), {"wind", "3 edges"});
+  BodySetup inward = balloon(1, 5, PressureLaw::gas);
+  for (auto& triangle : inward.mesh.triangles) std::swap(triangle[0], triangle[1]);
+  check_says(error_of([&] { return built(inward); }), {"counter-clockwise", "turn all triangles"});
+}
+
+TEST_CASE("a body pressed below half its rest volume is told, for its bound on steps ends there") {
+  BodySetup setup = balloon(1, 5, PressureLaw::gas);
+  setup.description.stretch = {1, 1, 0.55};
+  const ModelAndState above = built(setup);
+  CHECK_FALSE(pressure().warning(above.model, above.state).has_value());
+  setup.description.stretch = {1, 1, 0.45};
+  const ModelAndState below = built(setup);
+  const auto warning = pressure().warning(below.model, below.state);
+  REQUIRE(warning.has_value());
+  CHECK_THAT(*warning, Catch::Contains("\"body\"") && Catch::Contains("0.45"));
+}
+
+}  // namespace
+}  // namespace pliant
