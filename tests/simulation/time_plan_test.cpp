@@ -44,6 +44,17 @@ TEST_CASE("the stiffest body sets the bound") {
   CHECK(plan.step_bound == Approx(step_bound(find_integrator("rk4"), 12 * 9.0, 0)));
 }
 
+// With a search a body this would take over five minutes, ctest's limit.
+TEST_CASE("twenty thousand bodies of two kinds are planned like two") {
+  const auto model_of = [](std::size_t count) {
+    std::vector<BodySetup> setups(count, two_vertices());
+    for (std::size_t i = 1; i < count; i += 2) setups[i].description.damping = 3;
+    return build_model(setups, {0, 0, 0}).model;
+  };
+  const SceneDescription scene = scene_with("dop853", DampingLaw::constant);
+  CHECK(plan_time(scene, model_of(20'000)).step_bound == plan_time(scene, model_of(2)).step_bound);
+}
+
 TEST_CASE("bodies without springs or damping bound nothing, and a step is then a frame") {
   BodySetup setup = sphere(0);
   setup.description.stiffness = 0;
