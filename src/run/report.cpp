@@ -18,6 +18,9 @@
 namespace pliant {
 namespace {
 
+// Of energy, from which on a run warns.
+constexpr double told_growth = 1.05;
+
 // Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
 double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
@@ -55,9 +58,10 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
   const double growth = energy_growth(progress, run.start.model);
-  if (growth > 2)
+  if (growth >= told_growth)
     return fmt::format("the energy has grown {:.3g}-fold: {}", growth,
-                       report.contact_steps > 0 ? "contacts have added it, or the motion is unstable" : "the motion is unstable");
+                       report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
+                                                : "the motion is unstable, or the steps are too long for the method");
   return {};
 }
 

@@ -309,6 +309,25 @@ TEST_CASE("a run that blows up but stays finite says so in its summary") {
   CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
 }
 
+TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity below 1 too") {
+  const ScratchFolder folder;
+  const auto growth_and_warnings = [&](const std::string& time_step) {
+    const ProgramResult result = run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                                             " --device cpu --duration 0.5 --set collision.elasticity=0.9 --quiet --time-step " +
+                                             time_step + " --out " + folder.path.string());
+    REQUIRE(result.exit_code == 0);
+    const auto summary = summary_in(folder.path);
+    return std::pair(summary["energy"]["final"].get<double>() / summary["energy"]["initial"].get<double>(),
+                     summary["warnings"].dump());
+  };
+  const auto [grown, warnings] = growth_and_warnings("0.01");
+  CHECK((grown > 1.05 && grown < 2));
+  CHECK_THAT(warnings, Catch::Contains("the energy has grown 1.1") && Catch::Contains("contacts have added it"));
+  const auto [shrunk, none] = growth_and_warnings("0.002");
+  CHECK(shrunk < 1.05);
+  CHECK_THAT(none, !Catch::Contains("energy"));
+}
+
 TEST_CASE("energy that gravity gives, wherever the world's origin is, is no growth") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
