@@ -1,101 +1,21 @@
-// The program as scripts use it: exit codes, messages and files.
-#include <array>
+// The program as scripts use it: options, exit codes and messages.
 #include <catch2/catch.hpp>
 #include <csignal>
-#include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
 #include "core/read_text.hpp"
-#include "gl/context.hpp"
 #include "support/has.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
-#include "support/scratch.hpp"
-
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
+#include "support/runs.hpp"
 
 namespace pliant {
 namespace {
 
+using test::check_fails;
 using test::ScratchFolder;
-
-std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
-
-nlohmann::json summary_in(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(read_text(folder / "summary.json"));
-}
-
-// A scene of two small spheres, quick to run; `more` goes into [simulation].
-std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "") {
-  const auto path = folder.path / "small.toml";
-  std::ofstream(path) << "[simulation]\ntime_step = 0.01\nduration = 0.2\n"
-                      << more
-                      << "[output]\nsize = [160, 90]\n"
-                         "[[body]]\nname = \"left\"\nmesh = \"icosphere:1\"\nposition = [-1.1, 0, 0]\nvelocity = [4, 0, 0]\n"
-                         "[[body]]\nname = \"right\"\nmesh = \"icosphere:1\"\nposition = [1.1, 0, 0]\nstiffness = 20\n";
-  return path;
-}
-
-void check_fails(const std::string& arguments, int exit_code, std::initializer_list<const char*> parts) {
-  CAPTURE(arguments);
-  const ProgramResult result = run_program(arguments);
-  CHECK(result.exit_code == exit_code);
-  for (const char* part : parts) CHECK_THAT(result.output, Catch::Contains(part));
-}
-
-TEST_CASE("a run writes its summary, history and final state") {
-  const ScratchFolder folder;
-  const auto out = folder.path / "out";
-  const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --out " + out.string());
-  CAPTURE(result.output);
-  REQUIRE(result.exit_code == 0);
-  const auto summary = summary_in(out);
-  for (const char* key : {"scene", "device", "precision", "threads", "integrator", "time_step", "steps", "simulated_seconds",
-                          "wall_seconds", "steps_per_second", "energy", "contacts", "final_intersecting_pairs", "non_finite",
-                          "warnings", "work", "skipped", "timings_ms", "version"})
-    CHECK(summary.contains(key));
-  CHECK(summary["steps"] == 20);
-  CHECK(summary["integrator"] == "dop853");
-  CHECK(summary["contacts"]["steps"] > 0);
-  CHECK(summary["energy"]["max_drift"].is_null());
-  CHECK(line_count(read_text(out / "final_state.csv")) == 1 + 84);
-  CHECK(line_count(read_text(out / "history.csv")) == 1 + 1 + 12);  // t = 0, and frames at 60 per second until 0.2 s
-  CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
-}
-
-TEST_CASE("a step longer than a frame gives one frame and one row of history, however much longer") {
-  const ScratchFolder folder;
-  for (const std::string time_step : {"0.01", "1e10"}) {
-    CAPTURE(time_step);
-    const auto out = folder.path / time_step;
-    const ProgramResult result =
-        run_program("run " + small_scene(folder).string() + " --device cpu --steps 3 --frames obj --set output.frame_rate=250" +
-                    " --set collision.response=none --integrator verlet --set simulation.damping_law=none --time-step " +
-                    time_step + " --out " + out.string());
-    CAPTURE(result.output);
-    CHECK(result.exit_code == 0);
-    const std::filesystem::directory_iterator frames(out / "frames");
-    CHECK(static_cast<std::size_t>(std::distance(begin(frames), end(frames))) == line_count(read_text(out / "history.csv")) - 1);
-    CHECK(line_count(read_text(out / "history.csv")) <= 1 + 4);
-    CHECK(summary_in(out)["steps"] >= 1);
-  }
-  for (const char* frame : {"frame_0001.obj", "frame_0002.obj", "frame_0003.obj"})
-    CHECK(read_text(folder.path / "0.01/frames/frame_0000.obj") != read_text(folder.path / "0.01/frames" / frame));
-}
-
-TEST_CASE("a run of one frame says that it is one") {
-  const ScratchFolder folder;
-  const std::string options = " --device cpu --frames obj --out " + folder.path.string() + " --steps ";
-  const std::string scene = small_scene(folder).string();
-  CHECK_THAT(run_program("run " + scene + options + "0").output, Catch::Contains("frames (1 file)\n"));
-  CHECK_THAT(run_program("run " + scene + options + "100").output, Catch::Contains(" files)\n"));
-}
+using test::small_scene;
+using test::summary_in;
 
 TEST_CASE("a picture too large for the driver or its memory exits with 4 before any step", "[gl]") {
   if (!test::has_gl() || !gl::list_adapters().front().is_software) return;  // a large GPU has room
@@ -104,35 +24,6 @@ TEST_CASE("a picture too large for the driver or its memory exits with 4 before 
                   " --device cpu --steps 1 --frames png --set output.size=[16384,16384] --out " + (folder.path / "out").string(),
               4, {"pliant: GPU memory", "output.size"});
   CHECK_FALSE(std::filesystem::exists(folder.path / "out" / "history.csv"));
-}
-
-TEST_CASE("with a tolerance every frame is exactly at its time, and the summary counts steps") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder).string() + " --device cpu --tolerance 1e-5 --integrator auto --frames obj --out " +
-                  folder.path.string());
-  CAPTURE(result.output);
-  REQUIRE(result.exit_code == 0);
-  std::istringstream rows(read_text(folder.path / "history.csv"));
-  std::string row;
-  std::getline(rows, row);
-  for (int frame = 0; frame <= 12; ++frame) {
-    REQUIRE(std::getline(rows, row));
-    CHECK(std::strtod(row.c_str() + row.find(',') + 1, nullptr) == frame / 60.0);
-  }
-  const std::filesystem::directory_iterator frames(folder.path / "frames");
-  CHECK(std::distance(begin(frames), end(frames)) == 13);
-  const auto summary = summary_in(folder.path);
-  CHECK(summary["simulated_seconds"] == 0.2);
-  CHECK(summary["time_step"].is_null());
-  CHECK(summary["integrator"] == "verner78_8");
-  CHECK(summary["contacts"]["steps"] > 0);
-  const auto adaptive = summary["adaptive"];
-  CHECK(adaptive["tolerance"] == 1e-5);
-  CHECK(adaptive["accepted"] == summary["steps"]);
-  CHECK(adaptive["smallest_step"] > 0);
-  CHECK(adaptive["largest_step"] >= adaptive["smallest_step"]);
-  CHECK_THAT(result.output, Catch::Contains("rejected"));
 }
 
 TEST_CASE("a tolerance by an option replaces a scene's method that can't meet it, and says so in a line") {
@@ -153,44 +44,6 @@ TEST_CASE("a check with a tolerance estimates the number of steps") {
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("by a tolerance of 1e-05") && Catch::Contains("steps:            about ") &&
                                 !Catch::Contains("inf") && !Catch::Contains("nan"));
-}
-
-TEST_CASE("zero steps write the start") {
-  const ScratchFolder folder;
-  const std::string common =
-      "run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet --out " + folder.path.string();
-  REQUIRE(run_program(common).exit_code == 0);
-  CHECK(summary_in(folder.path)["steps"] == 0);
-  CHECK(line_count(read_text(folder.path / "history.csv")) == 2);
-  std::istringstream rows(read_text(folder.path / "final_state.csv"));
-  std::string row;
-  double sum_x = 0, sum_vx = 0;
-  std::getline(rows, row);
-  CHECK(row == "body,vertex,x,y,z,vx,vy,vz");
-  for (int k = 0; k < 42 && std::getline(rows, row); ++k) {
-    int body = -1, vertex = -1;
-    double x = 0, y = 0, z = 0, vx = 0;
-    REQUIRE(std::sscanf(row.c_str(), "%d,%d,%lf,%lf,%lf,%lf", &body, &vertex, &x, &y, &z, &vx) == 6);
-    CHECK(body == 0);
-    CHECK(vertex == k);
-    sum_x += x;
-    sum_vx += vx;
-  }
-  CHECK(sum_x / 42 == Approx(-1.1));
-  CHECK(sum_vx / 42 == Approx(4));
-}
-
-TEST_CASE("an undamped run without contact reports its energy drift") {
-  const ScratchFolder folder;
-  const std::string scene = small_scene(folder, "damping_law = \"none\"\n").string();
-  REQUIRE(run_program("run " + scene +
-                      " --device cpu --quiet --steps 10 --set body.left.stretch=[1.1,1,1] --set body.left.velocity=[0,0,0]" +
-                      " --out " + folder.path.string())
-              .exit_code == 0);
-  const auto drift = summary_in(folder.path)["energy"]["max_drift"];
-  REQUIRE(drift.is_number());
-  CHECK(drift > 0);
-  CHECK(drift < 1e-3);
 }
 
 TEST_CASE("options replace what the scene says") {
@@ -217,153 +70,6 @@ TEST_CASE("whole numbers are decimal, whatever zeros they begin with") {
     CHECK(summary_in(folder.path)["steps"] == steps);
     CHECK(summary_in(folder.path)["threads"] == std::stoi(threads));
   }
-}
-
-// Red, green and blue of each pixel.
-using Colour = std::array<unsigned char, 3>;
-
-std::vector<Colour> pixels_of(const std::filesystem::path& path) {
-  int width = 0, height = 0, channels = 0;
-  unsigned char* data = stbi_load(path.c_str(), &width, &height, &channels, 3);
-  REQUIRE(data != nullptr);
-  std::vector<Colour> pixels(static_cast<std::size_t>(width * height));
-  std::memcpy(pixels.data(), data, pixels.size() * sizeof(Colour));
-  stbi_image_free(data);
-  return pixels;
-}
-
-bool is_reddish(const Colour& c) { return c[0] > c[2] + 60; }
-bool is_bluish(const Colour& c) { return c[2] > c[0] + 60; }
-
-TEST_CASE("frames of the demo's scene show both bodies, and move, on either device", "[gl]") {
-  if (!test::has_gl()) return;
-  const ScratchFolder folder;
-  for (const std::string device : {"cpu", "gpu"}) {
-    const auto out = folder.path / device;
-    REQUIRE(run_program("run " + shipped_scene("two_spheres") + " --steps 20 --frames png --quiet --device " + device +
-                        " --set output.size=[320,180] --out " + out.string())
-                .exit_code == 0);
-    const auto first = pixels_of(out / "frames/frame_0000.png"), later = pixels_of(out / "frames/frame_0001.png");
-    for (const auto& picture : {first, later}) {
-      CHECK(picture.size() == 320 * 180);
-      CHECK(std::count_if(picture.begin(), picture.end(), is_reddish) > 1000);
-      CHECK(std::count_if(picture.begin(), picture.end(), is_bluish) > 1000);
-      CHECK(std::set<Colour>(picture.begin(), picture.end()).size() > 500);
-    }
-    CHECK(first != later);
-  }
-  CHECK(pixels_of(folder.path / "cpu/frames/frame_0000.png") == pixels_of(folder.path / "gpu/frames/frame_0000.png"));
-}
-
-TEST_CASE("Ctrl-C and SIGTERM end a run early and write what there is") {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const ScratchFolder folder;
-    const std::string out = folder.path.string(), scene = small_scene(folder).string();
-    ProgramInTerminal program({"run", scene, "--device", "cpu", "--steps", "100000000", "--out", out});
-    REQUIRE(program.has_shown_progress(3));
-    CHECK(program.end_by(signal).exit_code == 130);
-    const auto summary = summary_in(folder.path);
-    CHECK(summary["steps"] > 0);
-    CHECK(summary["steps"] < 100000000);
-    CHECK(summary["interrupted"] == true);
-    CHECK(summary["energy"]["final"].is_number());
-    CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
-  }
-}
-
-TEST_CASE("each format of frames has a file a frame") {
-  const ScratchFolder folder;
-  for (const std::string format : {"obj", "ply", "vtk"}) {
-    REQUIRE(run_program("run " + small_scene(folder).string() + " --steps 4 --device cpu --quiet --frames " + format + " --out " +
-                        folder.path.string())
-                .exit_code == 0);
-    for (const char* name : {"frame_0000.", "frame_0001.", "frame_0002."})
-      CHECK(std::filesystem::file_size(folder.path / "frames" / (name + format)) > 1000);
-  }
-}
-
-TEST_CASE("an existing folder is written into and never emptied") {
-  const ScratchFolder folder;
-  std::ofstream(folder.path / "precious.txt") << "keep me";
-  REQUIRE(run_program("run " + small_scene(folder).string() + " --device cpu --steps 1 --quiet --out " + folder.path.string())
-              .exit_code == 0);
-  CHECK(read_text(folder.path / "precious.txt") == "keep me");
-}
-
-TEST_CASE("a step beyond the bound runs, with a warning that says by how much") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder).string() + " --device cpu --integrator verlet --time-step 0.1 --steps 1 --out " +
-                  folder.path.string());
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("warning") && Catch::Contains("2.05 times"));  // omega = sqrt(42 40), bound 2 / omega
-}
-
-TEST_CASE("a run that blows up but stays finite says so in its summary") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + shipped_scene("bunnies_overdamped") + " --device cpu --steps 2 --quiet --out " + folder.path.string());
-  CHECK(result.exit_code == 0);
-  const std::string warnings = summary_in(folder.path)["warnings"].dump();
-  CHECK_THAT(warnings, Catch::Contains("1.08 times the stability bound") && Catch::Contains("the energy has grown"));
-  CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
-}
-
-TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity below 1 too") {
-  const ScratchFolder folder;
-  const auto growth_and_warnings = [&](const std::string& time_step) {
-    const ProgramResult result = run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
-                                             " --device cpu --duration 0.5 --set collision.elasticity=0.9 --quiet --time-step " +
-                                             time_step + " --out " + folder.path.string());
-    REQUIRE(result.exit_code == 0);
-    const auto summary = summary_in(folder.path);
-    return std::pair(summary["energy"]["final"].get<double>() / summary["energy"]["initial"].get<double>(),
-                     summary["warnings"].dump());
-  };
-  const auto [grown, warnings] = growth_and_warnings("0.01");
-  CHECK((grown > 1.05 && grown < 2));
-  CHECK_THAT(warnings, Catch::Contains("the energy has grown 1.1") && Catch::Contains("contacts have added it"));
-  const auto [shrunk, none] = growth_and_warnings("0.002");
-  CHECK(shrunk < 1.05);
-  CHECK_THAT(none, !Catch::Contains("energy"));
-}
-
-TEST_CASE("energy that gravity gives, wherever the world's origin is, is no growth") {
-  const ScratchFolder folder;
-  const ProgramResult result = run_program(
-      "run " + small_scene(folder, "integrator = \"verlet\"\ndamping_law = \"none\"\ngravity = [0, -10, 0]\n").string() +
-      " --device cpu --duration 2 --set body.left.position=[0,1.5,0] --set body.right.position=[0,-1.5,0]"
-      " --set body.left.velocity=[0,0,0] --out " +
-      folder.path.string());
-  REQUIRE(result.exit_code == 0);
-  CHECK_THAT(result.output, !Catch::Contains("energy"));
-  CHECK(summary_in(folder.path)["energy"]["max_drift"].get<double>() < 1e-6);
-}
-
-TEST_CASE("bodies that overlap at the start are named in a warning") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --set body.right.position=[0,0,0] --out " +
-                  folder.path.string());
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("left, right"));
-}
-
-TEST_CASE("a run that goes non-finite says where, writes what there is and exits with 5") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
-                  " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set body.left.stretch=[1.1,1,1] --out " +
-                  folder.path.string());
-  CHECK(result.exit_code == 5);
-  CHECK_THAT(result.output, Catch::Contains("non-finite in step") && Catch::Contains("body \"left\"") &&
-                                Catch::Contains("shorten the time step"));
-  CHECK(summary_in(folder.path)["non_finite"] == true);
-  CHECK_THAT(summary_in(folder.path)["warnings"].dump(),
-             Catch::Contains("times the stability bound") && Catch::Contains("non-finite in step"));
-  CHECK(summary_in(folder.path)["energy"]["final"].is_null());
-  CHECK(summary_in(folder.path)["final_intersecting_pairs"].is_null());
-  CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
 }
 
 TEST_CASE("a check validates and estimates without writing") {
@@ -500,39 +206,12 @@ TEST_CASE("output that cannot be written is not a success") {
     check_fails(std::string(arguments) + " > /dev/full", 2, {});
 }
 
-TEST_CASE("a duration too short for one step is warned of") {
-  const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder).string() + " --device cpu --quiet --time-step 1e6 --out " + folder.path.string());
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("no step is made") && !Catch::Contains("stability bound"));
-}
-
 TEST_CASE("mesh reports counts as text and as JSON") {
   CHECK_THAT(run_program("mesh icosphere:3").output, Catch::Contains("642") && Catch::Contains("1280"));
   const ProgramResult json = run_program("mesh " + source_dir() + "/meshes/bunny.obj --json");
   REQUIRE(json.exit_code == 0);
   CHECK_THAT(json.output, Catch::Contains("3674"));
   CHECK_NOTHROW(nlohmann::json::parse(json.output));
-}
-
-TEST_CASE("info lists devices and integrators") {
-  const auto devices = nlohmann::json::parse(run_program("info --json").output);
-  CHECK(devices["cpu"]["threads"] >= 1);
-  CHECK(devices["gpus"].size() == gl::list_adapters().size());
-  const auto integrators = nlohmann::json::parse(run_program("info --integrators --json").output);
-  std::vector<std::string> names, meeting_tolerances;
-  for (const auto& row : integrators) {
-    names.push_back(row["name"]);
-    if (row["tolerance"]) meeting_tolerances.push_back(row["name"]);
-  }
-  CHECK(names == std::vector<std::string>{"verlet", "rk4", "srkn11b", "cv8", "cv8_minus", "dop853", "verner78_8", "vern8",
-                                          "dprkn8", "dprkn12"});
-  CHECK(meeting_tolerances == std::vector<std::string>{"dop853", "verner78_8", "vern8", "dprkn8", "dprkn12"});
-  const std::string table = run_program("info --integrators").output;
-  CHECK_THAT(table, Catch::Contains("tolerance") && Catch::Contains("\"auto\"") && Catch::Contains("squashed"));
-  CHECK(run_program("--version").exit_code == 0);
-  CHECK(run_program("--help").exit_code == 0);
 }
 
 }  // namespace

@@ -2,10 +2,30 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "gl/context.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant {
+
+TEST_CASE("info lists devices and integrators") {
+  const auto devices = nlohmann::json::parse(run_program("info --json").output);
+  CHECK(devices["cpu"]["threads"] >= 1);
+  CHECK(devices["gpus"].size() == gl::list_adapters().size());
+  const auto integrators = nlohmann::json::parse(run_program("info --integrators --json").output);
+  std::vector<std::string> names, meeting_tolerances;
+  for (const auto& row : integrators) {
+    names.push_back(row["name"]);
+    if (row["tolerance"]) meeting_tolerances.push_back(row["name"]);
+  }
+  CHECK(names == std::vector<std::string>{"verlet", "rk4", "srkn11b", "cv8", "cv8_minus", "dop853", "verner78_8", "vern8",
+                                          "dprkn8", "dprkn12"});
+  CHECK(meeting_tolerances == std::vector<std::string>{"dop853", "verner78_8", "vern8", "dprkn8", "dprkn12"});
+  const std::string table = run_program("info --integrators").output;
+  CHECK_THAT(table, Catch::Contains("tolerance") && Catch::Contains("\"auto\"") && Catch::Contains("squashed"));
+  CHECK(run_program("--version").exit_code == 0);
+  CHECK(run_program("--help").exit_code == 0);
+}
 
 TEST_CASE("PLIANT_ISA names the instruction set that a run and info say they use") {
   const auto cpu_with = [](const std::string& isa) {

@@ -1,0 +1,101 @@
+// What a run says of its motion: warnings, and where it breaks down.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "core/read_text.hpp"
+#include "support/program.hpp"
+#include "support/runs.hpp"
+
+namespace pliant {
+namespace {
+
+using test::ScratchFolder;
+using test::small_scene;
+using test::summary_in;
+
+TEST_CASE("a step beyond the bound runs, with a warning that says by how much") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --integrator verlet --time-step 0.1 --steps 1 --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("warning") && Catch::Contains("2.05 times"));  // omega = sqrt(42 40), bound 2 / omega
+}
+
+TEST_CASE("a run that blows up but stays finite says so in its summary") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + shipped_scene("bunnies_overdamped") + " --device cpu --steps 2 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  const std::string warnings = summary_in(folder.path)["warnings"].dump();
+  CHECK_THAT(warnings, Catch::Contains("1.08 times the stability bound") && Catch::Contains("the energy has grown"));
+  CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
+}
+
+TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity below 1 too") {
+  const ScratchFolder folder;
+  const auto growth_and_warnings = [&](const std::string& time_step) {
+    const ProgramResult result = run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                                             " --device cpu --duration 0.5 --set collision.elasticity=0.9 --quiet --time-step " +
+                                             time_step + " --out " + folder.path.string());
+    REQUIRE(result.exit_code == 0);
+    const auto summary = summary_in(folder.path);
+    return std::pair(summary["energy"]["final"].get<double>() / summary["energy"]["initial"].get<double>(),
+                     summary["warnings"].dump());
+  };
+  const auto [grown, warnings] = growth_and_warnings("0.01");
+  CHECK((grown > 1.05 && grown < 2));
+  CHECK_THAT(warnings, Catch::Contains("the energy has grown 1.1") && Catch::Contains("contacts have added it"));
+  const auto [shrunk, none] = growth_and_warnings("0.002");
+  CHECK(shrunk < 1.05);
+  CHECK_THAT(none, !Catch::Contains("energy"));
+}
+
+TEST_CASE("energy that gravity gives, wherever the world's origin is, is no growth") {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program(
+      "run " + small_scene(folder, "integrator = \"verlet\"\ndamping_law = \"none\"\ngravity = [0, -10, 0]\n").string() +
+      " --device cpu --duration 2 --set body.left.position=[0,1.5,0] --set body.right.position=[0,-1.5,0]"
+      " --set body.left.velocity=[0,0,0] --out " +
+      folder.path.string());
+  REQUIRE(result.exit_code == 0);
+  CHECK_THAT(result.output, !Catch::Contains("energy"));
+  CHECK(summary_in(folder.path)["energy"]["max_drift"].get<double>() < 1e-6);
+}
+
+TEST_CASE("bodies that overlap at the start are named in a warning") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --set body.right.position=[0,0,0] --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("left, right"));
+}
+
+TEST_CASE("a run that goes non-finite says where, writes what there is and exits with 5") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                  " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set body.left.stretch=[1.1,1,1] --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 5);
+  CHECK_THAT(result.output, Catch::Contains("non-finite in step") && Catch::Contains("body \"left\"") &&
+                                Catch::Contains("shorten the time step"));
+  CHECK(summary_in(folder.path)["non_finite"] == true);
+  CHECK_THAT(summary_in(folder.path)["warnings"].dump(),
+             Catch::Contains("times the stability bound") && Catch::Contains("non-finite in step"));
+  CHECK(summary_in(folder.path)["energy"]["final"].is_null());
+  CHECK(summary_in(folder.path)["final_intersecting_pairs"].is_null());
+  CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
+}
+
+TEST_CASE("a duration too short for one step is warned of") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --quiet --time-step 1e6 --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("no step is made") && !Catch::Contains("stability bound"));
+}
+
+}  // namespace
+}  // namespace pliant

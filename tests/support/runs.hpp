@@ -1,0 +1,24 @@
+// Runs of a small scene by the program, and what they leave.
+#pragma once
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/scratch.hpp"
+
+namespace pliant::test {
+
+std::size_t line_count(const std::string& text);
+
+/// Of a run into this folder.
+nlohmann::json summary_in(const std::filesystem::path& folder);
+
+/// A scene of two small spheres, quick to run; `more` goes into [simulation].
+std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "");
+
+/// The program ends with this exit code, and says all of `parts`.
+void check_fails(const std::string& arguments, int exit_code, std::initializer_list<const char*> parts);
+
+}  // namespace pliant::test
