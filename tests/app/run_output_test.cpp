@@ -157,7 +157,7 @@ bool is_reddish(const Colour& c) { return c[0] > c[2] + 60; }
 bool is_bluish(const Colour& c) { return c[2] > c[0] + 60; }
 
 TEST_CASE("frames of the demo's scene show both bodies, and move, on either device", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const ScratchFolder folder;
   for (const std::string device : {"cpu", "gpu"}) {
     const auto out = folder.path / device;

@@ -69,7 +69,7 @@ std::string probed(const std::filesystem::path& video) {
 }
 
 TEST_CASE("the ffmpeg that is installed makes a video of every picture, with even sizes, in every container") {
-  if (!test::has("ffmpeg", VideoFile::has_encoder()) || !test::has("ffprobe", find_program("ffprobe").has_value())) return;
+  if (test::lacks("ffmpeg", VideoFile::has_encoder()) || test::lacks("ffprobe", find_program("ffprobe").has_value())) return;
   const ScratchFolder folder;
   for (const std::string name : {"a.mp4", "a.mkv", "a.mov"}) {
     VideoFile video(folder.path / name, {7, 5, 50});

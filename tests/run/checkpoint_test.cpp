@@ -92,7 +92,7 @@ TEST_CASE("a killed run is resumed with the options it had, in either precision 
 }
 
 TEST_CASE("a run on the GPU that is killed and resumed ends as one that is not, to the bit", "[gl][long]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   check_killed_run(verlet, " --device gpu --duration 3");
 }
 
@@ -251,7 +251,7 @@ TEST_CASE("warnings stay with a run, however often it is resumed, and are told o
 }
 
 TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Begun begun("icosphere:1", " --precision 64");
   begun.lengthen();
   const ProgramResult result = begun.resume(" --device gpu");

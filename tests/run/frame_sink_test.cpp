@@ -44,7 +44,7 @@ struct Drawn {
 const std::string recorder = "printf '%s\\n' \"$@\" > \"$0.arguments\"\ncat > \"$0.input\"\necho whole > \"$0.end\"\n";
 
 TEST_CASE("a video gets a picture a frame at the scene's size and rate, and no frames are written", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   const ProgramResult result = drawn.run();
@@ -59,7 +59,7 @@ TEST_CASE("a video gets a picture a frame at the scene's size and rate, and no f
 }
 
 TEST_CASE("where steps are longer than frames, a second of video is a second all the same", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   REQUIRE(drawn.run(" --set output.frame_rate=1000 --steps 10").exit_code == 0);
@@ -68,7 +68,7 @@ TEST_CASE("where steps are longer than frames, a second of video is a second all
 }
 
 TEST_CASE("without ffmpeg a run says so and writes PNG frames", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const ProgramResult result = drawn.run("", "PATH=" + drawn.bin().string() + " ");
   CAPTURE(result.output);
@@ -80,7 +80,7 @@ TEST_CASE("without ffmpeg a run says so and writes PNG frames", "[gl]") {
 }
 
 TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho some line >&2\necho no room left >&2\nexit 1\n");
   const ProgramResult result = drawn.run();
@@ -90,7 +90,7 @@ TEST_CASE("an ffmpeg that fails at the end costs the video alone", "[gl]") {
 }
 
 TEST_CASE("a run that goes non-finite or is interrupted exits so, whatever became of its video", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat > /dev/null\necho no room left >&2\nexit 1\n");
   const ProgramResult broken = drawn.run(
@@ -106,7 +106,7 @@ TEST_CASE("a run that goes non-finite or is interrupted exits so, whatever becam
 }
 
 TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning at once", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "head -c 20000 > /dev/null\necho no room left >&2\nexit 1\n");
   const ProgramResult result = drawn.run(" --steps 1000");
@@ -119,7 +119,7 @@ TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning 
 }
 
 TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpeg end by itself", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", recorder);
   ProgramInTerminal program(drawn.endless());
@@ -134,7 +134,7 @@ TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpe
 
 // It waits for its end, which comes with the last writer of a pipe: the test's own.
 TEST_CASE("Ctrl-C again a second later ends a run that waits for an ffmpeg without end", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const Drawn drawn;
   const StandIn ffmpeg(drawn.bin(), "ffmpeg", "cat \"$0.pipe\" > /dev/null\n");
   const std::string pipe = (drawn.bin() / "ffmpeg.pipe").string();

@@ -71,7 +71,7 @@ TEST_CASE("the CPU gives the same bits on 1, 2 and 7 threads") {
 }
 
 TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const Outcome first = collide(*make_gpu_device(0), start, usual, 30);
   const Outcome second = collide(*make_gpu_device(0), start, usual, 30);
@@ -331,7 +331,7 @@ TEST_CASE("a vertex that goes non-finite is named in the step that made it, and 
 }
 
 TEST_CASE("the GPU's final state is the fp64 one for the smooth part of a collision scene", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const Method method{"cv8", 0.005, DampingLaw::adaptive};
   const std::uint64_t steps = 5;  // until just before the first contact

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "support/has.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
 
@@ -104,7 +105,7 @@ bool Viewed::shows_another(const render::Image& picture) const {
 
 bool is_skipped() {
   const std::string why = obstacle();
-  if (!why.empty()) WARN("skipped: " << why);
+  if (!why.empty()) skip(why);
   return !why.empty();
 }
 

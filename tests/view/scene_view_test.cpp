@@ -31,7 +31,7 @@ render::Image picture_of(Session& session, const Shows& shows) {
 }
 
 TEST_CASE("a session looks the same on every device, whatever its bodies are coloured by", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   gl::Context context(0);
   const auto cpu = make_cpu_device(2, 32), gpu = make_gpu_device(context);
   Session session(*cpu, colliding());
@@ -48,7 +48,7 @@ TEST_CASE("a session looks the same on every device, whatever its bodies are col
 }
 
 TEST_CASE("a view follows its session, and draws no picture twice", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   gl::Context context(0);
   const auto cpu = make_cpu_device(2, 32), gpu = make_gpu_device(context);
   Session session(*cpu, colliding());

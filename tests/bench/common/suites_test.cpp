@@ -76,7 +76,7 @@ TEST_CASE("forces are measured on the CPU with one thread and all, in both preci
 }
 
 TEST_CASE("forces are measured on the GPU", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   check_forces({.devices = {.cpu = false, .gpu = true}, .quick = true}, {{32, 1}});
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("steps are measured on one thread and all, and every row is told") {
 }
 
 TEST_CASE("drawing is timed for every scene, frame and pass", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const test::ScratchFolder folder;
   std::filesystem::copy(source_dir() + "/scenes/two_spheres.toml", folder.path);
   Told told;
