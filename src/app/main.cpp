@@ -255,6 +255,13 @@ std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
   return {program, name};
 }
 
+// CLI11 says "--steps: At Most 1 required but received 2" of an option that is given twice.
+std::string complaint_of_count(const std::string& text) {
+  const auto at = text.find(": At Most 1 required but received ");
+  if (at == std::string::npos) return text;
+  return fmt::format("{}: is given {} times; give it once", text.substr(0, at), text.substr(text.rfind(' ') + 1));
+}
+
 // CLI11 asks for a subcommand without naming the word that is none, or no option.
 std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
   const auto [command, name] = command_in(program);
@@ -262,7 +269,7 @@ std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
   for (const CLI::App* choice : command->get_subcommands({})) choices += (choices.empty() ? "" : ", ") + choice->get_name();
   const std::vector<std::string> unknown = command->remaining();
   const auto what = [&]() -> std::string {
-    if (choices.empty()) return error.what();
+    if (choices.empty()) return complaint_of_count(error.what());
     if (unknown.empty()) return fmt::format("{} needs a subcommand: {}", name, choices);
     if (unknown.front().starts_with('-')) return fmt::format("{} has no option {}", name, unknown.front());
     return fmt::format("there is no \"{} {}\"; what exists: {}", name, unknown.front(), choices);

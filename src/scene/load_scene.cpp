@@ -113,11 +113,12 @@ struct Choice {
 };
 
 void convert(const toml::node& node, const std::string& path, double& value, const Range& range) {
-  const std::optional<double> number = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!number) fail(node, path, fmt::format("is {}", type_name(node)), fmt::format("write {}", range.text));
-  if (!(*number >= range.lowest && *number <= range.highest))
-    fail(node, path, fmt::format("{} is out of range", *number), fmt::format("write {}", range.text));
-  value = *number;
+  if (!node.is_number()) fail(node, path, fmt::format("is {}", type_name(node)), fmt::format("write {}", range.text));
+  // toml++ gives no double for a whole number that it would round.
+  const double number = node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
+  if (!(number >= range.lowest && number <= range.highest))
+    fail(node, path, fmt::format("{} is out of range", number), fmt::format("write {}", range.text));
+  value = number;
 }
 
 void convert(const toml::node& node, const std::string& path, unsigned& value, const Range& range) {
@@ -310,6 +311,9 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("velocity", body.velocity, coordinate);
   table.read("spin", body.spin, coordinate);
   table.read("stretch", body.stretch, coordinate);
+  if (body.stretch == glm::dvec3(0.0))
+    throw Error(fault_of(table.where("stretch")), table.where("stretch"),
+                "presses the body into one point, where no spring has a direction", "write a factor other than 0 for an axis");
   table.allow_one_of("stiffness", "total_stiffness");
   table.read("stiffness", body.stiffness, not_negative);
   table.read("total_stiffness", body.total_stiffness, not_negative);

@@ -96,6 +96,8 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + scene + " --device gpu --precision 64", 2, {"precision", "CPU"});
   check_fails("run " + scene + " --device cpu --gpu 0", 2, {"--gpu"});
   check_fails("run " + scene + " --steps 3 --duration 1", 2, {"--steps"});
+  check_fails("run " + scene + " --steps 3 --steps 2", 2,
+              {"pliant: --steps: is given 2 times; give it once; `pliant run --help`"});
   check_fails("run " + scene + " --steps -1", 2, {"--steps"});
   check_fails("run " + scene + " --steps many", 2, {"--steps", "\"many\" is no whole number"});
   check_fails("run " + scene + " --steps 1e3", 2, {"--steps", "\"1e3\" is no whole number"});

@@ -231,6 +231,18 @@ TEST_CASE("keys that contradict each other are an error") {
   check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "beside vertex_mass"});
 }
 
+TEST_CASE("a body is not stretched to a single point, and may be to a line") {
+  check_input_error(smallest + "stretch = [0, 0.0, -0.0]\n", 3, {"body.body0.stretch", "one point", "write a factor"});
+  check_override_error(smallest, "body.body0.stretch=[0, 0, 0]", {"one point"});
+  CHECK(load_text(smallest + "stretch = [0, 0, 1]\n").bodies.at(0).stretch == glm::dvec3(0, 0, 1));
+}
+
+TEST_CASE("a whole number that no double holds is the nearest one") {
+  CHECK(load_text(smallest + "weld = 9223372036854775807\n").bodies.at(0).weld == 0x1p63);
+  check_input_error("[collision.tree]\nmax_depth = 9223372036854775807\n" + smallest, 2,
+                    {"out of range", "write a whole number"});
+}
+
 TEST_CASE("a camera looks at something other than itself") {
   const std::string camera = "[output.camera]\neye = [1, 2, 3]\n";
   check_input_error(camera + "target = [1, 2, 3]\n" + smallest, 2, {"output.camera", "same point", "move"});
