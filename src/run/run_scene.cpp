@@ -53,7 +53,7 @@ class Run {
     progress_.times.building.add(prepared.build_time);
   }
 
-  int execute() {
+  int execute() try {
     if (options_.timings) run_.simulation->time_passes();
     report_ = run_.simulation->report();
     if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // not another run's until one is due
@@ -70,6 +70,9 @@ class Run {
     history_.close();
     write_end();
     return end_frames(report_.non_finite ? exit_non_finite : is_interrupted() ? exit_interrupted : 0);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::command_line) throw;
+    throw Error(error.kind(), "", error.what(), told_earlier_files());
   }
 
  private:
@@ -211,10 +214,28 @@ class Run {
       fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
   }
 
+  // A file that can't be written leaves those of two runs side by side.
+  std::string told_earlier_files() const {
+    std::string names;
+    std::error_code unknown;  // counts as none
+    const auto add = [&](const std::filesystem::path& path, const char* more) {
+      if (std::filesystem::exists(path, unknown))
+        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", path.filename().string(), more);
+    };
+    if (!has_state_) add(folder_ / final_state_name, "");
+    if (!has_summary_) add(folder_ / summary_name, "");
+    const int next_frame = static_cast<int>(progress_.frames_written);
+    if (options_.frames != FrameFormat::none)
+      add(frame_path(folder_ / "frames", next_frame, options_.frames), " and later frames");
+    return names.empty() ? "" : fmt::format("left there by an earlier run: {}; all else is of this one", names);
+  }
+
   // The summary is small: it may fit where the state does not.
   void write_end() {
     const std::optional<Error> lost = write_state();
+    has_state_ = !lost;
     write_summary(folder_ / summary_name, summary_of(status()));
+    has_summary_ = true;
     if (!options_.quiet) show_end(status());
     if (const auto what = instability_of(status()))
       fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
@@ -245,6 +266,7 @@ class Run {
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
   std::set<std::string_view> warned_of_;  // forces
+  bool has_state_ = false, has_summary_ = false;  // their files are this run's
 };
 
 // Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.

@@ -203,6 +203,23 @@ TEST_CASE("each format of frames has a file a frame") {
   }
 }
 
+// A limit of files' sizes in the place of a full disk.
+TEST_CASE("a run that can't write says which files there are of an earlier one") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 3 --quiet --frames obj --out " +
+                          (folder.path / "out").string(),
+                    full = "trap '' XFSZ; ulimit -f 4; ";
+  const ProgramResult first = run_program(run, full);
+  CHECK(first.exit_code == 2);
+  CHECK_THAT(first.output, Catch::Contains("frame_0000.obj") && !Catch::Contains("earlier"));
+  REQUIRE(run_program(run).exit_code == 0);
+  const ProgramResult again = run_program(run, full);
+  CHECK(again.exit_code == 2);
+  CHECK_THAT(again.output, Catch::Contains("frame_0000.obj") &&
+                               Catch::Contains("left there by an earlier run: final_state.csv, summary.json, frame_0000.obj and "
+                                               "later frames; all else is of this one"));
+}
+
 TEST_CASE("an existing folder is written into and never emptied") {
   const ScratchFolder folder;
   std::ofstream(folder.path / "precious.txt") << "keep me";

@@ -469,7 +469,8 @@ TEST_CASE("a final state that can't be written leaves the one before, a summary,
       "trap '' XFSZ; ulimit -f 8; ");
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.output, Catch::Contains("final_state.csv") && Catch::Contains("can't be written to the end"));
+  CHECK_THAT(result.output, Catch::Contains("final_state.csv") && Catch::Contains("can't be written to the end") &&
+                                Catch::Contains("left there by an earlier run: final_state.csv; all else is of this one"));
   CHECK(read_text(state) == "earlier");
   CHECK(account_in(folder.path)["steps"] == 50);
 }
