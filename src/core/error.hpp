@@ -3,15 +3,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/origin.hpp"
+
 namespace pliant {
 
 /// What kind of thing went wrong; the values are the program's exit codes.
 enum class ErrorKind { command_line = 2, input = 3, device = 4 };
-
-/// Whose mistake it is: the command line's where an option is the place to blame ("--steps", "--set ..."), else the input's.
-inline ErrorKind fault_of(const std::string& where) {
-  return where.starts_with("--") ? ErrorKind::command_line : ErrorKind::input;
-}
 
 /// Thrown while loading and building, or where a device fails; never for what numbers do.
 class Error : public std::runtime_error {
@@ -19,6 +16,10 @@ class Error : public std::runtime_error {
   /// `where` names a file, line, field or element and may be empty; `remedy` says what to do about it.
   Error(ErrorKind kind, const std::string& where, const std::string& what, const std::string& remedy)
       : std::runtime_error((where.empty() ? "" : where + ": ") + what + (remedy.empty() ? "" : "; " + remedy)), kind_(kind) {}
+
+  /// Whoever gave the value has to mend it: the kind is command_line or input.
+  Error(const Origin& where, const std::string& what, const std::string& remedy)
+      : Error(where.is_command_line() ? ErrorKind::command_line : ErrorKind::input, where.place, what, remedy) {}
 
   [[nodiscard]] ErrorKind kind() const { return kind_; }
 

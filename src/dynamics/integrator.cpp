@@ -121,13 +121,13 @@ auto visit_rows(const Integrator& integrator, std::span<const int> used, double 
 
 }  // namespace
 
-const Integrator& find_integrator(std::string_view name, const std::string& where) {
+const Integrator& find_integrator(std::string_view name, const Origin& where) {
   const auto all = integrators();
   const auto found = std::ranges::find(all, name, &Integrator::name);
   if (found != all.end()) return *found;
   std::vector<std::string_view> names;
   std::ranges::transform(all, std::back_inserter(names), &Integrator::name);
-  throw Error(fault_of(where), where, fmt::format("there is no integrator \"{}\"", name),
+  throw Error(where, fmt::format("there is no integrator \"{}\"", name),
               fmt::format("choose one of {}; with a tolerance also auto", fmt::join(names, ", ")));
 }
 

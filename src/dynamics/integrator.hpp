@@ -45,8 +45,8 @@ struct Integrator {
 /// Every integrator, in the order `pliant info --integrators` lists them.
 [[nodiscard]] std::span<const Integrator> integrators();
 
-/// Throws Error (fault_of(where)) that lists the names; `where` is the place to blame, such as "file:line: field".
-[[nodiscard]] const Integrator& find_integrator(std::string_view name, const std::string& where = "");
+/// Throws Error that lists the names and blames `where`.
+[[nodiscard]] const Integrator& find_integrator(std::string_view name, const Origin& where = {});
 
 /// Null where the method is a splitting.
 [[nodiscard]] const StagedMethod* staged_method(const Integrator& integrator);

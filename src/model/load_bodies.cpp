@@ -27,7 +27,7 @@ LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& fo
     weld_as_described(body, loaded);
     return loaded;
   } catch (const Error& error) {
-    throw Error(fault_of(body.mesh_where), body.mesh_where, error.what(), "");
+    throw Error(body.mesh_where, error.what(), "");
   }
 }
 

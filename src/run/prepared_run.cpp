@@ -23,22 +23,22 @@ void expect_one_of(const std::string& option, const std::string& key, const RunO
 
 SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
   SceneDescription scene = parse_scene(text, scene_of(options), options.overrides);
-  if (options.integrator) scene.simulation.integrator = {*options.integrator, "--integrator"};
+  if (options.integrator) scene.simulation.integrator = {*options.integrator, option_origin("--integrator")};
   if (options.time_step) {
     expect_one_of("--time-step", "simulation.tolerance", options);
     scene.simulation.time_step = options.time_step;
     scene.simulation.tolerance.reset();
-    scene.simulation.length_where = "--time-step";
+    scene.simulation.time_step_where = option_origin("--time-step");
   }
   if (options.tolerance) {
     expect_one_of("--tolerance", "simulation.time_step", options);
     scene.simulation.tolerance = options.tolerance;
-    scene.simulation.tolerance_where = "--tolerance";
+    scene.simulation.tolerance_where = option_origin("--tolerance");
     scene.simulation.time_step.reset();
   }
   if (options.duration) {
     scene.simulation.duration = *options.duration;
-    scene.simulation.length_where = "--duration";
+    scene.simulation.duration_where = option_origin("--duration");
   }
   return scene;
 }

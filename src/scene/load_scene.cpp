@@ -28,7 +28,7 @@ namespace {
 
 // ---- Errors ----
 
-const std::string override_prefix = "--set ";
+const std::string override_prefix = "--set ";  // toml++ keeps nothing of a node's source but a path: it tells an override
 
 bool is_override(const toml::node& node) { return node.source().path && node.source().path->starts_with(override_prefix); }
 
@@ -39,9 +39,13 @@ std::string place_of(const toml::node& node) {
   return is_override(node) ? *source.path : fmt::format("{}:{}", *source.path, source.begin.line);
 }
 
+Origin origin_of(const toml::node& node, const std::string& path) {
+  return {is_override(node) ? Origin::From::override : Origin::From::file,
+          path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path)};
+}
+
 [[noreturn]] void fail(const toml::node& node, const std::string& path, const std::string& what, const std::string& remedy) {
-  throw Error(fault_of(place_of(node)), path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path), what,
-              remedy);
+  throw Error(origin_of(node, path), what, remedy);
 }
 
 std::string type_name(const toml::node& node) {
@@ -153,7 +157,7 @@ void convert(const toml::node& node, const std::string& path, std::string& value
 
 void convert(const toml::node& node, const std::string& path, Named& named) {
   convert(node, path, named.value);
-  named.where = fmt::format("{}: {}", place_of(node), path);
+  named.where = origin_of(node, path);
 }
 
 template <typename Enum>
@@ -217,10 +221,10 @@ class TableReader {
     return peek(key);
   }
 
-  /// Where the key stands, or nothing.
-  std::string where(const char* key) const {
+  /// From nowhere if the key is absent.
+  Origin where(const char* key) const {
     const toml::node* node = peek(key);
-    return node == nullptr ? "" : fmt::format("{}: {}", place_of(*node), path_of(key));
+    return node == nullptr ? Origin() : origin_of(*node, path_of(key));
   }
 
   void finish() const {
@@ -260,8 +264,8 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("tolerance", simulation.tolerance, error_tolerance);
   simulation.tolerance_where = table.where("tolerance");
   table.read("duration", simulation.duration, not_negative);
-  const std::string step = table.where("time_step"), duration = table.where("duration");
-  simulation.length_where = duration.empty() || step.starts_with("--") ? step : duration;
+  simulation.time_step_where = table.where("time_step");
+  simulation.duration_where = table.where("duration");
   table.read("damping_law", simulation.damping_law, damping_laws);
   table.read("gravity", simulation.gravity, coordinate);
 }

@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "core/origin.hpp"
+
 namespace pliant {
 
 /// A value that a later layer resolves, with the place to name when it cannot.
 struct Named {
   std::string value;
-  std::string where = {};  // "file:line: field"
+  Origin where = {};
 };
 
 enum class PressureLaw { gas, constant };
@@ -29,12 +31,11 @@ enum class TreeSplit { centre };
 enum class Coloring { body, deformation };
 
 struct SimulationDescription {
-  Named integrator{"dop853", "simulation.integrator"};
+  Named integrator{"dop853", {Origin::From::nowhere, "simulation.integrator"}};
   std::optional<double> time_step;  // [s]; empty: automatic
   std::optional<double> tolerance;  // of a step's error, relative to the bodies; steps then have no fixed length
-  std::string tolerance_where;      // an option, or "file:line: field"
   double duration = 2.0;            // [s]
-  std::string length_where;         // of duration or time_step, an option before a line; empty where neither is given
+  Origin time_step_where, tolerance_where, duration_where;
   DampingLaw damping_law = DampingLaw::adaptive;
   glm::dvec3 gravity{0.0};  // [m/s^2]
 };
@@ -76,7 +77,7 @@ struct BodyDescription {
   std::string name;
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
-  std::string mesh_where;                 // of the key: an option, or "file:line: field"
+  Origin mesh_where;                      // of the key
   std::optional<double> weld;             // [m]; empty: off
   double scale = 1.0;                     // [m per mesh unit]
   glm::dvec3 position{0.0};               // [m]

@@ -38,15 +38,15 @@ bool bears_tolerance(const Integrator& integrator, DampingLaw law) {
 
 // The scene's method gives way where it can't meet the tolerance of an option; one that an option names as well does not.
 bool gives_way(const Integrator& integrator, const SimulationDescription& simulation, DampingLaw law) {
-  return simulation.tolerance && simulation.tolerance_where == "--tolerance" && !simulation.integrator.where.starts_with("--") &&
-         !bears_tolerance(integrator, law);
+  return simulation.tolerance && simulation.tolerance_where.from == Origin::From::option &&
+         !simulation.integrator.where.is_command_line() && !bears_tolerance(integrator, law);
 }
 
 const Integrator& choose_integrator(const SimulationDescription& simulation, DampingLaw law) {
   const auto& [name, where] = simulation.integrator;
   if (name == "auto") {
     if (simulation.tolerance) return automatic_integrator(*simulation.tolerance, law);
-    throw Error(fault_of(where), where, "\"auto\" chooses by the tolerance, and there is none",
+    throw Error(where, "\"auto\" chooses by the tolerance, and there is none",
                 "give a tolerance, as in tolerance = 1e-6, or name an integrator");
   }
   const Integrator& named = find_integrator(name, where);
@@ -60,20 +60,20 @@ std::string names_that_bear_tolerance(DampingLaw law) {
   return names;
 }
 
-void expect_method_estimates(const TimePlan& plan, const std::string& where) {
+void expect_method_estimates(const TimePlan& plan, const Origin& where) {
   if (!plan.tolerance || bears_tolerance(*plan.integrator, plan.damping_law)) return;
   const char* why = estimates_error(*plan.integrator) ? "meets damping at steps of one length alone, and a tolerance varies them"
                                                       : "does not estimate its error, which a tolerance needs";
-  throw Error(fault_of(where), where, fmt::format("{} {}", plan.integrator->name, why),
+  throw Error(where, fmt::format("{} {}", plan.integrator->name, why),
               fmt::format("take \"auto\" (--integrator auto), or one of {}; or give a time_step instead of the tolerance",
                           names_that_bear_tolerance(plan.damping_law)));
 }
 
-void expect_method_damps(const TimePlan& plan, const std::string& where) {
+void expect_method_damps(const TimePlan& plan, const Origin& where) {
   if (allows_damping(*plan.integrator, plan.damping_law)) return;
   const bool is_nystrom = staged_method(*plan.integrator) != nullptr;
   throw Error(
-      fault_of(where), where,
+      where,
       is_nystrom
           ? fmt::format("{} bears no adaptive damping: its stages have no velocities that it could act on", plan.integrator->name)
           : fmt::format("{} is for bodies without damping: it makes kicks back in time unstable", plan.integrator->name),
@@ -81,14 +81,14 @@ void expect_method_damps(const TimePlan& plan, const std::string& where) {
                   is_nystrom ? "constant" : "none"));
 }
 
-void expect_tableaus_fit(const TimePlan& plan, const Model& model, const std::string& where) {
+void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin& where) {
   if (plan.damping_law == DampingLaw::none || !std::holds_alternative<Nystrom>(plan.integrator->method)) return;
   std::set<double> rates;
   for (const ModelBody& body : model.bodies) rates.insert(body.damping * (1 / body.vertex_mass));
   const std::size_t most = Stepper::most_drags(*plan.integrator);
   if (rates.size() <= most) return;
   throw Error(
-      fault_of(where), where,
+      where,
       fmt::format("{} keeps the damping in its weights and has room for {} rates (damping over a vertex's mass); the bodies "
                   "have {}",
                   plan.integrator->name, most, rates.size()),
@@ -98,9 +98,10 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const std::st
 
 void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDescription& simulation) {
   if (plan.time_step <= bound) return;
-  const std::string& where = simulation.length_where == "--time-step" ? simulation.length_where : simulation.integrator.where;
+  const bool is_option = simulation.time_step_where.from == Origin::From::option;
+  const Origin& where = is_option ? simulation.time_step_where : simulation.integrator.where;
   throw Error(
-      fault_of(where), where,
+      where,
       fmt::format("{} resolves the scene's damping by steps of at most {:.4g} s, not {:.4g} s: bodies would stop short of where "
                   "drag lets them",
                   plan.integrator->name, bound, plan.time_step),
@@ -120,11 +121,17 @@ double shortest_bound(const TimePlan& plan, const Model& model, const Bound& bou
   return shortest;
 }
 
+// The duration before the time step, but an option before a line of the file.
+Origin origin_of_length(const SceneDescription& scene) {
+  const Origin &duration = scene.simulation.duration_where, &step = scene.simulation.time_step_where;
+  const Origin& where = duration.from >= step.from ? duration : step;
+  return where.from == Origin::From::nowhere ? Origin{Origin::From::file, scene.file.string()} : where;
+}
+
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
   const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance the least there can be
-  const std::string& where = scene.simulation.length_where;
   if (!(count <= physics::most_steps()))
-    throw Error(fault_of(where), where.empty() ? scene.file.string() : where, "the run takes more than 3e8 steps",
+    throw Error(origin_of_length(scene), "the run takes more than 3e8 steps",
                 "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
   return static_cast<std::uint64_t>(count);
 }
@@ -186,10 +193,9 @@ double smallest_tolerance(const Integrator& integrator, int precision) {
 
 void expect_carried(const SceneDescription& scene, const TimePlan& plan, int precision) {
   if (!plan.tolerance || *plan.tolerance >= smallest_tolerance(*plan.integrator, precision)) return;
-  const std::string& where = scene.simulation.tolerance_where;
+  const Origin& where = scene.simulation.tolerance_where;
   throw Error(
-      fault_of(where), where,
-      fmt::format("a tolerance of {} is below what forces in fp32 carry with {}", *plan.tolerance, plan.integrator->name),
+      where, fmt::format("a tolerance of {} is below what forces in fp32 carry with {}", *plan.tolerance, plan.integrator->name),
       fmt::format("write {} or more, or run with --device cpu --precision 64", smallest_tolerance(*plan.integrator, precision)));
 }
 

@@ -33,7 +33,7 @@ struct TimePlan {
   [[nodiscard]] std::optional<double> time_of_frame(std::uint64_t frame) const;
 };
 
-/// `steps` replaces the scene's duration. Throws Error (fault_of the scene's `where`) for an unknown integrator, for one that
+/// `steps` replaces the scene's duration. Throws Error, blaming the origin of the value, for an unknown integrator, for one that
 /// cannot meet the scene's damping, has no room for its rates or can't estimate the error that the scene's tolerance is for, for
 /// steps too long to resolve damping, for integrator = "auto" without a tolerance, for steps with one, and for a duration of more
 /// than 3e8 steps. A scene's integrator that cannot meet the tolerance of --tolerance gives way to what "auto" takes.
@@ -42,7 +42,7 @@ struct TimePlan {
 /// That steps can meet by this method with forces of so many bits.
 [[nodiscard]] double smallest_tolerance(const Integrator& integrator, int precision);
 
-/// Throws Error (fault_of the scene's `where`) if the plan's tolerance is below that.
+/// Throws Error, blaming the tolerance's origin, if the plan's tolerance is below that.
 void expect_carried(const SceneDescription& scene, const TimePlan& plan, int precision);
 
 }  // namespace pliant

@@ -459,7 +459,7 @@ TEST_CASE("error weights are how much farther a step goes than the embedded one 
 
 TEST_CASE("an unknown integrator is an input error that lists the known ones") {
   try {
-    (void)find_integrator("rk5", "a.toml:3: simulation.integrator");
+    (void)find_integrator("rk5", {Origin::From::file, "a.toml:3: simulation.integrator"});
     FAIL("no error");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::input);

@@ -11,7 +11,7 @@ SceneDescription scene_with(const char* mesh) {
   scene.file = source_dir() + "/scenes/none.toml";
   scene.bodies.resize(1);
   scene.bodies[0].name = "pot";
-  scene.bodies[0].mesh_where = "none.toml:3: body.pot.mesh";
+  scene.bodies[0].mesh_where = {Origin::From::file, "none.toml:3: body.pot.mesh"};
   scene.bodies[0].mesh = mesh;
   return scene;
 }
@@ -58,7 +58,7 @@ TEST_CASE("a mesh that can't be had is an input error that names the body's plac
 
 TEST_CASE("a mesh that an option names is that option's fault") {
   SceneDescription scene = scene_with("icosphere:8");
-  scene.bodies[0].mesh_where = "--set body.pot.mesh=icosphere:8: body.pot.mesh";
+  scene.bodies[0].mesh_where = {Origin::From::override, "--set body.pot.mesh=icosphere:8: body.pot.mesh"};
   const Error error = error_of([&] { return load_bodies(scene); });
   CHECK(error.kind() == ErrorKind::command_line);
   check_says(error, {"--set body.pot.mesh=icosphere:8", "8 subdivisions are beyond 7"});

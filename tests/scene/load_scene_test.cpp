@@ -120,7 +120,7 @@ color = [0.1, 0.2, 0.3]
 )");
   CHECK(scene.title == "All keys");
   CHECK(scene.simulation.integrator.value == "cv8");
-  CHECK_THAT(scene.simulation.integrator.where, Catch::EndsWith("scene.toml:4: simulation.integrator"));
+  CHECK_THAT(scene.simulation.integrator.where.place, Catch::EndsWith("scene.toml:4: simulation.integrator"));
   CHECK(scene.simulation.time_step == 0.25);
   CHECK(scene.simulation.duration == 3);
   CHECK(scene.simulation.damping_law == DampingLaw::constant);
@@ -154,7 +154,7 @@ TEST_CASE("time_step = \"auto\" leaves the step to be chosen") {
 TEST_CASE("a tolerance replaces the step, and knows where it stands") {
   const SceneDescription scene = load_text("[simulation]\ntolerance = 1e-6\n" + smallest);
   CHECK(scene.simulation.tolerance == 1e-6);
-  CHECK_THAT(scene.simulation.tolerance_where, Catch::EndsWith("scene.toml:2: simulation.tolerance"));
+  CHECK_THAT(scene.simulation.tolerance_where.place, Catch::EndsWith("scene.toml:2: simulation.tolerance"));
   CHECK_FALSE(scene.simulation.time_step);
 }
 
@@ -249,12 +249,14 @@ TEST_CASE("a camera looks at something other than itself") {
   check_override_error(camera + smallest, "output.camera.target=[1, 2, 3]", {"same point"});
 }
 
-TEST_CASE("a scene knows what to blame for its length: an option before a line, the duration before the step") {
-  const std::string text = "[simulation]\ntime_step = 0.5\nduration = 1\n" + smallest;
-  CHECK(load_text(smallest).simulation.length_where.empty());
-  CHECK_THAT(load_text(text).simulation.length_where, Catch::EndsWith("scene.toml:3: simulation.duration"));
-  CHECK(load_text(text, {"simulation.time_step=1"}).simulation.length_where ==
-        "--set simulation.time_step=1: simulation.time_step");
+TEST_CASE("a scene knows whether a value is the file's or the command line's, and where it stands") {
+  const std::string text = "[simulation]\ntime_step = 0.5\n" + smallest;
+  const SimulationDescription simulation = load_text(text, {"simulation.duration=1"}).simulation;
+  CHECK(simulation.time_step_where.from == Origin::From::file);
+  CHECK_THAT(simulation.time_step_where.place, Catch::EndsWith("scene.toml:2: simulation.time_step"));
+  CHECK(simulation.duration_where.from == Origin::From::override);
+  CHECK(simulation.duration_where.place == "--set simulation.duration=1: simulation.duration");
+  CHECK(simulation.tolerance_where.from == Origin::From::nowhere);
 }
 
 TEST_CASE("a scene needs bodies, each with a mesh and a name of its own") {
@@ -294,13 +296,13 @@ TEST_CASE("overrides replace, add and reach into sections that the file lacks") 
                  "body.body1.mesh=../meshes/bunny.obj", "body.left.name=port", "body.port.damping=7"});
   CHECK(scene.simulation.time_step == 0.25);
   CHECK(scene.simulation.integrator.value == "rk4");
-  CHECK(scene.simulation.integrator.where == "--set simulation.integrator=rk4: simulation.integrator");
+  CHECK(scene.simulation.integrator.where.place == "--set simulation.integrator=rk4: simulation.integrator");
   CHECK(scene.collision.tree.max_depth == 9);
   CHECK(scene.output.camera->eye == glm::dvec3(1, 2, 3));
   CHECK(scene.title == "with spaces");
   CHECK((scene.bodies[0].name == "port" && scene.bodies[0].stiffness == 80 && scene.bodies[0].damping == 7));
   CHECK(scene.bodies[1].mesh == "../meshes/bunny.obj");
-  CHECK(scene.bodies[1].mesh_where == "--set body.body1.mesh=../meshes/bunny.obj: body.body1.mesh");
+  CHECK(scene.bodies[1].mesh_where.place == "--set body.body1.mesh=../meshes/bunny.obj: body.body1.mesh");
 }
 
 TEST_CASE("a later override wins, and auto replaces a step") {

@@ -13,7 +13,7 @@ namespace {
 SceneDescription scene_with(const std::string& integrator, DampingLaw law) {
   SceneDescription scene;
   scene.file = "scene.toml";
-  scene.simulation.integrator = {integrator, "scene.toml:3: simulation.integrator"};
+  scene.simulation.integrator = {integrator, {Origin::From::file, "scene.toml:3: simulation.integrator"}};
   scene.simulation.damping_law = law;
   return scene;
 }
@@ -232,7 +232,7 @@ TEST_CASE("a tolerance below what fp32 carries is an error where it stands, unle
       return 0;
     };
     CHECK_NOTHROW(check_carried(32));
-    scene.simulation.tolerance_where = "scene.toml:4: simulation.tolerance";
+    scene.simulation.tolerance_where = {Origin::From::file, "scene.toml:4: simulation.tolerance"};
     scene.simulation.tolerance = smallest;
     CHECK_NOTHROW(check_carried(32));
     scene.simulation.tolerance = 0.99 * smallest;
@@ -240,7 +240,7 @@ TEST_CASE("a tolerance below what fp32 carries is an error where it stands, unle
     const Error error = error_of([&] { return check_carried(32); });
     CHECK(error.kind() == ErrorKind::input);
     check_says(error, {"scene.toml:4", "fp32", integrator, says, "--precision 64"});
-    scene.simulation.integrator.where = scene.simulation.tolerance_where = "--tolerance";
+    scene.simulation.integrator.where = scene.simulation.tolerance_where = option_origin("--tolerance");
     CHECK(error_of([&] { return check_carried(32); }).kind() == ErrorKind::command_line);
   }
 }
@@ -254,11 +254,11 @@ TEST_CASE("a scene's method that can't meet the tolerance of an option gives way
       CAPTURE(integrator.name, static_cast<int>(law));
       SceneDescription scene = scene_with(std::string(integrator.name), law);
       scene.simulation.tolerance = 1e-4;
-      scene.simulation.tolerance_where = "--tolerance";
+      scene.simulation.tolerance_where = option_origin("--tolerance");
       const Integrator& taken = *plan_time(scene, model).integrator;
       CHECK(estimates_error(taken));
       CHECK(allows_damping(taken, law));
-      scene.simulation.integrator.where = "--integrator";
+      scene.simulation.integrator.where = option_origin("--integrator");
       if (&taken == &integrator)
         CHECK_NOTHROW(plan_time(scene, model));
       else
@@ -292,8 +292,13 @@ TEST_CASE("more steps than the device's clock counts are the fault of who set th
   const auto failure = [&] { return error_of([&] { return plan_time(scene, model); }); };
   CHECK(failure().kind() == ErrorKind::input);
   check_says(failure(), {"scene.toml: ", "3e8"});
-  scene.simulation.length_where = "--duration";
+  scene.simulation.time_step_where = {Origin::From::file, "scene.toml:3: simulation.time_step"};
+  scene.simulation.duration_where = {Origin::From::file, "scene.toml:2: simulation.duration"};
+  check_says(failure(), {"scene.toml:2: "});
+  scene.simulation.time_step_where = {Origin::From::override, "--set simulation.time_step=1e-12: simulation.time_step"};
   CHECK(failure().kind() == ErrorKind::command_line);
+  check_says(failure(), {"--set simulation.time_step"});
+  scene.simulation.duration_where = option_origin("--duration");
   check_says(failure(), {"--duration: "});
 }
 

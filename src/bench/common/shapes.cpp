@@ -34,7 +34,8 @@ TriangleMesh split_in_four(const TriangleMesh& mesh) {
 }
 
 ModelAndState deformed_body(TriangleMesh mesh) {
-  BodySetup setup{.mesh = std::move(mesh), .description = {}};
+  BodySetup setup;
+  setup.mesh = std::move(mesh);
   setup.description.name = "body";
   ModelAndState built = build_model({&setup, 1}, glm::dvec3(0.0));
   const double amplitude = 0.03 * built.model.bodies.front().radius;

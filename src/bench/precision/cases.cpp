@@ -17,7 +17,8 @@ namespace {
 constexpr glm::dvec3 squash{0.8, 1.05, 1.1};  // at the start
 
 BodySetup sphere(int level) {
-  BodySetup setup{.mesh = generate_mesh(fmt::format("icosphere:{}", level)), .description = {}};
+  BodySetup setup;
+  setup.mesh = generate_mesh(fmt::format("icosphere:{}", level));
   setup.description.name = "sphere";
   setup.description.stretch = squash;
   return setup;

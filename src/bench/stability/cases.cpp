@@ -103,7 +103,8 @@ ModelBody Sphere::body() const {
 double Sphere::omega() const { return stiffest_frequency(body()); }
 
 ModelAndState Sphere::build() const {
-  BodySetup setup{.mesh = generate_mesh("icosphere:" + std::to_string(level)), .description = {}};
+  BodySetup setup;
+  setup.mesh = generate_mesh("icosphere:" + std::to_string(level));
   BodyDescription& description = setup.description;
   description.name = "sphere";
   description.stiffness = stiffness;

@@ -28,7 +28,7 @@ const ResponseRow* find_response(const Named& name) {
   if (found != rows().end()) return &*found;
   std::vector<std::string_view> names = {"none"};
   std::ranges::transform(rows(), std::back_inserter(names), &ResponseRow::name);
-  throw Error(fault_of(name.where), name.where, fmt::format("there is no response \"{}\"", name.value),
+  throw Error(name.where, fmt::format("there is no response \"{}\"", name.value),
               fmt::format("choose one of {}", fmt::join(names, ", ")));
 }
 

@@ -41,7 +41,7 @@ struct ResponseRow {
 [[nodiscard]] std::span<const ResponseRow> responses();
 /// Adds a row of another program's. Scenes read from then on may name it.
 void add_response(const ResponseRow& row);
-/// Null for "none". Throws Error (fault_of the name's `where`) for a name that no row has.
+/// Null for "none". Throws Error, blaming the name's origin, for a name that no row has.
 [[nodiscard]] const ResponseRow* find_response(const Named& name);
 
 }  // namespace pliant

@@ -27,7 +27,8 @@ Progress until(std::string last) {
 }
 
 PrecisionCase squashed_sphere(DampingLaw law) {
-  BodySetup setup{.mesh = generate_mesh("icosphere:1"), .description = {}};
+  BodySetup setup;
+  setup.mesh = generate_mesh("icosphere:1");
   setup.description.stretch = {0.8, 1.05, 1.1};
   setup.description.damping = law == DampingLaw::adaptive ? 0.4 : 4;
   PrecisionCase what;

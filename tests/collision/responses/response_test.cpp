@@ -11,7 +11,7 @@ namespace pliant {
 namespace {
 
 TEST_CASE("a response that there is not is an error that lists those there are") {
-  const Error error = error_of([] { return find_response({"bounce", "scene.toml:2: collision.response"}); });
+  const Error error = error_of([] { return find_response({"bounce", {Origin::From::file, "scene.toml:2: collision.response"}}); });
   CHECK(error.kind() == ErrorKind::input);
   check_says(error, {"scene.toml:2: collision.response", "bounce", "none, reflect"});
 }
