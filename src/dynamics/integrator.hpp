@@ -40,6 +40,7 @@ struct Integrator {
   int order = 0;
   double strained_bound = 1;  // the part of the step bound that spheres squashed to a half bear; measured, at most 1
   std::variant<RungeKutta, Nystrom, Splitting> method;
+  double fp32_tolerance = 1e-7;  // the smallest one that steps meet where forces are in fp32
 };
 
 /// Every integrator, in the order `pliant info --integrators` lists them.

@@ -185,11 +185,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   return plan;
 }
 
-// vern8's estimate weighs forces so that their roundings grow: with it at 1e-7 steps come out up to 12 times too short.
-double smallest_tolerance(const Integrator& integrator, int precision) {
-  if (precision != 32) return 0;
-  return integrator.name == "vern8" ? 1e-6 : 1e-7;
-}
+double smallest_tolerance(const Integrator& integrator, int precision) { return precision == 32 ? integrator.fp32_tolerance : 0; }
 
 void expect_carried(const SceneDescription& scene, const TimePlan& plan, int precision) {
   if (!plan.tolerance || *plan.tolerance >= smallest_tolerance(*plan.integrator, precision)) return;
