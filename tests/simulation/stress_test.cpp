@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "dynamics/stability.hpp"
+#include "model/deform.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/measure.hpp"
@@ -37,8 +38,7 @@ SceneDescription overdamped(SceneDescription scene, DampingLaw law) {
 
 // Squeezes every body along x, so that forces are at work from the start.
 ModelAndState squeezed(ModelAndState start) {
-  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i)
-    start.state.motion[6 * i] -= 0.2 * static_cast<double>(start.model.rest_positions[i].x);
+  displace(start.state, [&](std::size_t i) { return glm::dvec3(-0.2 * start.model.rest_positions[i].x, 0, 0); });
   return start;
 }
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <numbers>
 #include <utility>
+
+#include "model/deform.hpp"
 
 namespace pliant::bench {
 
@@ -39,9 +42,7 @@ ModelAndState deformed_body(TriangleMesh mesh) {
   setup.description.name = "body";
   ModelAndState built = build_model({&setup, 1}, glm::dvec3(0.0));
   const double amplitude = 0.03 * built.model.bodies.front().radius;
-  for (std::size_t i = 0; i < built.model.rest_positions.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      built.state.motion[6 * i + k] += amplitude * std::sin(static_cast<double>((7 + 4 * k) * i + k));
+  displace(built.state, [&](std::size_t i) { return amplitude * glm::sin(glm::dvec3(7 * i, 11 * i + 1, 15 * i + 2)); });
   return built;
 }
 

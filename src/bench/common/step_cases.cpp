@@ -9,6 +9,7 @@
 
 #include "bench/common/shapes.hpp"
 #include "core/error.hpp"
+#include "model/deform.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -75,19 +76,12 @@ StepCase case_of(const Family& family, const SceneDescription& as_it_is, int lev
   return made;
 }
 
-// Out of the rest shape, so that no force is skipped: a scene's first few steps are free flight.
-void deform(ModelAndState& start) {
-  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      start.state.motion[6 * i + k] += 1e-3 * start.model.rest_positions[i][static_cast<glm::length_t>(k)];
-}
-
 StepCase case_of(const SceneDescription& scene, bool quick) {
   StepCase made = make_case(scene, load_bodies(scene));
   made.name = scene.file.stem().string();
   made.output = scene.output;
   made.steps = quick ? std::min(made.plan.steps, quick_steps) : made.plan.steps;
-  if (quick) deform(made.start);
+  if (quick) swell(made.start.model, made.start.state, 1e-3);  // a scene's first few steps are free flight, which skips forces
   return made;
 }
 

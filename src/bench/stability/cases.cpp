@@ -116,13 +116,6 @@ ModelAndState Sphere::build() const {
   return build_model({&setup, 1}, glm::dvec3(0.0));
 }
 
-void breathe(ModelAndState& start, double amplitude) {
-  for (std::size_t i = 0; i < start.model.rest_positions.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      start.state.motion[6 * i + static_cast<std::size_t>(k)] +=
-          amplitude * static_cast<double>(start.model.rest_positions[i][k]);
-}
-
 TimePlan plan_of(const Integrator& integrator, DampingLaw law, double time_step) {
   TimePlan plan;
   plan.integrator = &integrator;

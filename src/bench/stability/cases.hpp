@@ -27,9 +27,6 @@ struct Sphere {
   [[nodiscard]] ModelAndState build() const;
 };
 
-/// Scales the body about its centroid to 1 + `amplitude`: its breathing mode, which is linear at any amplitude.
-void breathe(ModelAndState& start, double amplitude);
-
 [[nodiscard]] TimePlan plan_of(const Integrator& integrator, DampingLaw law, double time_step /* [s] */);
 
 inline constexpr std::uint64_t steps_of_growth = 896;

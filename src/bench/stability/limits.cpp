@@ -1,6 +1,7 @@
 // The suite `stability`: how long a step may be, and what long runs do to the energy.
 #include "bench/stability/tasks.hpp"
 #include "dynamics/stability.hpp"
+#include "model/deform.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -11,7 +12,7 @@ void add_limit(StabilityTasks& tasks, const Integrator& integrator, const Place&
     damped.damping = damping;
     damped.velocity.x = damping > 0 ? 1 : 0;  // damping may bound the body's own drift more than its springs do
     ModelAndState start = damped.build();
-    breathe(start, small_amplitude);
+    swell(start.model, start.state, small_amplitude);
     const DampingLaw law = damping > 0 ? DampingLaw::constant : DampingLaw::none;
     const double predicted = step_bound(integrator, damped.body(), law);
     const TimePlan plan = plan_of(integrator, law, predicted);
@@ -83,7 +84,7 @@ void add_drifts(StabilityTasks& tasks) {
     for (const Place& place : tasks.places())
       tasks.add("energy", integrator, place, body.vertex_count(), steps, [=, &integrator](Device& device) {
         ModelAndState start = body.build();
-        breathe(start, 0.01);
+        swell(start.model, start.state, 0.01);
         const TimePlan plan = plan_of(integrator, DampingLaw::none, omega_step / body.omega());
         return DriftRow{std::string(integrator.name),
                         place.device,

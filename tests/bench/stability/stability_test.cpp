@@ -9,6 +9,7 @@
 
 #include "bench/stability/report.hpp"
 #include "dynamics/stability.hpp"
+#include "model/deform.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -17,7 +18,7 @@ constexpr Sphere ball{.level = 0, .stiffness = 40};
 
 ModelAndState breathing(const Sphere& body, double amplitude) {
   ModelAndState start = body.build();
-  breathe(start, amplitude);
+  swell(start.model, start.state, amplitude);
   return start;
 }
 
