@@ -251,8 +251,8 @@ const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none)
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
-const std::vector<Choice<TreeSplit>> splits = {{"centre", TreeSplit::centre}};
 const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
+const std::vector<Choice<bool>> splits = {{"centre", true}};  // so far there is nothing to choose
 const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
@@ -271,7 +271,8 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
 }
 
 void read_table(TableReader& table, TreeDescription& tree) {
-  table.read("split", tree.split, splits);
+  bool is_at_centre = true;
+  table.read("split", is_at_centre, splits);
   table.read("max_depth", tree.max_depth, depth);
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }

@@ -27,7 +27,6 @@ constexpr const char* name_of(DampingLaw law) {
 }
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };
-enum class TreeSplit { centre };
 enum class Coloring { body, deformation };
 
 struct SimulationDescription {
@@ -41,7 +40,6 @@ struct SimulationDescription {
 };
 
 struct TreeDescription {
-  TreeSplit split = TreeSplit::centre;
   std::optional<unsigned> max_depth;  // root is 0; empty: grows with the triangle count
   unsigned leaf_size = 4;             // triangles
 };

@@ -52,7 +52,8 @@ int longest_axis(const glm::dvec3& extent) {
   return extent.y >= extent.z ? 1 : 2;
 }
 
-/// The paper's split: at the centre of the box's longest axis. Returns how many triangles come first.
+/// The paper's split: at the centre of the box's longest axis. Reorders the items in two halves and returns the size of the
+/// first.
 std::size_t split_at_centre(Items items) {
   const Box box = bounds(items);
   const int axis = longest_axis(box.upper - box.lower);
@@ -60,15 +61,6 @@ std::size_t split_at_centre(Items items) {
   const auto right =
       std::stable_partition(items.begin(), items.end(), [&](const Item& item) { return item.centroid[axis] < centre; });
   return static_cast<std::size_t>(right - items.begin());
-}
-
-/// Reorders the items in two halves and returns the size of the first. A new way to split is one function and one case.
-std::size_t split(TreeSplit kind, Items items) {
-  switch (kind) {
-    case TreeSplit::centre:
-      return split_at_centre(items);
-  }
-  return 0;
 }
 
 /// The depth of even splits and slack for uneven ones: beyond it no leaf of the bunny or the teapot splits any further
@@ -111,7 +103,7 @@ class BodyTree {
     const std::size_t begin = forest_.nodes[node].z - first_triangle_;
     const std::size_t end = forest_.nodes[node].w - first_triangle_;
     if (end - begin <= description_.leaf_size || depth >= max_depth_) return;
-    const std::size_t middle = begin + split(description_.split, Items(items_).subspan(begin, end - begin));
+    const std::size_t middle = begin + split_at_centre(Items(items_).subspan(begin, end - begin));
     if (middle == begin || middle == end) return;
     forest_.nodes[node].x = static_cast<std::uint32_t>(forest_.nodes.size());
     append(static_cast<std::uint32_t>(node), begin, middle);
