@@ -14,6 +14,7 @@
 #include "output/file.hpp"
 #include "run/choose_device.hpp"
 #include "run/interrupts.hpp"
+#include "run/progress_bar.hpp"
 
 namespace pliant::app {
 namespace {
@@ -31,7 +32,7 @@ bench::Selection selection_of(const BenchOptions& options) {
 // Answers whether to go on.
 bool show_progress(double done, std::string_view next) {
   if (isatty(fileno(stderr)) == 0) return !is_interrupted();
-  fmt::print(stderr, "\r[{:<30}] {:3.0f} %  {:<50}", std::string(static_cast<std::size_t>(30 * done), '#'), 100 * done, next);
+  fmt::print(stderr, "\r{}  {:<50}", progress_bar(done), next);
   if (done == 1 || is_interrupted()) fmt::print(stderr, "\r{:90}\r", "");
   return !is_interrupted();
 }

@@ -13,6 +13,7 @@
 #include "core/version.hpp"
 #include "dynamics/forces/force.hpp"
 #include "run/interrupts.hpp"
+#include "run/progress_bar.hpp"
 #include "simulation/breakdown.hpp"
 
 namespace pliant {
@@ -124,9 +125,8 @@ void show_progress(const RunStatus& status) {
   const bool adapts = report.adaptive.has_value();
   const double done =
       adapts ? report.time / run.plan.duration : static_cast<double>(report.steps) / static_cast<double>(run.plan.steps);
-  fmt::print(stderr, "\r[{:<30}] {:3.0f} %  step {}{}  {:.1f} steps/s ", std::string(static_cast<std::size_t>(30 * done), '#'),
-             100 * done, report.steps, adapts ? "" : fmt::format("/{}", run.plan.steps),
-             static_cast<double>(report.steps) / times.stepping.seconds());
+  fmt::print(stderr, "\r{}  step {}{}  {:.1f} steps/s ", progress_bar(done), report.steps,
+             adapts ? "" : fmt::format("/{}", run.plan.steps), static_cast<double>(report.steps) / times.stepping.seconds());
   if (is_interrupted() || report.non_finite || done == 1) fmt::print(stderr, "\n");
 }
 
