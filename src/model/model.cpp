@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/error.hpp"
+#include "core/expect.hpp"
 #include "model/inflation.hpp"
 
 namespace pliant {
@@ -149,6 +150,17 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
 }  // namespace
 
 double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::round(std::log2(radius))) : 1.0; }
+
+Model with_materials(Model model, std::span<const Material> materials) {
+  PLIANT_EXPECT(materials.size() == model.bodies.size());
+  for (std::size_t b = 0; b < materials.size(); ++b) {
+    ModelBody& body = model.bodies[b];
+    body.stiffness = materials[b].stiffness;
+    body.vertex_mass = materials[b].vertex_mass;
+    body.damping = materials[b].damping;
+  }
+  return model;
+}
 
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;

@@ -50,6 +50,14 @@ struct Model {
   [[nodiscard]] const ModelBody& body_of(std::size_t vertex) const { return bodies[body_index(vertex)]; }
 };
 
+struct Material {
+  double stiffness = 0, vertex_mass = 1, damping = 0;  // as in a BodyDescription [N/m], [kg], [kg/s]
+  bool operator==(const Material&) const = default;
+};
+
+/// The same bodies of other materials, one a body.
+[[nodiscard]] Model with_materials(Model model, std::span<const Material> materials);
+
 /// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.
 struct State {
   std::vector<physics::Pose> poses;  // one a body

@@ -317,7 +317,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("spin", body.spin, coordinate);
   table.read("stretch", body.stretch, coordinate);
   if (body.stretch == glm::dvec3(0.0))
-    throw Error(fault_of(table.where("stretch")), table.where("stretch"),
+    throw Error(table.where("stretch"),
                 "presses the body into one point, where no spring has a direction", "write a factor other than 0 for an axis");
   table.allow_one_of("stiffness", "total_stiffness");
   table.read("stiffness", body.stiffness, not_negative);

@@ -49,7 +49,7 @@ struct CollisionDescription {
   double elasticity = 0.9;
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;
-  TreeDescription tree;
+  TreeDescription tree{};
 };
 
 struct CameraDescription {

@@ -114,7 +114,7 @@ double shortest_bound(const TimePlan& plan, const Model& model, const Bound& bou
   std::set<std::pair<double, double>> known;  // omega^2 and rate
   double shortest = std::numeric_limits<double>::infinity();
   for (const ModelBody& body : model.bodies) {
-    const double omega_squared = body.vertex_count * body.stiffness / body.vertex_mass;
+    const double omega_squared = stiffest_frequency_squared(body);
     if (known.emplace(omega_squared, largest_damping_rate(body, plan.damping_law)).second)
       shortest = std::min(shortest, bound(*plan.integrator, body, plan.damping_law));
   }

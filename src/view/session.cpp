@@ -26,6 +26,21 @@ SceneDescription lone_body(const std::filesystem::path& file) {
   return scene;
 }
 
+LoadedScene with_settings(const LoadedScene& scene, const Settings& wanted) {
+  LoadedScene changed = scene;
+  SimulationDescription& simulation = changed.description.simulation;
+  simulation.integrator.value = wanted.integrator;
+  simulation.time_step = wanted.time_step;
+  simulation.damping_law = wanted.damping_law;
+  changed.description.collision.elasticity = wanted.elasticity;
+  changed.start.model = with_materials(std::move(changed.start.model), wanted.materials);
+  return changed;
+}
+
+std::unique_ptr<Simulation> make_simulation(Device& device, const LoadedScene& scene, const State& from, const TimePlan& plan) {
+  return std::make_unique<Simulation>(device, scene.start.model, from, plan, scene.description.collision);
+}
+
 }  // namespace
 
 LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -39,10 +54,10 @@ LoadedScene load(const std::filesystem::path& file, std::span<const std::string>
 
 Session::Session(Device& device, LoadedScene scene, std::size_t most_history_bytes)
     : device_(&device),
-      scene_(std::move(scene)),
-      plan_(plan_time(scene_.description, scene_.start.model)),
+      scene_(std::make_unique<const LoadedScene>(std::move(scene))),
+      plan_(plan_time(scene_->description, scene_->start.model)),
       history_(most_history_bytes) {
-  expect_carried(scene_.description, plan_, device.precision());
+  expect_carried(scene_->description, plan_, device.precision());
   restart();
 }
 
@@ -114,7 +129,7 @@ bool Session::step_back() {
 void Session::restart() {
   history_.clear();
   if (beginning_.empty()) {
-    begin_with(simulation_on(*device_, scene_.start.state), 0, 0);
+    begin_with(simulation_on(*device_, scene_->start.state), 0, 0);
     beginning_ = simulation_->save();
   } else {
     go_to(beginning_);
@@ -123,51 +138,33 @@ void Session::restart() {
 }
 
 Settings Session::settings() const {
-  const SimulationDescription& of = scene_.description.simulation;
-  Settings settings{of.integrator.value, of.time_step, of.damping_law, scene_.description.collision.elasticity, {}};
-  for (const ModelBody& body : scene_.start.model.bodies)
+  const SimulationDescription& of = scene_->description.simulation;
+  Settings settings{of.integrator.value, of.time_step, of.damping_law, scene_->description.collision.elasticity, {}};
+  for (const ModelBody& body : scene_->start.model.bodies)
     settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
   return settings;
 }
 
 void Session::change(const Settings& wanted) {
-  const Settings before = settings();
-  const double at_time = time();
-  adopt(wanted);
-  try {
-    const TimePlan plan = plan_time(scene_.description, scene_.start.model);
-    expect_carried(scene_.description, plan, device_->precision());
-    plan_ = plan;
-  } catch (const Error&) {
-    adopt(before);
-    throw;
-  }
+  auto changed = std::make_unique<const LoadedScene>(with_settings(*scene_, wanted));
+  const TimePlan plan = plan_time(changed->description, changed->start.model);
+  expect_carried(changed->description, plan, device_->precision());
+  const bool starts_anew = report_.non_finite.has_value();
+  auto simulation = make_simulation(*device_, *changed, starts_anew ? changed->start.state : simulation_->state(), plan);
+  const double at_time = starts_anew ? 0 : time();
+  plan_ = plan;
+  begin_with(std::move(simulation), starts_anew ? 0 : step(), at_time);
+  scene_ = std::move(changed);
   history_.clear();
-  beginning_.clear();
-  if (report_.non_finite) return restart();
-  begin_with(simulation_on(*device_, simulation_->state()), step(), at_time);
+  beginning_ = starts_anew ? simulation_->save() : "";
   record();
 }
 
 void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ = timed); }
 
-void Session::adopt(const Settings& wanted) {
-  SimulationDescription& simulation = scene_.description.simulation;
-  simulation.integrator.value = wanted.integrator;
-  simulation.time_step = wanted.time_step;
-  simulation.damping_law = wanted.damping_law;
-  scene_.description.collision.elasticity = wanted.elasticity;
-  for (std::size_t b = 0; b < wanted.materials.size(); ++b) {
-    ModelBody& body = scene_.start.model.bodies[b];
-    body.stiffness = wanted.materials[b].stiffness;
-    body.vertex_mass = wanted.materials[b].vertex_mass;
-    body.damping = wanted.materials[b].damping;
-  }
-}
-
 void Session::move_to(Device& device) {
   PLIANT_EXPECT(device.precision() == device_->precision());
-  std::unique_ptr<Simulation> moved = simulation_on(device, scene_.start.state);
+  std::unique_ptr<Simulation> moved = simulation_on(device, scene_->start.state);
   moved->restore(simulation_->save());
   simulation_ = std::move(moved);
   simulation_->time_passes(times_passes_);
@@ -175,7 +172,7 @@ void Session::move_to(Device& device) {
 }
 
 std::unique_ptr<Simulation> Session::simulation_on(Device& device, const State& from) const {
-  return std::make_unique<Simulation>(device, scene_.start.model, from, plan_, scene_.description.collision);
+  return make_simulation(device, *scene_, from, plan_);
 }
 
 void Session::begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time) {

@@ -20,11 +20,6 @@ struct LoadedScene {
 /// A scene file, or an OBJ file as a lone body with every default, which takes no overrides. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-struct Material {
-  double stiffness = 0, vertex_mass = 1, damping = 0;  // as in a BodyDescription [N/m], [kg], [kg/s]
-  bool operator==(const Material&) const = default;
-};
-
 /// What of a scene can be changed while it plays.
 struct Settings {
   std::string integrator;
@@ -51,9 +46,9 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  [[nodiscard]] const SceneDescription& scene() const { return scene_.description; }
-  [[nodiscard]] const Model& model() const { return scene_.start.model; }
-  [[nodiscard]] const State& start() const { return scene_.start.state; }
+  [[nodiscard]] const SceneDescription& scene() const { return scene_->description; }
+  [[nodiscard]] const Model& model() const { return scene_->start.model; }
+  [[nodiscard]] const State& start() const { return scene_->start.state; }
   [[nodiscard]] Device& device() const { return *device_; }
   [[nodiscard]] Simulation& simulation() { return *simulation_; }
   [[nodiscard]] const History& history() const { return history_; }
@@ -98,13 +93,13 @@ class Session {
   [[nodiscard]] double time_of_frame(std::uint64_t frame) const { return static_cast<double>(frame) / plan_.frame_rate; }
   void make_due_steps(double time, std::uint64_t most_steps);
   [[nodiscard]] StepReport advance(double time, std::uint64_t most_steps);
+  /// Of this session's scene, by its plan.
   [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device, const State& from) const;
   void begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time);
-  void adopt(const Settings& wanted);
   void go_to(std::string_view saved);
 
   Device* device_;
-  LoadedScene scene_;
+  std::unique_ptr<const LoadedScene> scene_;  // other settings make another one, for a model never changes
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;
   std::string beginning_;  // its state at the start, saved; empty: settings have been changed since

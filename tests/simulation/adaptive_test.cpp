@@ -331,7 +331,7 @@ TEST_CASE("a run whose tolerance no rounding meets ends, with a state to write a
       CAPTURE(test.name, integrator);
       TimePlan plan = plan_of(Adaptive{integrator, 1e-30}, start.model);
       plan.duration = 1e5 / stiffest_omega(start.model);
-      Simulation simulation(*test.device, start.model, start.state, plan, with_response(ContactResponse::none));
+      Simulation simulation(*test.device, start.model, start.state, plan, with_response(Named{"none"}));
       const StepReport report = simulation.advance_to(plan.duration);
       REQUIRE(report.non_finite);
       CHECK(report.non_finite->failed_step > 0);
