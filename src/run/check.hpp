@@ -4,7 +4,8 @@
 
 namespace pliant {
 
-/// Prints bodies, steps, memory and an estimate of the time. Steps the scene a little for that.
-void show_check(PreparedRun& run);
+/// Prints bodies, steps, memory and an estimate of the time (step_cost.hpp). With a tolerance the scene is stepped for a second,
+/// to see how long steps are, unless one takes longer than that.
+void show_check(const PreparedRun& run);
 
 }  // namespace pliant

@@ -83,6 +83,22 @@ TEST_CASE("a check validates and estimates without writing") {
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
+// Steps of this scene would take longer than ctest's limit.
+TEST_CASE("a check makes no step of a scene whose steps take long, with a tolerance or without") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "large.toml";
+  std::ofstream file(scene);
+  for (int k = 0; k < 3; ++k) file << "[[body]]\nmesh = \"icosphere:7\"\nposition = [" << 3 * k << ", 0, 0]\n";
+  file.close();
+  for (const auto& [options, count] : {std::pair("--time-step 1e-4 --steps 100", "steps:            100\n"),
+                                       std::pair("--tolerance 1e-3 --duration 1", "steps:            at least 4")}) {
+    const ProgramResult result = run_program("run " + scene.string() + " --device cpu --check " + options);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.output, Catch::Contains(count) && Catch::Contains("stepping time:    a"));
+  }
+}
+
 TEST_CASE("a bad command line exits with 2") {
   const ScratchFolder folder;
   const std::string scene = small_scene(folder).string() + " --out " + folder.path.string();

@@ -305,6 +305,21 @@ TEST_CASE("an instruction set's name allows it and what is slower, and another n
   }
 }
 
+TEST_CASE("what scratch memory a body takes is known beforehand") {
+  ThreadPool pool(2);
+  for (const std::size_t count : {1, 100, 257, 9000}) {
+    CAPTURE(count);
+    Sample<float> in_floats(count);
+    Sample<double> in_doubles(count);
+    SpringSums<float> floats(Isa::portable);
+    SpringSums<double> doubles(Isa::portable);
+    floats.sum(pool, std::array{in_floats.body()});
+    doubles.sum(pool, std::array{in_doubles.body()});
+    CHECK(floats.scratch_bytes() == SpringSums<float>::scratch_bytes_of(static_cast<std::uint32_t>(count)));
+    CHECK(doubles.scratch_bytes() == SpringSums<double>::scratch_bytes_of(static_cast<std::uint32_t>(count)));
+  }
+}
+
 TEST_CASE("the widest vectors are the best way of summing") {
   const auto device = make_cpu_device(1, 32);
   const std::size_t best = device->best_force_variant(1000);

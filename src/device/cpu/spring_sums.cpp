@@ -93,16 +93,30 @@ std::size_t SpringSums<Real>::scratch_bytes() const {
 }
 
 template <class Real>
+std::size_t SpringSums<Real>::scratch_bytes_of(std::uint32_t vertex_count) {
+  const Layout layout = layout_of(vertex_count);
+  return std::size_t{layout.stride} * (6 * sizeof(Real) + 3 * layout.block_count * sizeof(double));
+}
+
+template <class Real>
+typename SpringSums<Real>::Layout SpringSums<Real>::layout_of(std::uint32_t vertex_count) {
+  const std::uint32_t stride = ratio_up(vertex_count, widest_vector<Real>) * widest_vector<Real>;
+  const std::uint32_t length = shortest_block * std::max(ratio_up(stride, shortest_block * most_blocks), 1u);
+  return {vertex_count, stride, stride - vertex_count, length, ratio_up(stride, length), 0, 0};
+}
+
+template <class Real>
 void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
   layouts_.clear();
   tasks_.clear();
   chunks_.clear();
   std::size_t place_count = 0, sum_count = 0;
   for (const SpringBody<Real>& body : bodies) {
-    const std::uint32_t count = body.vertex_count, stride = ratio_up(count, widest_vector<Real>) * widest_vector<Real>;
-    const std::uint32_t length = shortest_block * std::max(ratio_up(stride, shortest_block * most_blocks), 1u);
+    const std::uint32_t count = body.vertex_count;
     const auto b = static_cast<std::uint32_t>(layouts_.size());
-    layouts_.push_back({count, stride, stride - count, length, ratio_up(stride, length), place_count, sum_count});
+    layouts_.push_back(layout_of(count));
+    layouts_.back().first_place = place_count;
+    layouts_.back().first_sum = sum_count;
     place_count += std::size_t{6} * layouts_.back().stride;
     sum_count += std::size_t{3} * layouts_.back().block_count * layouts_.back().stride;
     add_tasks(b);

@@ -43,6 +43,8 @@ class SpringSums {
 
   /// The same bits for any number of threads. Sums of a body add up to zero but for rounding.
   void sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies);
+  /// That a body of so many vertices takes.
+  [[nodiscard]] static std::size_t scratch_bytes_of(std::uint32_t vertex_count);
   /// Held since the largest sum so far.
   [[nodiscard]] std::size_t scratch_bytes() const;
 
@@ -70,6 +72,7 @@ class SpringSums {
     Real numbers[64 / sizeof(Real)];
   };
 
+  [[nodiscard]] static Layout layout_of(std::uint32_t vertex_count);  // at the beginning of scratch
   void plan(std::span<const SpringBody<Real>> bodies);
   void add_tasks(std::uint32_t body);
   void pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk);

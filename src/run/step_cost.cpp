@@ -1,0 +1,80 @@
+#include "run/step_cost.hpp"
+
+#include <fmt/format.h>
+
+#include "device/cpu/spring_sums.hpp"
+#include "mesh/generators.hpp"
+#include "model/deform.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double most_pairs_tried = 1e7;       // N (N - 1) of all bodies: 0.1 s a step on a CPU
+constexpr double shortest_calibration = 0.02;  // of a step [s]: on a GPU shorter ones have a rate of their own
+constexpr int coarsest = 3, finest = 7;        // spheres of 642 to 163,842 vertices
+
+double pair_count(const Model& model) {
+  double pairs = 0;
+  for (const ModelBody& body : model.bodies) pairs += static_cast<double>(body.vertex_count) * (body.vertex_count - 1.0);
+  return pairs;
+}
+
+// So that no force is skipped.
+State deformed(const ModelAndState& start) {
+  State state = start.state;
+  swell(start.model, state, 1e-3);
+  return state;
+}
+
+// A second step's, unless that would take long: the first also pays for what is done once.
+double seconds_of_step(Device& device, const ModelAndState& start, TimePlan plan, const CollisionDescription& collision) {
+  plan.tolerance.reset();
+  Simulation trial(device, start.model, deformed(start), plan, collision);
+  const auto timed_step = [&] {
+    Stopwatch watch;
+    watch.time([&] {
+      trial.advance(1);
+      device.finish();
+    });
+    return watch.seconds();
+  };
+  const double first = timed_step();
+  return first < 1 ? timed_step() : first;
+}
+
+ModelAndState sphere(int level) {
+  BodySetup setup;
+  setup.description.name = "sphere";
+  setup.mesh = generate_mesh(fmt::format("icosphere:{}", level));
+  return build_model({&setup, 1}, glm::dvec3(0.0));
+}
+
+double seconds_by_springs(const PreparedRun& run) {
+  const bool is_cpu = run.device->info().kind == "cpu";
+  const auto own = is_cpu ? make_cpu_device(run.device->info().threads, run.device->precision()) : nullptr;
+  TimePlan plan = run.plan;
+  plan.time_step = 1e-6;  // stable, whatever the sphere
+  for (int level = coarsest;; ++level) {
+    const ModelAndState start = sphere(level);
+    const double seconds = seconds_of_step(own ? *own : *run.device, start, plan, {});
+    if (seconds > shortest_calibration || level == finest) return seconds * pair_count(run.start.model) / pair_count(start.model);
+  }
+}
+
+}  // namespace
+
+double seconds_per_step(const PreparedRun& run) {
+  if (pair_count(run.start.model) > most_pairs_tried) return seconds_by_springs(run);
+  return seconds_of_step(*run.device, run.start, run.plan, run.scene.collision);
+}
+
+std::size_t bytes_of_run(const PreparedRun& run) {
+  std::size_t bytes = run.device->allocated_bytes();
+  if (run.device->info().kind != "cpu") return bytes;
+  for (const ModelBody& body : run.start.model.bodies)
+    bytes += run.device->precision() == 64 ? cpu::SpringSums<double>::scratch_bytes_of(body.vertex_count)
+                                           : cpu::SpringSums<float>::scratch_bytes_of(body.vertex_count);
+  return bytes;
+}
+
+}  // namespace pliant
