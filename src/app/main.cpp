@@ -187,7 +187,8 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
-                  "A rough measurement: seconds for forces, steps and draw, one to three minutes for precision and stability");
+                  "A short measurement: rough, in seconds for forces and draw and in one to three minutes for precision and "
+                  "stability; of steps only what takes under a second");
   return suite;
 }
 

@@ -16,8 +16,6 @@
 namespace pliant::bench {
 namespace {
 
-constexpr std::uint64_t quick_steps = 8;
-
 // Two bodies of a scene, moved together along x until they overlap by a tenth: so they touch in every step, at any density. They
 // approach by about a tenth of an edge a step.
 struct Family {
@@ -61,7 +59,7 @@ StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> set
   return made;
 }
 
-StepCase case_of(const Family& family, const SceneDescription& as_it_is, int level, bool quick) {
+StepCase case_of(const Family& family, const SceneDescription& as_it_is, int level) {
   const SceneDescription scene = scene_at(family, as_it_is, level);
   std::vector<BodySetup> setups = load_bodies(scene);
   for (BodySetup& setup : setups)
@@ -72,16 +70,15 @@ StepCase case_of(const Family& family, const SceneDescription& as_it_is, int lev
   made.family = family.name;
   made.steps_before = 3;
   const bool long_steps = made.start.model.vertex_count() > 10000;
-  made.steps = quick ? quick_steps : long_steps ? 4 : 64;
+  made.steps = long_steps ? 4 : 64;
   return made;
 }
 
-StepCase case_of(const SceneDescription& scene, bool quick) {
+StepCase case_of(const SceneDescription& scene) {
   StepCase made = make_case(scene, load_bodies(scene));
   made.name = scene.file.stem().string();
   made.output = scene.output;
-  made.steps = quick ? std::min(made.plan.steps, quick_steps) : made.plan.steps;
-  if (quick) swell(made.start.model, made.start.state, 1e-3);  // a scene's first few steps are free flight, which skips forces
+  made.steps = made.plan.steps;
   return made;
 }
 
@@ -97,13 +94,13 @@ std::set<std::filesystem::path> scene_files(const std::filesystem::path& folder)
 }
 
 // The scene as it is, or a note why not.
-void add_scene(StepCases& all, const std::filesystem::path& file, bool quick) {
+void add_scene(StepCases& all, const std::filesystem::path& file) {
   const auto leave_out = [&](const std::string& reason) {
     all.notes.push_back(fmt::format("{}: left out, as {}", file.stem().string(), reason));
   };
   const SceneDescription scene = load_scene(file);
   if (scene.simulation.tolerance) return leave_out("its tolerance gives steps no fixed length");
-  StepCase made = case_of(scene, quick);
+  StepCase made = case_of(scene);
   if (made.steps == 0) return leave_out("it has no steps");
   all.cases.push_back(std::move(made));
 }
@@ -118,7 +115,7 @@ void add_family(StepCases& all, const Family& family, const std::filesystem::pat
   if (!std::filesystem::exists(folder / family.scene)) return leave_out(fmt::format("\"{}\" is not in the folder", family.scene));
   const SceneDescription scene = load_scene(folder / family.scene);
   if (const std::string reason = misfit(family, scene); !reason.empty()) return leave_out(reason);
-  for (int level = family.first_level; level <= last; ++level) all.cases.push_back(case_of(family, scene, level, quick));
+  for (int level = family.first_level; level <= last; ++level) all.cases.push_back(case_of(family, scene, level));
 }
 
 }  // namespace
@@ -129,7 +126,7 @@ StepCases load_step_cases(const std::filesystem::path& folder, bool quick) {
   const std::set<std::filesystem::path> files = scene_files(folder);
   StepCases all;
   for (const Family& family : families) add_family(all, family, folder, quick);
-  for (const std::filesystem::path& file : files) add_scene(all, file, quick);
+  for (const std::filesystem::path& file : files) add_scene(all, file);
   return all;
 }
 

@@ -29,9 +29,8 @@ struct StepCases {
 /// Throws Error (command_line) where there is no such folder or it holds no scene.
 void expect_scenes(const std::filesystem::path& folder);
 
-/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them, with two bodies. `quick`: few, small
-/// and short; scenes then start a little deformed, so that springs work from the first step on. Throws Error: as expect_scenes,
-/// or input for a scene that is wrong.
+/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them, with two bodies. `quick`: families of
+/// small bodies alone. Throws Error: as expect_scenes, or input for a scene that is wrong.
 [[nodiscard]] StepCases load_step_cases(const std::filesystem::path& folder, bool quick);
 
 }  // namespace pliant::bench

@@ -15,10 +15,12 @@
 namespace pliant::bench {
 namespace {
 
-constexpr double longest_run = 60;     // [s]
-constexpr double warming_time = 0.3;   // [s]; clocks rise under load
-constexpr double enough_time = 1.5;    // for the runs of a case [s]; the last may go beyond
-constexpr double telling_step = 1e-3;  // steps at least as long are springs for the most part, not overhead [s]
+constexpr double longest_run = 60;       // [s]
+constexpr double warming_time = 0.3;     // [s]; clocks rise under load
+constexpr double enough_time = 1.5;      // for the runs of a case [s]; the last may go beyond
+constexpr double quick_time = 0.3;       // likewise, with `quick`
+constexpr double longest_quick_run = 1;  // [s]
+constexpr double telling_step = 1e-3;    // steps at least as long are springs for the most part, not overhead [s]
 constexpr int most_runs = 5;
 constexpr int most_warming_runs = 30;  // of a scene so short that building its simulations would take far longer
 
@@ -56,9 +58,27 @@ class StepsAt {
     return seconds_per_pair_ * pair_interactions_of_step(what) * static_cast<double>(what.steps_before + what.steps);
   }
 
+  // Makes the case's steps, cold, for a second at most: whether they are few enough for `quick`.
+  bool is_short(const StepCase& what) {
+    build_kernels(what);
+    Simulation simulation(*device_, what.start.model, what.start.state, what.plan, what.collision);
+    const std::uint64_t steps = what.steps_before + what.steps;
+    Stopwatch watch;
+    for (std::uint64_t made = 0; made < steps;) {
+      const std::uint64_t batch = std::min({made + 1, steps - made, Simulation::most_steps_at_once});
+      watch.time([&] {
+        simulation.advance(batch);
+        device_->finish();
+      });
+      made += batch;
+      if (made < steps && watch.seconds() > longest_quick_run) return false;
+    }
+    return true;
+  }
+
   StepsRow measure(const StepCase& what, bool quick) {
     build_kernels(what);
-    if (!quick) warm_up(what);
+    warm_up(what);
     std::vector<double> seconds;
     Run run;
     double passed = 0;
@@ -66,7 +86,7 @@ class StepsAt {
       run = run_once(*device_, what);
       passed += run.seconds;
       seconds.push_back(run.seconds);
-    } while (!quick && passed < enough_time && static_cast<int>(seconds.size()) < most_runs);
+    } while (passed < (quick ? quick_time : enough_time) && static_cast<int>(seconds.size()) < most_runs);
     learn(median(seconds), static_cast<double>(what.steps), static_cast<double>(run.pair_interactions));
     return row(what, run, seconds);
   }
@@ -111,9 +131,26 @@ class StepsAt {
   double seconds_per_pair_ = 0;  // 0: unknown
 };
 
-StepsResult with_crossovers(StepsResult result) {
+// Where `quick` has only small bodies the last crossing may be beyond them.
+StepsResult with_crossovers(StepsResult result, bool quick) {
   result.crossovers = find_crossovers(result.rows);
+  if (!quick || result.crossovers.empty()) return result;
+  result.crossovers.clear();
+  result.notes.emplace_back("a quick measurement says nothing of where the GPU begins to lead");
   return result;
+}
+
+std::optional<StepsRow> measured_or_noted(StepsAt& place, const std::string& place_name, const StepCase& what, bool quick,
+                                          std::vector<std::string>& notes) {
+  const double expected = place.expected_seconds(what);
+  if (expected > longest_run)
+    notes.push_back(fmt::format("{} on {}: left out, as it would take about {:.0f} s", what.name, place_name, expected));
+  else if (quick && !place.is_short(what))
+    notes.push_back(fmt::format("{} on {}: left out of a quick measurement, as it takes over {:.0f} s", what.name, place_name,
+                                longest_quick_run));
+  else
+    return place.measure(what, quick);
+  return {};
 }
 
 }  // namespace
@@ -129,16 +166,13 @@ StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
     for (const StepCase& what : all.cases) {
       const double part = done++ / static_cast<double>(places.size() * all.cases.size());
       result.interrupted = !progress(part, fmt::format("{}, {}", name_of(place), what.name));
-      if (result.interrupted) return with_crossovers(std::move(result));
-      if (const double seconds = here.expected_seconds(what); seconds > longest_run)
-        result.notes.push_back(
-            fmt::format("{} on {}: left out, as it would take about {:.0f} s", what.name, name_of(place), seconds));
-      else
-        result.rows.push_back(here.measure(what, options.quick));
+      if (result.interrupted) return with_crossovers(std::move(result), options.quick);
+      if (auto row = measured_or_noted(here, name_of(place), what, options.quick, result.notes))
+        result.rows.push_back(std::move(*row));
     }
   }
   progress(1, "");
-  return with_crossovers(std::move(result));
+  return with_crossovers(std::move(result), options.quick);
 }
 
 std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows) {

@@ -30,7 +30,7 @@ struct StepsRow {
   double steps_per_second = 0;      // by the median
   std::uint64_t steps = 0;          // measured, of each run
   std::uint64_t contact_steps = 0;  // among them, with a contact
-  int runs = 0;                     // up to five within 1.5 s, at least one; one with `quick`
+  int runs = 0;                     // up to five within 1.5 s (0.3 s with `quick`), at least one
 };
 
 /// Of one family: the GPU against the CPU on so many threads.
@@ -47,7 +47,8 @@ struct StepsResult {
   bool interrupted = false;        // by Progress
 };
 
-/// A run that would take over a minute is left out, with a note. Throws Error.
+/// A run that would take over a minute is left out, with a note. `quick` makes the same steps, warm as well; it leaves out what
+/// takes over a second, and crossovers. Throws Error.
 [[nodiscard]] StepsResult bench_steps(const StepsOptions& options, const Progress& progress);
 
 /// For every family, and every number of threads of the CPU in it; empty without rows of the GPU.
