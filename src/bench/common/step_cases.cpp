@@ -9,7 +9,6 @@
 
 #include "bench/common/shapes.hpp"
 #include "core/error.hpp"
-#include "model/deform.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
