@@ -22,7 +22,8 @@ struct Bench {
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step),
+        added_forces(bodies, start.model),
+        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_result, &added_forces),
         collider(bodies, start.model, collision, 256),  // searches cut alike on every device
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
@@ -34,7 +35,8 @@ struct Bench {
         double tolerance)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
+        added_forces(bodies, start.model),
+        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates, &added_forces),
         collider(bodies, start.model, collision, 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
@@ -60,6 +62,7 @@ struct Bench {
 
   std::unique_ptr<Device> device;
   DeviceBodies bodies;
+  AddedForces added_forces;
   Stepper stepper;
   Collider collider;
   Grip grip;
@@ -259,7 +262,9 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   CollisionDescription tree, brute;
   brute.search = ContactSearch::brute_force;
   brute.triangle_test = TriangleTest::moller;
-  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  std::vector<BodySetup> setups = colliding_spheres();
+  setups.back().description.pressure = 0.5;
+  const ModelAndState start = build_model(setups, {0, -1, 0});
   for (const auto& [method, collision] : {std::pair<Method, CollisionDescription>{{"cv8", 0.01, DampingLaw::adaptive}, tree},
                                           {{"verlet", 0.01, DampingLaw::constant}, brute}}) {
     CAPTURE(method.integrator);
