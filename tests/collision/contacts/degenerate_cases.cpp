@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-json read_cases() { return json::parse(std::ifstream(source_dir() + "/tests/collision/degenerate.json")); }
+json read_cases() { return json::parse(std::ifstream(source_dir() + "/tests/collision/contacts/degenerate.json")); }
 
 float number(const json& value) { return value.is_string() ? std::stof(value.get<std::string>()) : value.get<float>(); }
 glm::vec3 point(const json& value) { return {number(value[0]), number(value[1]), number(value[2])}; }
