@@ -6,10 +6,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <span>
 #include <tuple>
+
+#include "core/json.hpp"
 
 namespace pliant {
 namespace {
@@ -189,8 +190,7 @@ std::string to_text(const MeshReport& r) {
 }
 
 std::string to_json(const MeshReport& r) {
-  using nlohmann::ordered_json;
-  const ordered_json json = {
+  const Json json = {
       {"vertices", r.vertex_count},
       {"triangles", r.triangle_count},
       {"edges", r.edge_count},
@@ -204,13 +204,13 @@ std::string to_json(const MeshReport& r) {
       {"duplicate_positions", r.duplicate_position_count},
       {"zero_area_triangles", r.zero_area_triangle_count},
       {"euler_characteristic", r.euler_characteristic},
-      {"genus", r.genus ? ordered_json(*r.genus) : ordered_json()},
-      {"lowest", {r.lowest.x, r.lowest.y, r.lowest.z}},
-      {"highest", {r.highest.x, r.highest.y, r.highest.z}},
+      {"genus", r.genus},
+      {"lowest", Json::array({r.lowest.x, r.lowest.y, r.lowest.z})},
+      {"highest", Json::array({r.highest.x, r.highest.y, r.highest.z})},
       {"area", r.area},
-      {"volume", r.volume ? ordered_json(*r.volume) : ordered_json()},
+      {"volume", r.volume},
   };
-  return json.dump(2) + "\n";
+  return json.text(2) + "\n";
 }
 
 }  // namespace pliant

@@ -1,24 +1,16 @@
 #include "output/summary.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.hpp"
 #include "output/file.hpp"
 
 namespace pliant {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 template <class Value>
 Json object(const std::vector<std::pair<std::string, Value>>& entries) {
   Json json = Json::object();
-  for (const auto& [name, value] : entries) json[name] = value;
+  for (const auto& [name, value] : entries) json.add(name, value);
   return json;
-}
-
-template <class Value>
-Json or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json device_json(const Summary& summary) { return {{"kind", summary.device.kind}, {"name", summary.device.name}}; }
@@ -33,7 +25,7 @@ Json adaptive_json(const Summary& summary) {
 
 Json energy_json(const Summary& summary) {
   const auto& [initial, final, max_drift] = summary.energy;
-  return {{"initial", initial}, {"final", final}, {"max_drift", or_null(max_drift)}};
+  return {{"initial", initial}, {"final", final}, {"max_drift", max_drift}};
 }
 
 Json contacts_json(const Summary& summary) {
@@ -52,7 +44,7 @@ Json work_json(const Summary& summary) {
 
 Json timings_json(const Summary& summary) {
   Json json = object(summary.timings_ms);
-  if (!summary.pass_timings_ms.empty()) json["passes"] = object(summary.pass_timings_ms);
+  if (!summary.pass_timings_ms.empty()) json.add("passes", object(summary.pass_timings_ms));
   return json;
 }
 
@@ -64,7 +56,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"precision", summary.precision},
                      {"threads", summary.threads},
                      {"integrator", summary.integrator},
-                     {"time_step", or_null(summary.time_step)},
+                     {"time_step", summary.time_step},
                      {"adaptive", adaptive_json(summary)},
                      {"steps", summary.steps},
                      {"simulated_seconds", summary.simulated_seconds},
@@ -72,7 +64,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"steps_per_second", summary.steps_per_second},
                      {"energy", energy_json(summary)},
                      {"contacts", contacts_json(summary)},
-                     {"final_intersecting_pairs", or_null(summary.final_intersecting_pairs)},
+                     {"final_intersecting_pairs", summary.final_intersecting_pairs},
                      {"non_finite", summary.non_finite},
                      {"interrupted", summary.interrupted},
                      {"warnings", summary.warnings},
@@ -81,7 +73,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"timings_ms", timings_json(summary)},
                      {"version", summary.version}};
   WholeFile file(path);
-  file.write(json.dump(2, ' ', false, Json::error_handler_t::replace));  // replace: a path need not be UTF-8
+  file.write(json.text(2));
   file.write("\n");
   file.close();
 }

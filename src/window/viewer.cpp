@@ -6,10 +6,10 @@
 #include <chrono>
 #include <cstdio>
 #include <glm/common.hpp>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "output/png.hpp"
 #include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
@@ -23,8 +23,8 @@ constexpr int pictures_after_an_event = 3;  // ImGui's widgets follow a press, a
 /// From any origin [s].
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-nlohmann::ordered_json described(const CameraDescription& camera) {
-  const auto place = [](const glm::dvec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+Json described(const CameraDescription& camera) {
+  const auto place = [](const glm::dvec3& p) { return Json::array({p.x, p.y, p.z}); };
   return {{"eye", place(camera.eye)}, {"target", place(camera.target)}, {"field_of_view", camera.field_of_view}};
 }
 
@@ -411,23 +411,23 @@ void Viewer::tell() {
   ++picture_;
   if (!report_.is_open()) return;
   const glm::uvec2 size = window_.framebuffer_size();
-  const nlohmann::ordered_json line = {{"frame", picture_},
-                                       {"scene", session_->scene().file.string()},
-                                       {"step", session_->step()},
-                                       {"time", session_->time()},
-                                       {"paused", playback_.is_paused()},
-                                       {"speed", playback_.speed()},
-                                       {"device", device_->info().kind},
-                                       {"pulls", pull_.has_value()},
-                                       {"wireframe", shows_.wireframe},
-                                       {"panel", shows_panel_},
-                                       {"help", shows_help_},
-                                       {"windows", panel_ == nullptr ? 0 : panel_->window_count()},
-                                       {"size", {size.x, size.y}},
-                                       {"camera", described(camera_)},
-                                       {"title", shown_title_},
-                                       {"message", message_}};
-  report_ << line.dump() << std::endl;
+  const Json line = {{"frame", picture_},
+                     {"scene", session_->scene().file.string()},
+                     {"step", session_->step()},
+                     {"time", session_->time()},
+                     {"paused", playback_.is_paused()},
+                     {"speed", playback_.speed()},
+                     {"device", device_->info().kind},
+                     {"pulls", pull_.has_value()},
+                     {"wireframe", shows_.wireframe},
+                     {"panel", shows_panel_},
+                     {"help", shows_help_},
+                     {"windows", panel_ == nullptr ? 0 : panel_->window_count()},
+                     {"size", Json::array({size.x, size.y})},
+                     {"camera", described(camera_)},
+                     {"title", shown_title_},
+                     {"message", message_}};
+  report_ << line.text() << std::endl;
 }
 
 }  // namespace pliant::view

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/common/report_parts.hpp"
 
@@ -58,15 +57,15 @@ Json row_json(const DrawRow& row) {
                {"height", row.height},
                {"milliseconds_per_frame", row.milliseconds_per_frame},
                {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame},
-               {"steps_lost", or_null(row.steps_lost)}};
-  for (const auto& [pass, milliseconds] : row.milliseconds) json[pass + "_milliseconds"] = milliseconds;
+               {"steps_lost", row.steps_lost}};
+  for (const auto& [pass, milliseconds] : row.milliseconds) json.add(pass + "_milliseconds", milliseconds);
   return json;
 }
 
 Json crossover_json(const FamilyCrossover& crossover) {
   return {{"family", crossover.family},
           {"threads", crossover.threads},
-          {"vertices", or_null(crossover.crossover.vertices)},
+          {"vertices", crossover.crossover.vertices},
           {"text", to_text(crossover)}};
 }
 
@@ -84,8 +83,8 @@ std::vector<std::string> notes_of(const ForcesResult& result) {
 template <class Result>
 Json file_json(const char* suite, const Machine& machine, const Json& options, const Result& result) {
   Json file = suite_json(suite, options, result.interrupted, machine);
-  file["rows"] = list_of(result.rows, [](const auto& row) { return row_json(row); });
-  file["notes"] = notes_of(result);
+  file.add("rows", list_of(result.rows, [](const auto& row) { return row_json(row); }));
+  file.add("notes", notes_of(result));
   return file;
 }
 
@@ -166,15 +165,15 @@ std::string to_text(const FamilyCrossover& crossover) {
 
 std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result) {
   Json asked = options_json(options.devices, options.quick);
-  asked["all_variants"] = options.all_variants;
+  asked.add("all_variants", options.all_variants);
   return text_of(file_json("forces", machine, asked, result));
 }
 
 std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result) {
   Json asked = options_json(options.devices, options.quick);
-  asked["scenes"] = options.scenes.string();
+  asked.add("scenes", options.scenes.string());
   Json file = file_json("steps", machine, asked, result);
-  file["crossovers"] = list_of(result.crossovers, crossover_json);
+  file.add("crossovers", list_of(result.crossovers, crossover_json));
   return text_of(file);
 }
 

@@ -1,27 +1,19 @@
 #include "bench/common/report_parts.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace pliant::bench {
 namespace {
 
-template <class Value>
-Json value_or_null(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json machine_json(const Machine& machine) {
-  return {{"version", machine.version},         {"commit", machine.commit},    {"cpu", machine.cpu},
-          {"cpu_threads", machine.cpu_threads}, {"gpu", or_null(machine.gpu)}, {"driver", or_null(machine.driver)},
+  return {{"version", machine.version},         {"commit", machine.commit}, {"cpu", machine.cpu},
+          {"cpu_threads", machine.cpu_threads}, {"gpu", machine.gpu},       {"driver", machine.driver},
           {"compiler", machine.compiler},       {"date", machine.date}};
 }
 
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 std::string lines_of(const Json& json) {
-  if (!json.is_array() || json.empty()) return line_of(json);
+  const auto* elements = std::get_if<Json::Array>(&json.value());
+  if (elements == nullptr || elements->empty()) return json.text();
   std::string lines;
-  for (const Json& element : json) lines += (lines.empty() ? "[\n    " : ",\n    ") + line_of(element);
+  for (const Json& element : *elements) lines += (lines.empty() ? "[\n    " : ",\n    ") + element.text();
   return lines + "\n  ]";
 }
 
@@ -41,13 +33,10 @@ Json suite_json(const char* suite, const Json& options, bool interrupted, const 
 
 Json threads_json(const std::string& device, unsigned threads) { return device == "gpu" ? Json(nullptr) : Json(threads); }
 
-Json or_null(const std::optional<double>& value) { return value_or_null(value); }
-Json or_null(const std::optional<std::string>& value) { return value_or_null(value); }
-
 std::string text_of(const Json& object) {
   std::string text;
-  for (const auto& [key, value] : object.items())
-    text += (text.empty() ? "{\n  " : ",\n  ") + line_of(key) + ": " + lines_of(value);
+  for (const auto& [key, value] : std::get<Json::Object>(object.value()))
+    text += (text.empty() ? "{\n  " : ",\n  ") + Json(key).text() + ": " + lines_of(value);
   return text + "\n}\n";
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/common/report_parts.hpp"
@@ -49,7 +48,7 @@ Json case_json(const PrecisionCaseInfo& info) {
 }
 
 Json winner_json(const std::optional<Winner>& winner) {
-  if (!winner) return nullptr;
+  if (!winner) return {};
   return {{"place", name_of_place(winner->contender.place)},
           {"method", name_of_method(winner->contender)},
           {"seconds", winner->seconds}};
@@ -57,18 +56,23 @@ Json winner_json(const std::optional<Winner>& winner) {
 
 Json cheapest_json(const CheapestRow& row) {
   Json json{{"case", row.case_name}, {"error", row.error}, {"any", winner_json(row.any)}, {"pliant", winner_json(row.pliant)}};
-  for (std::size_t k = 0; k < peer_libraries.size(); ++k) json[std::string(peer_libraries[k])] = winner_json(row.peers[k]);
-  json["lead"] = or_null(row.lead());
+  for (std::size_t k = 0; k < peer_libraries.size(); ++k) json.add(std::string(peer_libraries[k]), winner_json(row.peers[k]));
+  json.add("lead", row.lead());
   return json;
 }
 
 Json contest_json(const ContestEntry& entry) {
-  return {
-      {"case", entry.case_name}, {"error", entry.error}, {"lead", or_null(entry.lead)}, {"standing", name_of(entry.standing)}};
+  return {{"case", entry.case_name}, {"error", entry.error}, {"lead", entry.lead}, {"standing", name_of(entry.standing)}};
 }
 
 Json cost_json(const EvaluationCost& cost) {
   return {{"case", cost.case_name}, {"library", cost.library}, {"seconds", cost.seconds}};
+}
+
+Json versions_json(const std::map<std::string, std::string>& versions) {
+  Json json = Json::object();
+  for (const auto& [library, version] : versions) json.add(library, version);
+  return json;
 }
 
 // Four digits are more than a picture shows.
@@ -189,16 +193,16 @@ std::string to_table(const PrecisionResult& result) {
 
 std::string to_json(const Machine& machine, const PrecisionOptions& options, const PrecisionResult& result) {
   Json asked = options_json(options.devices, options.quick);
-  asked["scenes"] = options.scenes.string();
+  asked.add("scenes", options.scenes.string());
   Json file = suite_json("precision", asked, result.interrupted, machine);
-  file["versions"] = Json(result.versions);
-  file["cases"] = list_of(result.cases, case_json);
-  file["rows"] = list_of(result.rows, row_json);
-  file["cheapest"] = list_of(find_cheapest(result), cheapest_json);
-  file["contest"] = list_of(contest_of(result), contest_json);
-  file["evaluation_costs"] = list_of(evaluation_costs(result), cost_json);
-  file["curves"] = list_of(cost_curves(result), curve_json);
-  file["notes"] = notes_of(result);
+  file.add("versions", versions_json(result.versions));
+  file.add("cases", list_of(result.cases, case_json));
+  file.add("rows", list_of(result.rows, row_json));
+  file.add("cheapest", list_of(find_cheapest(result), cheapest_json));
+  file.add("contest", list_of(contest_of(result), contest_json));
+  file.add("evaluation_costs", list_of(evaluation_costs(result), cost_json));
+  file.add("curves", list_of(cost_curves(result), curve_json));
+  file.add("notes", notes_of(result));
   return text_of(file);
 }
 

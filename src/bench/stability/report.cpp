@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "bench/common/report_parts.hpp"
 
 namespace pliant::bench {
 namespace {
-
-Json finite_or_null(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
 const char* name_of(Outcome outcome) {
   constexpr std::array<const char*, 4> names{"stable", "damped", "creeping", "blown up"};
@@ -85,7 +81,7 @@ Json row_json(const LimitRow& row) {
           {"amplitude", row.amplitude},
           {"steps", row.steps},
           {"predicted_step", row.predicted_step},
-          {"measured_step", finite_or_null(row.measured_step)}};
+          {"measured_step", row.measured_step}};
 }
 
 Json row_json(const MapRow& row) {
@@ -102,7 +98,7 @@ Json row_json(const MapRow& row) {
           {"predicted_bound", row.predicted_bound},
           {"steps", row.steps},
           {"outcome", name_of(row.outcome)},
-          {"energy_ratio", finite_or_null(row.energy_ratio)}};
+          {"energy_ratio", row.energy_ratio}};
 }
 
 Json row_json(const DriftRow& row) {
@@ -113,7 +109,7 @@ Json row_json(const DriftRow& row) {
           {"vertices", row.vertices},
           {"omega_step", row.omega_step},
           {"steps", row.steps},
-          {"energy_drift", finite_or_null(row.energy_drift)},
+          {"energy_drift", row.energy_drift},
           {"predicted_drift", row.predicted_drift}};
 }
 
@@ -128,9 +124,9 @@ Json row_json(const ErrorRow& row) {
           {"distance", row.distance},
           {"turns", row.turns},
           {"steps", row.steps},
-          {"error", finite_or_null(row.error)},
-          {"energy_change", finite_or_null(row.energy_change)},
-          {"angular_momentum_change", finite_or_null(row.angular_momentum_change)},
+          {"error", row.error},
+          {"energy_change", row.energy_change},
+          {"angular_momentum_change", row.angular_momentum_change},
           {"frame_changes", row.frame_changes}};
 }
 
@@ -153,9 +149,10 @@ std::string to_table(const StabilityResult& result) {
 
 std::string to_json(const Machine& machine, const StabilityOptions& options, const StabilityResult& result) {
   Json file = suite_json("stability", options_json(options.devices, options.quick), result.interrupted, machine);
-  file["rows"] = list_of(
-      result.rows, [](const StabilityRow& row) { return std::visit([](const auto& known) { return row_json(known); }, row); });
-  file["notes"] = result.notes;
+  file.add("rows", list_of(result.rows, [](const StabilityRow& row) {
+             return std::visit([](const auto& known) { return row_json(known); }, row);
+           }));
+  file.add("notes", result.notes);
   return text_of(file);
 }
 
