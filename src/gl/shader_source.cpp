@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
-#include <regex>
-#include <sstream>
+#include <optional>
 
 #include "core/error.hpp"
 
@@ -113,6 +113,36 @@ class Flattener {
   std::vector<Line> lines_;
 };
 
+/// Cuts the digits off that the text begins with; empty where it begins with none.
+std::string_view take_digits(std::string_view& text) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+  const std::string_view digits = text.substr(0, end);
+  text.remove_prefix(end);
+  return digits;
+}
+
+struct Complaint {
+  std::string_view kind;  // "ERROR: ", "WARNING: " or nothing
+  std::size_t line = 0;   // of the flat shader; 0 where that is no number
+  std::string_view rest;
+};
+
+/// Mesa says "0:12(3): error", NVIDIA "0(12) : error", glslang and others "ERROR: 0:12: ...".
+std::optional<Complaint> parse_complaint(std::string_view text) {
+  Complaint complaint;
+  for (const std::string_view kind : {"ERROR: ", "WARNING: "})
+    if (text.starts_with(kind)) complaint.kind = kind;
+  text.remove_prefix(complaint.kind.size());
+  if (take_digits(text).empty() || text.empty() || (text[0] != ':' && text[0] != '(')) return {};
+  const bool is_bracketed = text[0] == '(';
+  text.remove_prefix(1);
+  const std::string_view digits = take_digits(text);
+  if (digits.empty() || (is_bracketed && !text.starts_with(')'))) return {};
+  std::from_chars(digits.data(), digits.data() + digits.size(), complaint.line);
+  complaint.rest = text.substr(is_bracketed ? 1 : 0);
+  return complaint;
+}
+
 }  // namespace
 
 FlatShader flatten_shader(std::span<const ShaderFile> files, std::string_view file, std::span<const Define> defines) {
@@ -127,20 +157,15 @@ FlatShader flatten_shader(std::string_view file, std::span<const Define> defines
 }
 
 std::string FlatShader::explain(std::string_view driver_log) const {
-  // Mesa "0:12(3): error", NVIDIA "0(12) : error", glslang and others "ERROR: 0:12: ...".
-  static const std::regex place(R"(^((?:ERROR: |WARNING: )?)\d+(?::(\d+)|\((\d+)\)))");
-  std::istringstream log{std::string(driver_log)};
   std::string explained;
-  for (std::string line; std::getline(log, line);) {
-    std::smatch match;
-    if (std::regex_search(line, match, place)) {
-      const std::size_t number = std::stoul(match[2].matched ? match[2] : match[3]);
-      if (number >= 1 && number <= origins.size()) {
-        const Origin& origin = origins[number - 1];
-        line = fmt::format("{}{}:{}{}", match[1].str(), origin.file, origin.line, match.suffix().str());
-      }
+  for (const std::string_view line : split_lines(driver_log)) {
+    const std::optional<Complaint> complaint = parse_complaint(line);
+    if (complaint && complaint->line >= 1 && complaint->line <= origins.size()) {
+      const Origin& origin = origins[complaint->line - 1];
+      explained += fmt::format("{}{}:{}{}\n", complaint->kind, origin.file, origin.line, complaint->rest);
+    } else {
+      explained.append(line).push_back('\n');
     }
-    explained += line + '\n';
   }
   return explained;
 }

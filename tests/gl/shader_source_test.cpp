@@ -76,6 +76,8 @@ TEST_CASE("the logs of Mesa, NVIDIA and glslang come out with true files and lin
   CHECK(flat.explain("ERROR: 0:4: 'x' : undeclared") == "ERROR: compute/kernels/one.glsl:2: 'x' : undeclared\n");
   CHECK(flat.explain("Compute info\n0(3) : warning\n0:99(1): error\n") ==
         "Compute info\ncompute/physics/shared.glsl:2 : warning\n0:99(1): error\n");
+  for (const char* other : {"0", "0:", "0(4", "0(4: error", "4: error", "NOTE: 0:4: x", "0:99999999999999999999: error"})
+    CHECK(flat.explain(other) == std::string(other) + "\n");
 }
 
 TEST_CASE("every shader in the program flattens or is a fragment that another file includes") {
