@@ -10,9 +10,10 @@ endif()
 
 # Headers include each other from src/ and from shaders/compute/.
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "app" EXCLUDE PATTERN "bench" EXCLUDE PATTERN "window" EXCLUDE
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "kernel_prelude.inc" PATTERN "app" EXCLUDE PATTERN "bench" EXCLUDE PATTERN "window" EXCLUDE
         PATTERN "studio.hpp" EXCLUDE)
 install(DIRECTORY shaders/compute/physics DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders)
+install(DIRECTORY shaders/compute/kernels/parts DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders/kernels)  # for kernels from outside
 
 configure_package_config_file(cmake/pliantConfig.cmake.in ${CMAKE_BINARY_DIR}/pliantConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
