@@ -6,6 +6,22 @@ function(pliant_compile_options target)
     -ffp-contract=off -fno-math-errno -fno-trapping-math)
 endfunction()
 
+# Most of what a file costs to compile are these headers: they are compiled once. A file still includes what it uses, and a build with
+# CMAKE_DISABLE_PRECOMPILE_HEADERS shows whether it does.
+set(pliant_common_headers <algorithm> <array> <chrono> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <limits> <map>
+    <memory> <optional> <set> <span> <string> <string_view> <thread> <utility> <variant> <vector>
+    <fmt/format.h> <glm/common.hpp> <glm/geometric.hpp> <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
+function(pliant_precompile_headers target)
+  if(NOT TARGET pliant_precompiled)
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
+    add_library(pliant_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+    target_link_libraries(pliant_precompiled PRIVATE fmt::fmt glm::glm)
+    pliant_compile_options(pliant_precompiled)
+    target_precompile_headers(pliant_precompiled PRIVATE ${pliant_common_headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM pliant_precompiled)
+endfunction()
+
 if(PLIANT_SANITIZE)
   add_compile_options(-fsanitize=${PLIANT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_compile_options(-Wno-maybe-uninitialized)  # gcc 12 misreads the sanitizers' own code in <functional> and <regex>

@@ -318,7 +318,7 @@ int run_scene(const RunOptions& given) {
   PreparedRun& prepared = *run;
   if (from) resume(given, from->checkpoint, prepared);
   if (!given.video.empty() && options.video.empty())
-    prepared.warnings.push_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
+    prepared.warnings.emplace_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   if (options.check) {
     show_check(prepared);
