@@ -1,4 +1,4 @@
-# Everything comes from Debian packages; tools/packages.txt lists them.
+# Everything comes from Debian packages; tools/packages/ lists them by purpose.
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
@@ -32,26 +32,6 @@ if(NOT EXISTS ${glad_dir}/src/gl.c OR NOT EXISTS ${glad_dir}/src/egl.c)
 endif()
 add_library(pliant_glad OBJECT ${glad_dir}/src/gl.c ${glad_dir}/src/egl.c)
 target_include_directories(pliant_glad SYSTEM PUBLIC ${glad_dir}/include)
-
-# Optional: what `pliant bench precision` compares with. Debian: libsundials-dev, libboost-dev.
-add_library(pliant_peers INTERFACE)
-find_path(PLIANT_ODEINT_DIR boost/numeric/odeint.hpp)
-if(PLIANT_ODEINT_DIR)
-  target_include_directories(pliant_peers SYSTEM INTERFACE ${PLIANT_ODEINT_DIR})
-  set_source_files_properties(src/bench/peers/odeint.cpp PROPERTIES COMPILE_DEFINITIONS PLIANT_ODEINT)
-endif()
-find_path(PLIANT_SUNDIALS_DIR arkode/arkode_erkstep.h)
-set(sundials_libraries)
-foreach(name arkode cvode nvecserial sunnonlinsolfixedpoint)
-  find_library(PLIANT_SUNDIALS_${name} NAMES libsundials_${name}.a sundials_${name})
-  list(APPEND sundials_libraries ${PLIANT_SUNDIALS_${name}})
-endforeach()
-if(PLIANT_SUNDIALS_DIR AND NOT sundials_libraries MATCHES NOTFOUND)
-  target_include_directories(pliant_peers SYSTEM INTERFACE ${PLIANT_SUNDIALS_DIR})
-  target_link_libraries(pliant_peers INTERFACE ${sundials_libraries})
-  set_source_files_properties(src/bench/peers/sundials.cpp src/bench/peers/arkode.cpp src/bench/peers/cvode.cpp PROPERTIES
-    COMPILE_DEFINITIONS PLIANT_SUNDIALS)
-endif()
 
 # Optional: the window of `pliant view`, and its panel. Debian: libglfw3-dev, libimgui-dev. Looked for at each configuration.
 find_package(glfw3 3.3 QUIET)

@@ -1,10 +1,26 @@
-# Sourced by tools/demo and tools/test: installs the Debian packages that are missing, and builds a preset.
+# Sourced by the other tools: installs the Debian packages of a purpose, and builds what it needs.
+# Purposes: program (with the viewer), bench, comparisons (bench beside SUNDIALS and Boost), tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+purposes=(program bench comparisons tests)
+
+expect_purposes() {
+  local purpose
+  for purpose in "$@"; do
+    [[ " ${purposes[*]} " == *" $purpose "* ]] || { echo "error: there is no purpose \"$purpose\"; purposes: ${purposes[*]}" >&2; exit 2; }
+  done
+}
+
+# packages_of PURPOSE...: those of the program, which every purpose needs, and their own. Benchmarks need no others.
+packages_of() {
+  local purpose
+  for purpose in program "$@"; do
+    if [ -f "tools/packages/$purpose.txt" ]; then cat "tools/packages/$purpose.txt"; fi
+  done | sort -u
+}
 
 missing_packages() {
-  comm -23 <(sort tools/packages.txt) \
-           <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
+  comm -23 <(packages_of "$@") <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' | sed -n 's/^installed //p' | sort -u)
 }
 
 as_root() {
@@ -18,18 +34,22 @@ as_root() {
 
 install_packages() {
   if ! command -v apt-get > /dev/null; then
-    echo "warning: this is no Debian system; install what tools/packages.txt names by hand" >&2
+    echo "warning: this is no Debian system; install what tools/packages names by hand: $(packages_of "$@" | tr '\n' ' ')" >&2
     return
   fi
-  missing=$(missing_packages | tr '\n' ' ')
+  missing=$(missing_packages "$@" | tr '\n' ' ')
   [ -z "$missing" ] && return
   echo "Installing $missing"
   as_root apt-get update || echo "warning: the package lists could not be renewed" >&2
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
 }
 
-# build PRESET [CMAKE --BUILD ARGS]: configures and builds it in build/PRESET.
+# build PRESET PURPOSE...: builds them in build/PRESET. What an earlier call built there stays part of the build.
 build() {
-  if [ ! -f "build/$1/build.ninja" ]; then cmake --preset "$1"; fi
-  cmake --build --preset "$@"
+  local preset=$1 wanted=" ${*:2} " options=()
+  if [ ! -f "build/$preset/build.ninja" ]; then options=(-DPLIANT_BUILD_BENCH=OFF -DPLIANT_BUILD_TESTS=OFF); fi
+  if [[ $wanted =~ \ (bench|comparisons|tests)\  ]]; then options+=(-DPLIANT_BUILD_BENCH=ON); fi
+  if [[ $wanted == *" tests "* ]]; then options+=(-DPLIANT_BUILD_TESTS=ON); fi
+  cmake --preset "$preset" "${options[@]}"
+  cmake --build --preset "$preset"
 }

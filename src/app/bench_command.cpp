@@ -1,5 +1,7 @@
 #include "app/bench_command.hpp"
 
+#include "core/error.hpp"
+#ifdef PLIANT_BENCH
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,13 +12,16 @@
 #include "bench/common/step_cases.hpp"
 #include "bench/precision/report.hpp"
 #include "bench/stability/report.hpp"
-#include "core/error.hpp"
 #include "output/file.hpp"
 #include "run/choose_device.hpp"
 #include "run/interrupts.hpp"
 #include "run/progress_bar.hpp"
+#endif
 
 namespace pliant::app {
+
+#ifdef PLIANT_BENCH
+
 namespace {
 
 bench::Selection selection_of(const BenchOptions& options) {
@@ -63,31 +68,29 @@ int measure_and_write(const BenchOptions& options, const Options& asked, const M
   return result.interrupted ? exit_interrupted : 0;
 }
 
-}  // namespace
-
-int bench_forces(const BenchOptions& options) {
+int measure_forces(const BenchOptions& options) {
   const bench::ForcesOptions asked{
       .devices = selection_of(options), .quick = options.quick, .all_variants = options.all_variants};
   return measure_and_write(options, asked, bench::bench_forces);
 }
 
-int bench_steps(const BenchOptions& options) {
+int measure_steps(const BenchOptions& options) {
   bench::expect_scenes(options.scenes);
   const bench::StepsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_steps);
 }
 
-int bench_precision(const BenchOptions& options) {
+int measure_precision(const BenchOptions& options) {
   const bench::PrecisionOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_precision);
 }
 
-int bench_stability(const BenchOptions& options) {
+int measure_stability(const BenchOptions& options) {
   const bench::StabilityOptions asked{.devices = selection_of(options), .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_stability);
 }
 
-int bench_draw(const BenchOptions& options) {
+int measure_draw(const BenchOptions& options) {
   bench::expect_scenes(options.scenes);
   const bench::DrawOptions asked{.gpu_index = options.gpu_index.value_or(0),
                                  .scenes = options.scenes,
@@ -95,5 +98,32 @@ int bench_draw(const BenchOptions& options) {
                                  .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_draw);
 }
+
+}  // namespace
+
+int bench(const BenchOptions& options) {
+  switch (options.suite) {
+    case BenchSuite::forces:
+      return measure_forces(options);
+    case BenchSuite::steps:
+      return measure_steps(options);
+    case BenchSuite::precision:
+      return measure_precision(options);
+    case BenchSuite::stability:
+      return measure_stability(options);
+    case BenchSuite::draw:
+      break;
+  }
+  return measure_draw(options);
+}
+
+#else
+
+int bench(const BenchOptions&) {
+  throw Error(ErrorKind::device, "", "this pliant was built without benchmarks",
+              "build it with them by `tools/build bench`, or with -DPLIANT_BUILD_BENCH=ON");
+}
+
+#endif
 
 }  // namespace pliant::app

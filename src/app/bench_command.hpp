@@ -10,7 +10,10 @@ namespace pliant::app {
 /// What to measure on. Automatic: the CPU, and a hardware GPU if there is one; all: both, the GPU whatever it is.
 enum class BenchDevices { automatic, cpu, gpu, all };
 
+enum class BenchSuite { forces, steps, precision, stability, draw };
+
 struct BenchOptions {
+  BenchSuite suite = BenchSuite::forces;
   BenchDevices devices = BenchDevices::automatic;
   std::optional<int> gpu_index;                   // of gl::list_adapters()
   unsigned threads = 0;                           // most threads of the CPU; 0: one a processor
@@ -21,12 +24,9 @@ struct BenchOptions {
   std::array<std::uint32_t, 2> size{1920, 1080};  // draw: of the picture [pixels]
 };
 
-/// Prints the machine and a table, and writes the file; an earlier one stays until then. After Ctrl-C with the rows that are
-/// finished (interrupts.hpp). Return the exit code, 0 or exit_interrupted. Throw Error.
-int bench_forces(const BenchOptions& options);
-int bench_steps(const BenchOptions& options);
-int bench_precision(const BenchOptions& options);
-int bench_stability(const BenchOptions& options);
-int bench_draw(const BenchOptions& options);
+/// Prints the machine and a table, and writes the file. An earlier file stays until then. After Ctrl-C (interrupts.hpp) both hold
+/// the rows that are finished. Returns the exit code, 0 or exit_interrupted. Throws Error, of kind device where this program was
+/// built without benchmarks.
+int bench(const BenchOptions& options);
 
 }  // namespace pliant::app

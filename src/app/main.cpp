@@ -182,8 +182,9 @@ void add_info(CLI::App& program, app::InfoOptions& options) {
   info->add_flag("--integrators", options.integrators, "List the integrators");
 }
 
-CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* name, const char* help) {
+CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite which, const char* name, const char* help) {
   CLI::App* suite = bench.add_subcommand(name, help);
+  suite->callback([&options, which] { options.suite = which; });
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
@@ -192,8 +193,9 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, const char* nam
   return suite;
 }
 
-CLI::App* add_device_suite(CLI::App& bench, app::BenchOptions& options, const char* name, const char* help) {
-  CLI::App* suite = add_suite(bench, options, name, help);
+CLI::App* add_device_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite which, const char* name,
+                           const char* help) {
+  CLI::App* suite = add_suite(bench, options, which, name, help);
   add_choice<app::BenchDevices>(*suite, "--device", options.devices,
                                 {{"auto", app::BenchDevices::automatic},
                                  {"cpu", app::BenchDevices::cpu},
@@ -206,7 +208,8 @@ CLI::App* add_device_suite(CLI::App& bench, app::BenchOptions& options, const ch
 }
 
 void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
-  CLI::App* draw = add_suite(bench, options, "draw", "GPU time of a picture and its passes, for each scene");
+  CLI::App* draw =
+      add_suite(bench, options, app::BenchSuite::draw, "draw", "GPU time of a picture and its passes, for each scene");
   draw->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
   draw->add_option("--size", options.size, "Width and height of the picture [pixels] (default 1920 1080)")
       ->transform(whole_number(1, 16384));
@@ -216,15 +219,17 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* bench =
       program.add_subcommand("bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, draw");
   bench->require_subcommand(1);
-  CLI::App* forces =
-      add_device_suite(*bench, options, "forces", "Spring forces by size of the body, beside what the hardware allows");
+  CLI::App* forces = add_device_suite(*bench, options, app::BenchSuite::forces, "forces",
+                                      "Spring forces by size of the body, beside what the hardware allows");
   forces->add_flag("--all-variants", options.all_variants, "Every way of summing forces, instead of the GPU's best one");
-  CLI::App* steps = add_device_suite(*bench, options, "steps", "Whole steps of scenes, and of ever denser bodies in contact");
+  CLI::App* steps = add_device_suite(*bench, options, app::BenchSuite::steps, "steps",
+                                     "Whole steps of scenes, and of ever denser bodies in contact");
   steps->add_option("--scenes", options.scenes, "Folder of scenes (default scenes)");
-  CLI::App* precision =
-      add_device_suite(*bench, options, "precision", "Run time against error, beside other libraries' integrators");
+  CLI::App* precision = add_device_suite(*bench, options, app::BenchSuite::precision, "precision",
+                                         "Run time against error, beside other libraries' integrators");
   precision->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny (default scenes)");
-  add_device_suite(*bench, options, "stability", "Steps at which methods blow up, drift of energy, and errors of fp32");
+  add_device_suite(*bench, options, app::BenchSuite::stability, "stability",
+                   "Steps at which methods blow up, drift of energy, and errors of fp32");
   add_draw_suite(*bench, options);
 }
 
@@ -303,12 +308,7 @@ int execute(int count, char** arguments) {
     app::view(view);
     return 0;
   }
-  const CLI::App* suite = program.get_subcommand("bench");
-  if (suite->got_subcommand("forces")) return app::bench_forces(bench);
-  if (suite->got_subcommand("steps")) return app::bench_steps(bench);
-  if (suite->got_subcommand("precision")) return app::bench_precision(bench);
-  if (suite->got_subcommand("stability")) return app::bench_stability(bench);
-  if (suite->got_subcommand("draw")) return app::bench_draw(bench);
+  if (program.got_subcommand("bench")) return app::bench(bench);
   if (program.got_subcommand("info"))
     app::show_info(info);
   else

@@ -8,7 +8,7 @@
 
 namespace pliant::test {
 
-/// Whether it is there. Where it is not the test says so, and leaves out what needs it; under CI, where all of tools/packages.txt
+/// Whether it is there. Where it is not the test says so, and leaves out what needs it; under CI, where all of tools/packages
 /// is installed, it fails.
 inline bool has(const char* what, bool is_there) {
   if (is_there) return true;

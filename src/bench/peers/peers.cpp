@@ -16,8 +16,9 @@ std::vector<PeerMethod> peer_methods(bool damped) {
 std::vector<std::string> missing_peers() {
   std::vector<std::string> missing;
   if (sundials_version().empty())
-    missing.emplace_back("ARKODE and CVODE: left out, as the build did not find them (Debian: libsundials-dev)");
-  if (boost_version().empty()) missing.emplace_back("odeint: left out, as the build did not find it (Debian: libboost-dev)");
+    missing.emplace_back("ARKODE and CVODE: left out, as the build did not find SUNDIALS; `tools/build comparisons` adds it");
+  if (boost_version().empty())
+    missing.emplace_back("odeint: left out, as the build did not find Boost; `tools/build comparisons` adds it");
   return missing;
 }
 
