@@ -1,4 +1,4 @@
-// Values as bytes, one after the other in the machine's own order, and back.
+// Writes values as bytes, one after the other in the machine's byte order, and reads them back.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -28,7 +28,7 @@ class ByteWriter {
   void put(const T& value) {
     append_bytes(bytes_, value);
   }
-  /// With its length.
+  /// Writes the length, then the characters.
   void put(const std::string& text) {
     put(std::uint64_t{text.size()});
     bytes_ += text;
@@ -44,7 +44,7 @@ class ByteWriter {
     put(std::uint64_t{values.size()});
     for (const T& value : values) put(value);
   }
-  /// One after the other. A ByteReader called with the same variables reads them, so that one function can do both.
+  /// Writes the values one after the other. A ByteReader called with the same variables reads them, so one function can do both.
   template <class... T>
   void operator()(const T&... values) {
     (put(values), ...);
@@ -56,7 +56,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads what a ByteWriter wrote, in the same order. Throws Error (input) where bytes are missing. `bytes` must outlive it.
+/// Reads what a ByteWriter wrote, in the same order. Throws Error (input) if bytes are missing. `bytes` must outlive it.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

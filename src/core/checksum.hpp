@@ -1,5 +1,5 @@
-// A number that tells whether bytes are the same: 64-bit FNV-1a, by Fowler, Noll and Vo (draft-eastlake-fnv). Each byte is a
-// permutation of what came before, so that a single wrong one always shows; no defence against someone who wants it wrong.
+// Checksums tell whether bytes are the same: 64-bit FNV-1a, by Fowler, Noll and Vo (draft-eastlake-fnv). Each byte permutes the
+// possible checksums, so a single wrong byte always shows. It does not protect against deliberate changes.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace pliant {
 
 inline constexpr std::uint64_t checksum_of_nothing = 0xcbf29ce484222325u;
 
-/// Of bytes that follow those with the checksum `before`.
+/// Returns the checksum of some bytes and of those before them, whose checksum is `before`.
 [[nodiscard]] inline std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t before = checksum_of_nothing) {
   for (const std::byte byte : bytes) before = (before ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
   return before;

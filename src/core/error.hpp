@@ -1,4 +1,4 @@
-// The one exception type: what is wrong, where, and how to mend it.
+// The one exception type. It says what is wrong, where, and how to mend it.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace pliant {
 
-/// What kind of thing went wrong; the values are the program's exit codes.
+/// What kind of thing went wrong. The values are the program's exit codes.
 enum class ErrorKind { command_line = 2, input = 3, device = 4 };
 
-/// Thrown while loading and building, or where a device fails; never for what numbers do.
+/// Thrown while loading and building, and when a device fails. Numbers that diverge throw nothing.
 class Error : public std::runtime_error {
  public:
-  /// `where` names a file, line, field or element and may be empty; `remedy` says what to do about it.
+  /// `where` names a file, line, field or element. `remedy` says what to do about it. Both may be empty.
   Error(ErrorKind kind, const std::string& where, const std::string& what, const std::string& remedy)
       : std::runtime_error((where.empty() ? "" : where + ": ") + what + (remedy.empty() ? "" : "; " + remedy)), kind_(kind) {}
 
-  /// Whoever gave the value has to mend it: the kind is command_line or input.
+  /// The kind is command_line or input, depending on where the value was given.
   Error(const Origin& where, const std::string& what, const std::string& remedy)
       : Error(where.is_command_line() ? ErrorKind::command_line : ErrorKind::input, where.place, what, remedy) {}
 

@@ -1,4 +1,4 @@
-// What a file's name says that it holds.
+// Tells from a file's name what the file holds.
 #pragma once
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// In lower case: ".obj" of "Bunny.OBJ".
+/// Returns the extension in lower case: ".obj" for "Bunny.OBJ".
 [[nodiscard]] inline std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -1,4 +1,4 @@
-// The text is nlohmann's, which no other file of the library sees: its header takes seconds to compile.
+// Writes the text with nlohmann's JSON. No other file of the library includes it, because it takes seconds to compile.
 #include "core/json.hpp"
 
 #include <nlohmann/json.hpp>

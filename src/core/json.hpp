@@ -1,4 +1,4 @@
-// JSON to write: values in, text out. Who includes this does not see the library that writes the text.
+// JSON values to write as text. Files that include this do not see the library that writes the text.
 #pragma once
 #include <concepts>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace pliant {
 
-/// A value; an object keeps its members in the order in which they came.
+/// A JSON value. An object keeps its members in the order in which they came.
 class Json {
  public:
   struct Member;
@@ -23,18 +23,18 @@ class Json {
 
   Json(std::nullptr_t = nullptr);
   Json(bool value);
-  Json(double value);  // null where it is not finite
+  Json(double value);  // null if it is not finite
   Json(const char* text);
   Json(std::string text);
   Json(std::string_view text);
-  /// An object.
+  /// Makes an object.
   Json(std::initializer_list<Member> members);
   template <std::integral T>
   requires(!std::same_as<T, bool>) Json(T value) : Json(whole(value)) {}
-  /// Null where there is nothing.
+  /// Makes null if there is no value.
   template <class T>
   Json(const std::optional<T>& value) : Json(value ? Json(*value) : Json()) {}
-  /// An array.
+  /// Makes an array.
   template <class T>
   Json(const std::vector<T>& values);
 
@@ -47,7 +47,8 @@ class Json {
   void add(Json element);
 
   [[nodiscard]] const Value& value() const { return value_; }
-  /// In one line, or with that many spaces a level in as many lines as there are values. Text that is no UTF-8 is replaced.
+  /// Returns the text in one line. With `indent`, each value has a line of its own, indented by that many spaces per level. Bytes
+  /// that are not UTF-8 are replaced.
   [[nodiscard]] std::string text(std::optional<unsigned> indent = {}) const;
 
  private:
@@ -72,7 +73,7 @@ Json::Json(const std::vector<T>& values) : Json(array({})) {
   for (const T& value : values) add(Json(value));
 }
 
-/// An array of what `json_of` makes of each item.
+/// Returns an array of what `json_of` makes of each item.
 template <class Items, class ToJson>
 [[nodiscard]] Json list_of(const Items& items, const ToJson& json_of) {
   Json list = Json::array({});

@@ -1,11 +1,11 @@
-// Where a value was given, and so whose mistake it is when it is wrong.
+// Says where a value was given, and so whose mistake it is when it is wrong.
 #pragma once
 #include <string>
 
 namespace pliant {
 
 struct Origin {
-  /// The later ones replace the earlier ones: an override is `--set key=value`, an option has a name of its own.
+  /// Values of later kinds replace those of earlier kinds. An override is `--set key=value`. An option has a name of its own.
   enum class From { nowhere, file, override, option };
 
   From from = From::nowhere;

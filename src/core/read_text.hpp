@@ -5,7 +5,7 @@
 
 namespace pliant {
 
-/// Throws Error (input) naming the path when it is missing, a folder or unreadable.
+/// Returns the file's content. Throws Error (input) that names the path if it is missing, unreadable or not a plain file.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Wall time, summed over the spans between start() and stop().
+// Sums the wall time between start() and stop().
 #pragma once
 #include <chrono>
 

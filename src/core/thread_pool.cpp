@@ -1,4 +1,4 @@
-// Between loops `next_` says closed, so a late thread can never take an item by the count of another loop.
+// Between loops `next_` says `closed`, so a late thread never takes an item by the count of another loop.
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void pause() {
 }
 
 #ifdef __linux__
-// The processors that this thread may run on, the one it is on last.
+// Returns the processors that this thread may run on. The one that it is on comes last.
 std::vector<int> allowed_processors() {
   cpu_set_t allowed;
   std::vector<int> processors;
@@ -48,7 +48,7 @@ void keep_on(std::thread& thread, int processor) {
   cpu_set_t only;
   CPU_ZERO(&only);
   CPU_SET(processor, &only);
-  pthread_setaffinity_np(thread.native_handle(), sizeof(only), &only);  // without it the loops are slower, and right
+  pthread_setaffinity_np(thread.native_handle(), sizeof(only), &only);  // if it fails, loops are slower but right
 }
 #else
 std::vector<int> allowed_processors() { return std::vector<int>(std::thread::hardware_concurrency()); }
@@ -63,7 +63,7 @@ ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   threads = thread_count(threads);
   const std::vector<int> processors = allowed_processors();
   own_processors_ = threads <= processors.size();
-  const bool pinned = threads == processors.size();  // fewer would all crowd the same ones, whatever else runs there
+  const bool pinned = threads == processors.size();  // smaller pools would all crowd the same processors
   try {
     for (unsigned k = 1; k < threads; ++k) {
       workers_.emplace_back([this] { work(); });

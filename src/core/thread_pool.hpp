@@ -1,7 +1,7 @@
-// Threads that share the items of one loop after another. Written here rather than taken from a library because a step is some
-// twenty short loops: a loop ends when its items are done, without waiting for threads that have not woken up for it, and threads
-// look for the next loop for some 50 us before they sleep. Where there is a processor for each, workers stay on their own
-// (Linux).
+// Threads that share the items of one loop after another. A step is some twenty short loops, and so pliant has its own pool:
+// - A loop ends when its items are done. It does not wait for threads that have not woken up for it.
+// - If there is a processor for each thread, threads look for the next loop for some 50 us before they sleep.
+// - If there are exactly as many processors as threads, each worker stays on its own processor (Linux).
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace pliant {
 
-/// How many a pool of `asked` threads has; 0: one a processor.
+/// Returns how many threads a pool of `asked` threads has. 0 asks for one per processor.
 [[nodiscard]] unsigned thread_count(unsigned asked);
 
 class ThreadPool {
  public:
-  /// Calls with the first item of a range and one past its last.
+  /// Is called with the first item of a range and one past its last.
   using Body = std::function<void(std::uint32_t, std::uint32_t)>;
 
-  /// `threads` counts the calling one; 0: one a processor. Throws Error (device) when the system gives fewer.
+  /// `threads` includes the calling one. 0 asks for one per processor. Throws Error (device) if the system gives fewer.
   explicit ThreadPool(unsigned threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -27,8 +27,8 @@ class ThreadPool {
 
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(workers_.size()) + 1; }
 
-  /// Calls body for ranges of at most `grain` items that cover 0 to count - 1, in any order on any thread; returns when all
-  /// are done. The body must not throw. One thread at a time may call this. Expects count < 2^32 - 1.
+  /// Calls body for ranges of at most `grain` items that cover 0 to count - 1, in any order on any thread. Returns when all are
+  /// done. The body must not throw. One thread at a time may call this. Expects count < 2^32 - 1.
   void for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body);
 
  private:
@@ -41,11 +41,11 @@ class ThreadPool {
   // What threads write while others read stands on cache lines of its own.
   std::atomic<const Body*> body_{nullptr};
   std::atomic<std::uint32_t> count_{0}, grain_{1};
-  alignas(64) std::atomic<std::uint64_t> next_;  // high half: the loop's number; low half: its first item that nobody has taken
-  alignas(64) std::atomic<std::uint32_t> done_{0};  // items finished, of threads that found no more to take
-  alignas(64) std::atomic<std::uint32_t> loop_{0};  // number of the latest loop; a change wakes the workers
+  alignas(64) std::atomic<std::uint64_t> next_;  // high half: the loop's number, low half: its first item that nobody has taken
+  alignas(64) std::atomic<std::uint32_t> done_{0};  // items finished by threads that found no more to take
+  alignas(64) std::atomic<std::uint32_t> loop_{0};  // number of the latest loop, whose change wakes the workers
   std::atomic<bool> stopping_{false};
-  bool own_processors_ = false;  // whether there are as many as threads
+  bool own_processors_ = false;  // whether there is a processor for each thread
 };
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// A file of its own, for it is compiled again after every commit.
+// This is a file of its own because it is compiled again after every commit.
 #include "core/version.hpp"
 
 #include "pliant_commit.hpp"  // written by the build, see cmake/PliantCommit.cmake

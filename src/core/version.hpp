@@ -1,13 +1,13 @@
-// Which pliant this is.
+// Tells which pliant this is.
 #pragma once
 #include <string>
 
 namespace pliant {
 
-/// Such as "0.1.0".
+/// Returns the version, such as "0.1.0".
 [[nodiscard]] std::string version();
 
-/// What it was built from: "-dirty" stands behind it where files differed, and it may be "unknown".
+/// Returns the commit that it was built from, or "unknown" outside a git checkout. "-dirty" stands behind it if files differed.
 [[nodiscard]] std::string commit();
 
 }  // namespace pliant
