@@ -6,7 +6,7 @@
 
 namespace pliant {
 
-/// Keeps the order of the vertices that stay; returns how many went.
+/// Keeps the order of the vertices that stay. Returns how many it removed.
 std::size_t remove_unused_vertices(TriangleMesh& mesh);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// A mesh from what a scene file or a command line calls it.
+// Makes a mesh from what a scene file or a command line calls it.
 #pragma once
 #include <filesystem>
 #include <string_view>
@@ -7,7 +7,8 @@
 
 namespace pliant {
 
-/// Generates "generator:argument", else loads the OBJ file at that path, relative to `base_folder`. Throws Error (input).
+/// Generates the mesh if the description is "generator:argument". Otherwise loads the OBJ file at that path, relative to
+/// `base_folder`. Throws Error (input).
 [[nodiscard]] LoadedMesh load_mesh(std::string_view description, const std::filesystem::path& base_folder);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// A scan checks every line that matters, because tinyobjloader takes nonsense for zero; then tinyobjloader resolves the
-// faces. Positions come from the scan: tinyobjloader does not round decimals correctly.
+// A scan checks every line that matters, because tinyobjloader takes nonsense for zero. Then tinyobjloader resolves the faces.
+// Positions come from the scan, because tinyobjloader does not round decimals correctly.
 #include "mesh/obj.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ namespace {
 
 const char* const export_again = "export the mesh again as a text OBJ file";
 
-/// Every line end becomes one '\n'; a byte-order mark goes.
+/// Turns every line end into one '\n' and removes a byte-order mark.
 std::string unify_line_ends(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   std::string unified;
@@ -56,7 +56,7 @@ std::vector<std::string_view> split_words(std::string_view line) {
   return words;
 }
 
-/// The whole word as a number; infinite where it is too large for fp64.
+/// Reads the whole word as a number, which is infinite if it is too large for fp64.
 std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   double value = 0;
@@ -111,7 +111,7 @@ class Scanner {
          export_again);
   }
 
-  /// Joins lines that end in a backslash; line_ becomes the number of the first.
+  /// Joins lines that end in a backslash. Sets line_ to the number of the first.
   std::string next_line() {
     line_ = next_line_number_;
     std::string line;
@@ -164,7 +164,7 @@ class Scanner {
     corner_counts.push_back(words.size() - 1);
   }
 
-  /// "v", "v/vt", "v//vn" or "v/vt/vn".
+  /// Checks a corner, which is "v", "v/vt", "v//vn" or "v/vt/vn".
   void scan_corner(std::string_view corner) {
     const std::size_t first_slash = std::min(corner.find('/'), corner.size());
     const std::size_t second_slash = std::min(corner.find('/', first_slash + 1), corner.size());
@@ -203,7 +203,7 @@ class Scanner {
   std::size_t largest_index_line_ = 0;
 };
 
-/// Vertex indices of all faces' corners, one face after the other.
+/// Returns the vertex indices of all faces' corners, one face after the other.
 std::vector<std::uint32_t> resolve_corners(const std::string& lines, const std::string& name) {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;

@@ -1,4 +1,4 @@
-// Wavefront OBJ files, read strictly: whatever is malformed is an error that names its line.
+// Reads Wavefront OBJ files strictly: whatever is malformed is an error that names its line.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -17,12 +17,14 @@ struct LoadedMesh {
 /// Largest |coordinate| that a file may hold [mesh units].
 inline constexpr double max_coordinate = 1e9;
 
-/// Reads positions and faces; all else in the file (normals, texture, groups, materials, lines, points) is ignored.
-/// Polygons are split as a fan from the first corner, vertices keep the file's order, vertices in no face are left out
-/// with a warning, faces without area stay with a warning. Throws Error (input) naming "path:line".
+/// Reads positions and faces. Ignores all else in the file (normals, texture, groups, materials, lines, points).
+/// - Polygons are split as a fan from the first corner.
+/// - Vertices keep the file's order. Vertices in no face are left out with a warning.
+/// - Faces without area stay with a warning.
+/// Throws Error (input) that names the path and the line at fault.
 [[nodiscard]] LoadedMesh load_obj(const std::filesystem::path& path);
 
-/// The same from text in memory; `name` stands for the path in errors.
+/// Reads the same from text in memory. `name` stands for the path in errors.
 [[nodiscard]] LoadedMesh parse_obj(std::string_view text, const std::string& name);
 
 }  // namespace pliant

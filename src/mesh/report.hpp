@@ -1,4 +1,4 @@
-// What a mesh consists of and what is wrong with it.
+// Reports what a mesh consists of and what is wrong with it.
 #pragma once
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -21,18 +21,18 @@ struct MeshReport {
   bool closed = false;                   // every edge is in two triangles or more
   bool manifold = false;                 // no non-manifold edge or vertex
   long euler_characteristic = 0;         // vertices - edges + triangles
-  std::optional<long> genus;             // handles, summed over the components; if closed, manifold and wound consistently
+  std::optional<long> genus;             // handles of all components, if closed, manifold and wound consistently
   glm::dvec3 lowest{0.0}, highest{0.0};  // corners of the bounding box [mesh units]
   double area = 0;                       // [mesh units^2]
-  std::optional<double> volume;          // enclosed, positive if wound outward [mesh units^3]; if closed and wound consistently
+  std::optional<double> volume;          // enclosed [mesh units^3], positive if wound outward, if closed and wound consistently
 };
 
 [[nodiscard]] MeshReport report_mesh(const TriangleMesh& mesh);
 
-/// Triangles whose area is below 1e-12 of their longest edge squared.
+/// Counts triangles whose area is below 1e-12 of their longest edge squared.
 [[nodiscard]] std::size_t count_zero_area_triangles(const TriangleMesh& mesh);
 
-/// A few aligned lines for people, and an object for programs; both end in a newline.
+/// Return a few aligned lines for people, and a JSON object for programs. Both end in a newline.
 [[nodiscard]] std::string to_text(const MeshReport& report);
 [[nodiscard]] std::string to_json(const MeshReport& report);
 

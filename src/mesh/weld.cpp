@@ -1,4 +1,4 @@
-// A hash grid with cells as wide as the distance: vertices that may become one stand in the same cell or in neighbours.
+// Uses a hash grid with cells as wide as the distance. Vertices that may become one stand in the same cell or in neighbours.
 #include "mesh/weld.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace pliant {
 namespace {
 
-using Cell = glm::dvec3;  // whole numbers; doubles, because a tiny distance makes them too large for integers
+using Cell = glm::dvec3;  // whole numbers, held as doubles because a tiny distance makes them too large for integers
 
 struct CellHash {
   std::size_t operator()(const Cell& cell) const {
@@ -27,7 +27,7 @@ class WeldGrid {
  public:
   WeldGrid(const std::vector<glm::dvec3>& positions, double distance) : positions_(positions), distance_(distance) {}
 
-  /// The first vertex that stays and is closer than the distance; if there is none, `vertex` itself stays.
+  /// Returns the first vertex that stays and is closer than the distance. If there is none, `vertex` itself stays.
   std::uint32_t find_or_add(std::uint32_t vertex) {
     const Cell centre = cell_of(positions_[vertex]);
     std::optional<std::uint32_t> first;

@@ -1,4 +1,4 @@
-// Makes one vertex of vertices that (nearly) coincide, as where the patches of a model meet.
+// Merges vertices that coincide or nearly do, as where the patches of a model meet.
 #pragma once
 #include <cstddef>
 
@@ -12,8 +12,8 @@ struct WeldedMesh {
   std::size_t dropped_triangle_count = 0;  // triangles left with fewer than three distinct corners
 };
 
-/// A vertex closer than `distance` [mesh units] to an earlier vertex that stays becomes the first such one, and never
-/// moves it. Triangles that collapse are dropped, then vertices that no triangle uses. A distance of 0 changes nothing.
+/// Merges each vertex into the first earlier vertex that stays and is closer than `distance` [mesh units]. The one that stays
+/// does not move. Then drops triangles that collapsed, and vertices that no triangle uses. A distance of 0 changes nothing.
 [[nodiscard]] WeldedMesh weld(const TriangleMesh& mesh, double distance);
 
 }  // namespace pliant
