@@ -1,4 +1,4 @@
-// One table reader that checks types and ranges and remembers which keys it was asked for, and below it one line a key.
+// A table reader checks types and ranges, and remembers which keys it was asked for. Below it, each key has one line.
 #include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ struct TomlAssertion {};
 [[noreturn]] static void fail_toml_assertion() { throw TomlAssertion(); }
 }  // namespace pliant
 
-// toml++ 3.3 takes some malformed keys, such as [.a], for bugs of its own: an assertion, or undefined behaviour under NDEBUG.
+// toml++ 3.3 takes some malformed keys, such as [.a], for bugs of its own. Then an assertion fails, or under NDEBUG its behaviour
+// is undefined.
 #undef NDEBUG
 #define TOML_ASSERT(condition) ((condition) ? void() : pliant::fail_toml_assertion())
 #include <toml++/toml.h>
@@ -28,11 +29,11 @@ namespace {
 
 // ---- Errors ----
 
-const std::string override_prefix = "--set ";  // toml++ keeps nothing of a node's source but a path: it tells an override
+const std::string override_prefix = "--set ";  // toml++ keeps only a path as a node's source: this marks it
 
 bool is_override(const toml::node& node) { return node.source().path && node.source().path->starts_with(override_prefix); }
 
-/// "file:line", or the override that made the node.
+/// Returns "file:line", or the override that made the node.
 std::string place_of(const toml::node& node) {
   const toml::source_region& source = node.source();
   if (!source.path) return "scene";
@@ -57,7 +58,7 @@ std::string type_name(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
-/// Levenshtein's distance: how many letters to insert, drop or change.
+/// Returns Levenshtein's distance: how many letters to insert, drop or change.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -78,7 +79,8 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The names that contain the word, such as vertex_mass for mass; else the nearest, unless nothing is near; then all of them.
+/// Suggests the names that contain the word, such as vertex_mass for mass. If there is none, suggests the nearest name. If
+/// nothing is near, lists all names.
 std::string suggest(std::string_view word, const std::vector<std::string>& names) {
   std::string containing;
   for (const std::string& name : names)
@@ -178,7 +180,7 @@ class TableReader {
  public:
   TableReader(const toml::table& table, std::string path) : table_(table), path_(std::move(path)) {}
 
-  /// Leaves `value` as it is when the key is absent; `how` is a range or a list of choices.
+  /// Leaves `value` as it is when the key is absent. `how` is a range or a list of choices.
   template <typename T, typename... How>
   void read(const char* key, T& value, const How&... how) {
     if (const toml::node* node = find(key)) convert(*node, path_of(key), value, how...);
@@ -210,10 +212,10 @@ class TableReader {
   void allow_one_of(const char* first, const char* second) const {
     const toml::node* node = peek(second);
     if (peek(first) != nullptr && node != nullptr)
-      fail(*node, path_of(second), fmt::format("can't stand beside {}", first), "keep one of them");
+      fail(*node, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
   }
 
-  /// Null if the key is absent; does not make it a known one.
+  /// Returns null if the key is absent. Does not make the key a known one.
   const toml::node* peek(const char* key) const { return table_.get(key); }
 
   const toml::node* find(const char* key) {
@@ -221,7 +223,7 @@ class TableReader {
     return peek(key);
   }
 
-  /// From nowhere if the key is absent.
+  /// Returns an origin from nowhere if the key is absent.
   Origin where(const char* key) const {
     const toml::node* node = peek(key);
     return node == nullptr ? Origin() : origin_of(*node, path_of(key));
@@ -317,8 +319,8 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("spin", body.spin, coordinate);
   table.read("stretch", body.stretch, coordinate);
   if (body.stretch == glm::dvec3(0.0))
-    throw Error(table.where("stretch"),
-                "presses the body into one point, where no spring has a direction", "write a factor other than 0 for an axis");
+    throw Error(table.where("stretch"), "presses the body into one point, where no spring has a direction",
+                "write a factor other than 0 for an axis");
   table.allow_one_of("stiffness", "total_stiffness");
   table.read("stiffness", body.stiffness, not_negative);
   table.read("total_stiffness", body.total_stiffness, not_negative);
@@ -331,7 +333,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("color", body.color, fraction);
 }
 
-/// What a body's table calls itself, or "body0", "body1", ...
+/// Returns the name in a body's table, or "body0", "body1", ... by its index.
 std::string name_of(const toml::node& body, std::size_t index) {
   const toml::table* table = body.as_table();
   const toml::node* name = table != nullptr ? table->get("name") : nullptr;
@@ -373,7 +375,7 @@ bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=#") == std::string_view::npos;
 }
 
-/// A table whose only entry is "value"; `place` becomes every node's source.
+/// Returns a table whose only entry is "value", or nothing if the text is not TOML. `place` becomes every node's source.
 std::optional<toml::table> parse_value(const std::string& text, const std::string& place) {
   try {
     toml::table parsed = toml::parse("value = " + text, place);
@@ -392,7 +394,7 @@ toml::table parse_value_or_word(const std::string& text, const std::string& plac
   return std::move(*parsed);
 }
 
-/// The table below `key`, made if it is absent.
+/// Returns the table below `key`, and makes it if it is absent.
 toml::table& table_below(toml::table& table, const std::string& key, const std::string& place) {
   if (table.get(key) == nullptr) table.insert(key, toml::parse("", place));
   toml::table* below = table.get(key)->as_table();
@@ -422,7 +424,7 @@ std::vector<std::string> split_at_dots(std::string_view text) {
   return parts;
 }
 
-/// The table that `key` (such as "collision.tree.max_depth") stands in. A body's name may contain dots.
+/// Returns the table in which `key` (such as "collision.tree.max_depth") stands. A body's name may contain dots.
 toml::table& table_of(toml::table& root, const std::string& key, const std::string& place) {
   const std::size_t last_dot = key.rfind('.');
   if (last_dot == std::string::npos) return root;
@@ -450,7 +452,7 @@ void apply_override(toml::table& root, const std::string& text) {
   parsed.get("value")->visit([&](auto& value) { table.insert_or_assign(key.substr(key.rfind('.') + 1), std::move(value)); });
 }
 
-/// The first line with which toml++'s assertion fails.
+/// Returns the first line at which toml++'s assertion fails.
 std::size_t line_of_assertion(const std::string& text) {
   std::size_t line = 1;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1), ++line) {

@@ -1,4 +1,4 @@
-// What a scene file says, checked for form and range, with every default filled in; nothing is loaded or built.
+// What a scene file says, checked for form and range, with every default filled in. Nothing is loaded or built.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -21,7 +21,7 @@ struct Named {
 
 enum class PressureLaw { gas, constant };
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
-/// As scenes and reports write it.
+/// Returns the law's name in scenes and reports.
 constexpr const char* name_of(DampingLaw law) {
   return law == DampingLaw::none ? "none" : law == DampingLaw::constant ? "constant" : "adaptive";
 }
@@ -31,8 +31,8 @@ enum class Coloring { body, deformation };
 
 struct SimulationDescription {
   Named integrator{"dop853", {Origin::From::nowhere, "simulation.integrator"}};
-  std::optional<double> time_step;  // [s]; empty: automatic
-  std::optional<double> tolerance;  // of a step's error, relative to the bodies; steps then have no fixed length
+  std::optional<double> time_step;  // [s], automatic if empty
+  std::optional<double> tolerance;  // of a step's error, relative to the bodies. If set, steps have no fixed length
   double duration = 2.0;            // [s]
   Origin time_step_where, tolerance_where, duration_where;
   DampingLaw damping_law = DampingLaw::adaptive;
@@ -40,12 +40,12 @@ struct SimulationDescription {
 };
 
 struct TreeDescription {
-  std::optional<unsigned> max_depth;  // root is 0; empty: grows with the triangle count
+  std::optional<unsigned> max_depth;  // the root has depth 0. If empty, it grows with the triangle count
   unsigned leaf_size = 4;             // triangles
 };
 
 struct CollisionDescription {
-  Named response{"reflect"};  // of the list of responses, or none
+  Named response{"reflect"};  // a name in the list of responses, or "none"
   double elasticity = 0.9;
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;
@@ -63,20 +63,21 @@ struct CameraDescription {
 struct OutputDescription {
   double frame_rate = 60.0;                 // frames per simulated second
   glm::uvec2 size{1280, 720};               // [pixels]
-  std::optional<CameraDescription> camera;  // empty: frames the scene
+  std::optional<CameraDescription> camera;  // frames the scene if empty
   Coloring coloring = Coloring::body;
-  std::optional<double> ground_height;  // [m]; empty: just below where the bodies start
+  std::optional<double> ground_height;  // [m], just below where the bodies start if empty
 };
 
-/// Of the body with this index, linear RGB: seven colours in turn that the colour-blind tell apart, too (Okabe and Ito, 2008).
+/// Returns the linear RGB colour of the body with this index. Seven colours take turns. The colour-blind can tell them apart, too
+/// (Okabe and Ito, 2008).
 [[nodiscard]] glm::dvec3 default_color(std::size_t index);
 
 struct BodyDescription {
   std::string name;
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
-  Origin mesh_where;                      // of the key
-  std::optional<double> weld;             // [m]; empty: off
+  Origin mesh_where;                      // of the key `mesh`
+  std::optional<double> weld;             // [m], off if empty
   double scale = 1.0;                     // [m per mesh unit]
   glm::dvec3 position{0.0};               // [m]
   glm::dvec3 rotation{0.0};               // [degrees] about the fixed world axes: R = Rz Ry Rx
@@ -84,11 +85,11 @@ struct BodyDescription {
   glm::dvec3 spin{0.0};                   // [rad/s] about the centroid
   glm::dvec3 stretch{1.0};                // factors along the body's axes about its centroid
   double stiffness = 40.0;                // k of every pair's spring [N/m]
-  std::optional<double> total_stiffness;  // [N/m]; k = total / N^2
+  std::optional<double> total_stiffness;  // [N/m], k = total / N^2
   double vertex_mass = 1.0;               // [kg]
-  std::optional<double> total_mass;       // [kg]; m = total / N
+  std::optional<double> total_mass;       // [kg], m = total / N
   double damping = 1.0;                   // c [kg/s]
-  double pressure = 0.0;                  // inside, at the rest volume; nothing outside [Pa]
+  double pressure = 0.0;                  // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
 };
