@@ -1,4 +1,4 @@
-// Bodies that start out of shape, so that springs work from the first step on.
+// Deforms bodies before they start, so that springs work from the first step on.
 #pragma once
 #include <functional>
 
@@ -6,10 +6,10 @@
 
 namespace pliant {
 
-/// Moves each vertex by what `by` answers for its index [m], in its body's frame.
+/// Moves each vertex by what `by` returns for its index [m], in its body's frame.
 void displace(State& state, const std::function<glm::dvec3(std::size_t vertex)>& by);
 
-/// Scales each body about its centroid to 1 + `strain`: its breathing mode, which is linear at any strain.
+/// Scales each body about its centroid by 1 + `strain`. This is its breathing mode, which is linear at any strain.
 void swell(const Model& model, State& state, double strain);
 
 }  // namespace pliant

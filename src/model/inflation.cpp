@@ -23,22 +23,21 @@ void expect_encloses(const BodySetup& setup) {
   const MeshReport report = report_mesh(setup.mesh);
   if (!report.closed)
     fail(setup.description,
-         fmt::format("pressure needs a closed mesh, and {} edges have one triangle alone", report.boundary_edge_count),
+         fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
          "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
   if (!report.volume)
     fail(setup.description,
-         fmt::format("pressure needs triangles that wind alike, and {} edges have two that do not",
-                     report.inconsistent_edge_count),
+         fmt::format("pressure needs triangles that wind alike, but at {} edges two do not", report.inconsistent_edge_count),
          "turn these triangles, or leave the pressure out");
   if (!(*report.volume > 0))
     fail(setup.description,
-         "pressure needs triangles that wind counter-clockwise seen from outside, and these wind the other way",
+         "pressure needs triangles that wind counter-clockwise seen from outside, but these wind the other way",
          "turn all triangles, or leave the pressure out");
 }
 
-// The second derivative of the volume by two vertices a and b is the cross product with what edge ab sums up: the triangles'
-// third corners, over 6, with the sign of the edge's direction. The largest sum over a vertex's edges bounds the norm
-// (Gershgorin).
+// Returns a bound on the norm of the volume's second derivative [m]. The derivative by two vertices a and b is the cross product
+// with a vector of the edge ab. That vector is the sum of the edge's triangles' third corners over 6, with the sign of the edge's
+// direction. The largest sum of these lengths over a vertex's edges is the bound (Gershgorin).
 double curvature_of_volume(const Model& model, const ModelBody& body) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> third_corners;
   for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)

@@ -1,11 +1,11 @@
-// The pressure inside a body, from its mesh.
+// Computes from a body's mesh what its pressure needs.
 #pragma once
 #include "model/model.hpp"
 
 namespace pliant {
 
-/// Of `body`, whose rest positions and triangles are the last of the model's. Throws Error (input) where the mesh is open or not
-/// wound outward.
+/// Returns the inflation of `body`. Expects its rest positions and triangles to be the model's last. Throws Error (input) if the
+/// mesh is open or not wound outward.
 [[nodiscard]] Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& body);
 
 }  // namespace pliant

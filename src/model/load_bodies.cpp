@@ -9,7 +9,7 @@
 namespace pliant {
 namespace {
 
-/// The scene gives the distance in metres; welding comes before scaling.
+/// Welds before scaling. The scene gives the distance in metres.
 void weld_as_described(const BodyDescription& body, LoadedMesh& loaded) {
   if (!body.weld || *body.weld == 0) return;
   WeldedMesh welded = weld(loaded.mesh, *body.weld / body.scale);

@@ -1,4 +1,4 @@
-// Bodies from meshes. World position of mesh vertex v: position + R (centroid + stretch * (scale v - centroid)).
+// Makes bodies from meshes. A mesh's vertex v has the world position position + R (centroid + stretch * (scale v - centroid)).
 #include "model/model.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ std::vector<glm::dvec3> scaled_positions(const BodySetup& setup) {
   return positions;
 }
 
-/// Rz Ry Rx for angles in degrees about fixed axes.
+/// Returns Rz Ry Rx for angles in degrees about fixed axes.
 glm::dquat rotation_of(const glm::dvec3& degrees) {
   const glm::dvec3 angle = glm::radians(degrees);
   const glm::dquat about_x = glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));

@@ -1,4 +1,4 @@
-// The simulated bodies: what never changes (Model) and what does (State). Flat arrays over all bodies; a body is a range.
+// The simulated bodies: what never changes (Model) and what does (State). Arrays are flat, and a body is a range in them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace pliant {
 
-/// Pressure inside a closed surface, with what its bound on steps needs of the rest shape.
+/// Pressure inside a closed surface, and what the bound on steps needs to know of the rest shape.
 struct Inflation {
-  double pressure = 0;  // at the rest volume, nothing outside [Pa]; 0: none, and nothing below is known
+  double pressure = 0;  // at the rest volume, with nothing outside [Pa]. If 0, nothing below is known
   PressureLaw law = PressureLaw::gas;
   double rest_volume = 0;       // [m^3]
   double gradient_squared = 0;  // of the volume, summed over the vertices [m^4]
@@ -34,13 +34,14 @@ struct ModelBody {
   Inflation inflation;
   glm::dvec3 color{1.0};  // linear RGB
 
-  /// In which springs are summed: a power of two near the radius [m], so that changing to it is exact.
+  /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are
+  /// exact.
   [[nodiscard]] double unit_of_length() const;
 };
 
 struct Model {
   std::vector<ModelBody> bodies;
-  std::vector<glm::vec4> rest_positions;  // xyz: centred on the body's centroid, in its frame, rounded once [m]; w: body index
+  std::vector<glm::vec4> rest_positions;  // xyz: relative to the centroid, in the body's frame, rounded once [m], w: body index
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into rest_positions
 
   [[nodiscard]] std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(rest_positions.size()); }
@@ -55,22 +56,22 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// The same bodies of other materials, one a body.
+/// Returns the same bodies with other materials, one for each body.
 [[nodiscard]] Model with_materials(Model model, std::span<const Material> materials);
 
 /// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.
 struct State {
-  std::vector<physics::Pose> poses;  // one a body
-  std::vector<double> motion;        // 6 a vertex: u [m], w [m/s]
+  std::vector<physics::Pose> poses;  // one for each body
+  std::vector<double> motion;        // 6 for each vertex: u [m], w [m/s]
 
-  /// World position [m] and velocity [m/s] of every vertex, in fp64.
+  /// Return the world position [m] and velocity [m/s] of every vertex, in fp64.
   [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;
   [[nodiscard]] std::vector<glm::dvec3> world_velocities(const Model& model) const;
 };
 
 /// One body's mesh with its place and material.
 struct BodySetup {
-  TriangleMesh mesh;  // before scaling; may have no triangles
+  TriangleMesh mesh;  // before scaling, may have no triangles
   BodyDescription description;
 };
 
@@ -80,8 +81,12 @@ struct ModelAndState {
 };
 
 /// Builds bodies from meshes: scale, stretch about the centroid, rotate about the mesh's origin, translate.
-/// Throws Error when a mesh has no vertices, a number comes out non-finite, or a mesh with pressure inside is not closed or not
-/// wound outward.
+/// `gravity` is that of the world [m/s^2].
+/// Throws Error (input) if
+/// - a mesh has no vertices,
+/// - a mesh with pressure inside is not closed or not wound outward,
+/// - a body's radius is above 0 but below 1e-6 m,
+/// - a vertex stands beyond 1e9 m, moves faster than 1e9 m/s, or is not finite.
 [[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity);
 
 }  // namespace pliant
