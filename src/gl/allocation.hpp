@@ -1,10 +1,10 @@
-// Taking memory of the GPU, of which there may be too little.
+// Takes memory of the GPU, which may have too little.
 #pragma once
 
 namespace pliant::gl {
 
-/// As long as one lives, debug output, by which any error ends the program, keeps still: running out of memory is no bug. Needs a
-/// current Context.
+/// Keeps debug output off as long as it lives. Debug output ends the program on any error, but running out of memory is not a
+/// bug. Needs a current Context.
 class Allocation {
  public:
   Allocation();
@@ -12,7 +12,7 @@ class Allocation {
   Allocation(const Allocation&) = delete;
   Allocation& operator=(const Allocation&) = delete;
 
-  /// Whether memory ran out. Any other error is a bug, and ends the program after all.
+  /// Returns whether memory ran out. Any other error is a bug and ends the program after all.
   [[nodiscard]] bool ran_out() const;
 };
 

@@ -1,5 +1,5 @@
-// Contexts, and what they are. A display, once initialised, lives as long as the process: EGL hands out the same display to
-// every Context of a device, so terminating it would pull it from under the others.
+// Makes contexts and says what they are. A display, once initialised, lives as long as the process. EGL hands out the same
+// display to every Context of a device, so terminating it would pull it from under the others.
 #include "gl/context.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ struct Discovery {
   std::string reason;  // why nothing, or not everything, was found
 };
 
-/// What is current on this thread, restored at the end of a scope.
+/// Restores what is current on this thread at the end of a scope.
 class KeepCurrent {
  public:
   KeepCurrent() : display_(eglGetCurrentDisplay()), context_(eglGetCurrentContext()) {}
@@ -58,7 +58,7 @@ EGLConfig choose_config(EGLDisplay display) {
   return config;
 }
 
-/// EGL_NO_CONTEXT when the display can't give an OpenGL 4.5 core context without a surface.
+/// Returns EGL_NO_CONTEXT if the display can't give an OpenGL 4.5 core context without a surface.
 EGLContext create_context(EGLDisplay display) {
   constexpr std::array<EGLint, 9> wanted = {EGL_CONTEXT_MAJOR_VERSION,
                                             4,
@@ -87,7 +87,7 @@ bool is_software_renderer(const std::string& renderer) {
   return std::ranges::any_of(names, [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
-/// The context is current.
+/// Expects a current context.
 std::uint32_t count_multiprocessors() {
   constexpr GLenum sm_count_nv = 0x933B;  // of GL_NV_shader_thread_group, which glad's loader leaves out
   GLint extensions = 0, count = 0;
@@ -98,7 +98,7 @@ std::uint32_t count_multiprocessors() {
   return static_cast<std::uint32_t>(count);
 }
 
-/// The context is current.
+/// Expects a current context.
 std::uint32_t count_storage_blocks() {
   GLint blocks = 0, bindings = 0;
   glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
@@ -106,7 +106,7 @@ std::uint32_t count_storage_blocks() {
   return static_cast<std::uint32_t>(std::min(blocks, bindings));
 }
 
-/// Of the current context.
+/// Describes the current context.
 Adapter describe_current(int index) {
   const std::string renderer = gl_string(GL_RENDERER);
   Adapter adapter{.index = index,
@@ -120,7 +120,7 @@ Adapter describe_current(int index) {
   return adapter;
 }
 
-/// Makes a context to learn what it is; empty, with the reason, when there is none.
+/// Makes a context to learn what it is. Returns nothing and adds to `reason` if there is none.
 std::optional<OpenAdapter> probe(EGLDisplay display, std::string_view place, std::string& reason) {
   const auto refuse = [&](std::string_view why) {
     reason += fmt::format("{}{}: {}", reason.empty() ? "" : "; ", place, why);

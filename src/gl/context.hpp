@@ -1,4 +1,4 @@
-// An OpenGL 4.5 core context: without a window, through EGL, or a window's own.
+// An OpenGL 4.5 core context, which EGL makes without a window or which a window has made.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -14,30 +14,31 @@ struct Adapter {
   std::string renderer;  // GL_RENDERER
   std::string vendor, version;
   bool is_software = false;           // llvmpipe, softpipe, swrast
-  std::int64_t largest_buffer = 0;    // that a shader can use [bytes]
+  std::int64_t largest_buffer = 0;    // the largest one that a shader can use [bytes]
   std::uint32_t storage_blocks = 0;   // that a compute shader can have
-  std::uint32_t multiprocessors = 0;  // each runs at least one work group at a time; 0: the driver does not tell
+  std::uint32_t multiprocessors = 0;  // each runs at least one work group at a time. 0 if the driver does not tell
 };
 
-/// Every EGL device (EGL_EXT_platform_device, then EGL_MESA_platform_surfaceless) that gives an OpenGL 4.5 core context;
-/// hardware first. Never throws; an empty list says why in `reason`.
+/// Returns every EGL device that gives an OpenGL 4.5 core context, hardware first. Asks EGL_EXT_platform_device, then
+/// EGL_MESA_platform_surfaceless. Never throws. `reason` says why nothing, or not everything, was found.
 [[nodiscard]] std::vector<Adapter> list_adapters(std::string* reason = nullptr);
 
-/// How to reach a context that a window made, for OpenGL 4.5 core.
+/// How to reach an OpenGL 4.5 core context that a window made.
 struct WindowContext {
   using Function = void (*)();
   Function (*find)(const char* name) = nullptr;  // OpenGL's function of that name
   std::function<void()> make_current;
 };
 
-/// Makes its context current on the constructing thread and keeps it until destroyed. Debug output is on: an API error
-/// or an undefined behaviour reported by the driver ends the program with the message (a bug in pliant).
+/// Makes its context current on the constructing thread and keeps it until destroyed. Debug output is on. If the driver reports
+/// an API error or undefined behaviour, the program ends with its message, because that is a bug in pliant.
 class Context {
  public:
   /// Opens adapter `index` of list_adapters(). Throws Error (device) with a remedy.
   explicit Context(int index);
-  /// Adopts a window's context; the window must outlive this. It has adapter index -1, since list_adapters() knows nothing of it
-  /// and must not be called while it is current: EGL cannot put back what is not its own. Throws Error (device).
+  /// Adopts a window's context. The window must outlive this. The adapter index is -1, because list_adapters() knows nothing of
+  /// the context. Do not call list_adapters() while it is current: EGL cannot put back a context that it did not make. Throws
+  /// Error (device).
   explicit Context(WindowContext window);
   ~Context();
   Context(const Context&) = delete;

@@ -109,8 +109,8 @@ Error no_room(std::size_t bytes, std::string_view label) {
 Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   expect_within_limit(bytes, label);
   glCreateBuffers(1, &id_);
-  // Zeros are uploaded rather than cleared to: on NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued before
-  // it and is lost. An empty buffer still gets storage, so that it can be bound.
+  // Zeros are uploaded, because a clear is not safe. On NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued
+  // before it and is lost. An empty buffer still gets storage, so that it can be bound.
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
   if (!has_room_for(id_, zeros)) {
     glDeleteBuffers(1, &id_);
@@ -131,9 +131,9 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return *this;
 }
 
-// By way of copies that the GPU makes, in their order: NVIDIA's driver 580 takes no account of indirect dispatches. It answers
-// glGetNamedBufferSubData from a copy of its own, which it does not renew after one, and glNamedBufferSubData may write before
-// one that is still to run.
+// Writes and reads go through a second buffer, which the GPU copies in the order of its commands. NVIDIA's driver 580 takes no
+// account of indirect dispatches. After one, glGetNamedBufferSubData answers from the driver's own outdated copy of the buffer.
+// glNamedBufferSubData may write before one that is still to run.
 void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
   if (data.empty()) return;

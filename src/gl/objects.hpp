@@ -9,7 +9,7 @@
 
 namespace pliant::gl {
 
-/// What debug output and graphics debuggers call an object of this kind (GL_BUFFER, ...); cut off where the driver's labels end.
+/// Sets what debug output and graphics debuggers call an object of this kind (GL_BUFFER, ...). Cuts off labels that are too long.
 void set_label(std::uint32_t kind, std::uint32_t id, std::string_view label);
 
 /// A buffer object with immutable, zero-filled storage. Throws Error (device) when the GPU has no room for it.
@@ -21,6 +21,7 @@ class Buffer {
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
+  /// Throws Error (device) when the GPU has no room for a copy of the data.
   void write(std::size_t first_byte, std::span<const std::byte> data);
   /// Waits for the GPU to finish what writes this buffer.
   void read(std::size_t first_byte, std::span<std::byte> data) const;

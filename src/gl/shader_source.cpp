@@ -1,4 +1,4 @@
-// Flattening of #include lines, with a table from each line of the result back to its file and line.
+// Flattens #include lines, and keeps a table from each line of the result to its file and line.
 #include "gl/shader_source.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ struct Include {
   bool quoted = false;  // else <name>
 };
 
-/// The include that this line asks for; an empty name when it asks for none.
+/// Returns the include that this line asks for. Its name is empty if the line asks for none.
 Include parse_include(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   if (!line.starts_with("#include")) return {};
@@ -113,7 +113,7 @@ class Flattener {
   std::vector<Line> lines_;
 };
 
-/// Cuts the digits off that the text begins with; empty where it begins with none.
+/// Cuts off and returns the digits that the text begins with, if any.
 std::string_view take_digits(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   const std::string_view digits = text.substr(0, end);
@@ -123,7 +123,7 @@ std::string_view take_digits(std::string_view& text) {
 
 struct Complaint {
   std::string_view kind;  // "ERROR: ", "WARNING: " or nothing
-  std::size_t line = 0;   // of the flat shader; 0 where that is no number
+  std::size_t line = 0;   // of the flat shader, 0 if that is no number
   std::string_view rest;
 };
 

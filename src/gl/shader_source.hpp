@@ -1,4 +1,4 @@
-// The shader files embedded in the library, and the flattening of their #include lines.
+// Holds the shader files embedded in the library, and flattens their #include lines.
 #pragma once
 #include <span>
 #include <string>
@@ -15,8 +15,8 @@ struct ShaderFile {
 
 [[nodiscard]] std::span<const ShaderFile> embedded_shaders();
 
-/// Name and value of a #define; a name that starts with '@' is a virtual include instead: `#include "@kernel"` reads the
-/// file that the value names.
+/// Name and value of a #define. A name that starts with '@' is a virtual include instead: `#include "@kernel"` reads the file
+/// that the value names.
 using Define = std::pair<std::string, std::string>;
 
 struct FlatShader {
@@ -31,10 +31,10 @@ struct FlatShader {
   [[nodiscard]] std::string explain(std::string_view driver_log) const;
 };
 
-/// Each file is included once. Includes are relative to the including file or else to compute/; `#include <...>` is dropped (C++
-/// only). Defines go behind the #version line. Throws Error (device) when a file is missing.
+/// Returns a shader with its includes in place, each file once. Includes are relative to the including file or else to compute/.
+/// `#include <...>` is dropped (C++ only). Defines go behind the #version line. Throws Error (device) if a file is missing.
 [[nodiscard]] FlatShader flatten_shader(std::string_view file, std::span<const Define> defines = {});
-/// The same over other files than the embedded ones; the result's origins view their names.
+/// Does the same with `files` instead of the embedded ones. The result's origins view their names.
 [[nodiscard]] FlatShader flatten_shader(std::span<const ShaderFile> files, std::string_view file,
                                         std::span<const Define> defines = {});
 

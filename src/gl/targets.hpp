@@ -13,11 +13,11 @@ struct TextureOptions {
   glm::uvec2 size{1, 1};     // [pixels]
   int levels = 1;
   int samples = 1;    // over 1: multisampled, without mipmaps
-  float outside = 0;  // what is sampled there
+  float outside = 0;  // what sampling outside of the texture gives
 };
 
-/// A 2D texture with linear filtering. Throws Error (device) beyond the driver's largest size or
-/// most samples, and when the GPU has no room for it.
+/// A 2D texture with linear filtering. Throws Error (device) if it is beyond the driver's largest size or most samples, or if the
+/// GPU has no room for it.
 class Texture {
  public:
   Texture(const TextureOptions& options, std::string_view label);
@@ -32,7 +32,7 @@ class Texture {
   glm::uvec2 size_;
 };
 
-/// Draws into textures that outlive it; either may be null. Throws Error (device) when the driver can't draw into them.
+/// Draws into textures, which must outlive it. One of them may be null. Throws Error (device) if the driver can't draw into them.
 class Framebuffer {
  public:
   Framebuffer(const Texture* color, const Texture* depth, std::string_view label);
@@ -48,17 +48,17 @@ class Framebuffer {
   glm::uvec2 size_;
 };
 
-/// Triangles over a buffer of positions: attribute 0, a vec3.
+/// Draws triangles over a buffer of positions, which are attribute 0, a vec3.
 class VertexArray {
  public:
-  /// Without indices and positions: shaders take what they need from storage buffers.
+  /// Has no indices and positions. Shaders take what they need from storage buffers.
   VertexArray();
   /// `indices` must outlive this.
   explicit VertexArray(const Buffer& indices);
   ~VertexArray();
   VertexArray(const VertexArray&) = delete;
   VertexArray& operator=(const VertexArray&) = delete;
-  /// `buffer` is a GL buffer of vec4, xyz the positions.
+  /// Takes positions from the xyz of `buffer`, a GL buffer of vec4, from `first_vertex` on.
   void take_positions(std::uint32_t buffer, std::uint32_t first_vertex) const;
   [[nodiscard]] std::uint32_t id() const { return id_; }
 
