@@ -1,4 +1,4 @@
-// The simulation's arrays on a device, by the names of physics/arrays.glsl, and passes that find them there.
+// Holds the simulation's arrays on a device, by the names of physics/arrays.glsl. Passes find them there.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -27,10 +27,10 @@ struct CarriedArray {
   std::string name;
   BufferId buffer = 0;
   std::size_t first_byte = 0, byte_count = 0;
-  bool is_real = false;  // numbers of the device's precision; others are the same on every device
+  bool is_real = false;  // numbers of the device's precision. Others are the same on every device
 };
 
-/// What T is called in physics/arrays.glsl.
+/// The name of T in physics/arrays.glsl.
 template <class T>
 inline constexpr std::string_view element_name{};
 #define PLIANT_ELEMENT(T, name) \
@@ -56,8 +56,10 @@ PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT
 
-/// Owns arrays. A name that is not in the list, an array that nobody has made, and another type than the list's are bugs of the
-/// caller: they throw std::logic_error, which names array and types.
+/// Owns arrays. Throws std::logic_error, which names array and types, for these bugs of the caller:
+/// - The name is not in the list.
+/// - Nobody has made the array.
+/// - The type is not the list's.
 class Arrays {
  public:
   /// `device` must outlive the arrays.
@@ -65,7 +67,7 @@ class Arrays {
   Arrays(const Arrays&) = delete;
   Arrays& operator=(const Arrays&) = delete;
 
-  /// A zero-filled array of `count` elements; it replaces an earlier one of that name. References stay valid until then.
+  /// Makes a zero-filled array of `count` elements. It replaces an earlier one of that name and makes references to it invalid.
   template <class T>
   DeviceArray<T>& make(std::string_view name, std::size_t count) {
     return hold(name, element_name<T>, std::make_shared<DeviceArray<T>>(device_, count, name));
@@ -76,7 +78,7 @@ class Arrays {
     array.upload(values);
     return array;
   }
-  /// `count` zeros of the device's precision, as words of 32 bits.
+  /// Makes `count` zeros of the device's precision, as words of 32 bits.
   DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count);
 
   template <class T>
@@ -86,13 +88,13 @@ class Arrays {
   [[nodiscard]] BufferId buffer(std::string_view name) const;
   [[nodiscard]] Device& device() const { return device_; }
 
-  /// A parameter that has one value for all kernels.
+  /// Sets a parameter that has one value for all kernels.
   void set_parameter(std::string_view name, Parameter value) { parameters_.insert_or_assign(std::string(name), value); }
   [[nodiscard]] const Parameter* parameter(std::string_view name) const;
 
-  /// Of an array that is carried, says which bytes alone are.
+  /// Says which bytes of a carried array are carried. Without this call all of them are.
   void carry_part(std::string_view name, std::size_t first_byte, std::size_t byte_count);
-  /// Those that have been made, in the order of the list: all that a run can go on from.
+  /// Returns the carried arrays that have been made, in the order of the list. A run needs no others to go on.
   [[nodiscard]] std::vector<CarriedArray> carried() const;
 
  private:
@@ -119,11 +121,12 @@ class Arrays {
 
 using Parameters = std::initializer_list<std::pair<std::string_view, Parameter>>;
 
-/// A dispatch of a kernel, with the arrays that it names. Parameters are by name: these, those that all kernels share, and
-/// `item_count`. Throws std::logic_error, with the kernel's and the array's or parameter's name, where one is missing, of another
-/// type, or not declared by the kernel.
+/// Returns a dispatch of a kernel, with the arrays that it names. The kernel's parameters are found by name: in `parameters`,
+/// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error if an array or a parameter
+/// is missing or of another type, or if the kernel does not declare a parameter. The error names the kernel and the array or
+/// parameter.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, Parameters parameters, std::uint32_t item_count);
-/// Likewise of a kernel in a variant; `name` is for reports.
+/// Does the same for a kernel in a variant. `name` is for reports.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Parameters parameters,
                              std::uint32_t item_count);
 

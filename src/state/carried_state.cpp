@@ -1,4 +1,4 @@
-// The precision, then each array with its name and length.
+// The bytes hold the precision, then each array with its name and length.
 #include "state/carried_state.hpp"
 
 #include <cstdint>
@@ -44,7 +44,7 @@ void read_arrays(Device& device, std::span<const CarriedArray> arrays, ByteReade
     auto bytes = from.get<std::string>();
     if (array.is_real) bytes = in_precision(bytes, precision, device.precision());
     if (name != array.name || bytes.size() != array.byte_count)
-      throw Error(ErrorKind::input, "", "its state is of other bodies, or of another method, than its scene", "");
+      throw Error(ErrorKind::input, "", "its state belongs to other bodies or to another method than its scene", "");
     device.write(array.buffer, array.first_byte, std::as_bytes(std::span(bytes)));
   }
 }

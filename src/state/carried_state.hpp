@@ -1,4 +1,4 @@
-// Carried arrays as bytes, and back.
+// Writes carried arrays as bytes, and reads them back.
 #pragma once
 #include <span>
 #include <string_view>
@@ -11,8 +11,8 @@ namespace pliant {
 /// Waits for the device.
 void write_arrays(Device& device, std::span<const CarriedArray> arrays, ByteWriter& to);
 
-/// What write_arrays wrote, of arrays alike. From another precision, numbers of the forces' are rounded to this one's. Throws
-/// Error (input) where an array has another length; what came before it is read by then.
+/// Reads what write_arrays wrote for the same arrays. If the precision was another one, numbers of that precision are rounded to
+/// this device's. Throws Error (input) if an array has another name or length. The arrays before it have been read by then.
 void read_arrays(Device& device, std::span<const CarriedArray> arrays, ByteReader& from);
 
 }  // namespace pliant

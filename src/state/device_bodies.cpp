@@ -1,4 +1,4 @@
-// Upload and download of model and state.
+// Uploads and downloads model and state.
 #include "state/device_bodies.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ bool runs_all_stages(const Device& device, const Model& model, std::size_t varia
   return lanes.all_stages && shares <= device.shares_at_once();
 }
 
-// To run all stages at once saves more than the best lanes do.
+// Running all stages at once saves more than the best lanes do.
 std::size_t best_force_variant(const Device& device, const Model& model) {
   const std::size_t best = device.best_force_variant(model.vertex_count());
   for (std::size_t variant = best; variant < device.force_variants().size(); ++variant)
@@ -107,7 +107,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   world_positions.upload(rounded_world_positions(model, state));
 }
 
-// Carried is the step's start alone: the slots of stages are written before they are read.
+// Only the slot of the step's start is carried: the slots of stages are written before they are read.
 void DeviceBodies::make_placements() {
   const std::size_t slot_size = std::size_t{8} * vertex_count;
   const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", (physics::rounding_slot + 1) * slot_size);

@@ -1,4 +1,4 @@
-// The simulated bodies on a device: what dynamics and collision both work on.
+// The simulated bodies on a device. Dynamics and collision both work on them.
 #pragma once
 #include <glm/vec4.hpp>
 #include <span>
@@ -13,7 +13,7 @@ namespace pliant {
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
 struct DeviceBodies {
-  /// Cut into shares for the device's best force variant, or for the given one.
+  /// Cuts bodies into shares for the device's best force variant, or for the given one.
   DeviceBodies(Device& device, const Model& model, const State& state);
   DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant);
 
@@ -32,14 +32,14 @@ struct DeviceBodies {
   DeviceArray<glm::vec4>& world_positions;
   DeviceArray<physics::Control>& control;
 
-  /// The state in a half, from which another run may start.
+  /// Returns the state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes bodies ready to be bounded and searched outside of a step: their boxes empty, as follow_bodies leaves them,
-  /// and none halted for now.
+  /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, as follow_bodies does, and sets
+  /// bodies moving that are halted for now.
   void prepare_search();
-  /// Of all bodies' steps from here on [s].
+  /// Sets the length of all steps from here on [s].
   void set_time_step(double time_step);
-  /// Where each body's own tableau begins.
+  /// Sets where each body's own tableau begins.
   void set_tableau_rows(std::span<const std::uint32_t> rows);
 
  private:
