@@ -7,20 +7,20 @@ namespace pliant {
 
 enum class ArrayLife {
   fixed,    // made from scene and meshes
-  carried,  // outlasts a step: part of a saved state
+  carried,  // outlasts a step, and is part of a saved state
   step      // written in a step before it is read there
 };
 
 struct ArrayRow {
   std::string_view name;
-  std::string_view element;  // a type of the shared dialect; `real` has the device's precision
-  std::string_view per;      // what there is one of, or several: vertex, body, node, ...
+  std::string_view element;  // a type of the shared dialect, where `real` has the device's precision
+  std::string_view per;      // what has one element or several: vertex, body, node, ...
   ArrayLife life;
   std::string_view layout;  // in words, with units
 };
 
 [[nodiscard]] std::span<const ArrayRow> array_list();
-/// Null if there is none of this name.
+/// Returns null if there is none of this name.
 [[nodiscard]] const ArrayRow* find_array(std::string_view name);
 
 }  // namespace pliant

@@ -36,7 +36,7 @@ struct KernelSignature {
   std::vector<Number> parameters;
 };
 
-/// Of a kernel. OpenGL guarantees 8 storage blocks; NVIDIA, AMD, Intel and llvmpipe have these and more.
+/// How many arrays a kernel may have. OpenGL guarantees 8 storage blocks. NVIDIA, AMD, Intel and llvmpipe have these and more.
 inline constexpr std::size_t max_arrays = 16;
 
 /// A kernel with its buffers and parameters, in the order of its signature.
@@ -67,49 +67,50 @@ struct DeviceInfo {
   unsigned threads = 1;  // of the CPU that run kernels
 };
 
-/// Passes run one after another, each after the one before has finished; run() may return earlier.
-/// One thread at a time may use a device.
+/// Passes run one after another: each starts after the one before has finished, unless that one has `beside_next`. run() may
+/// return earlier. One thread at a time may use a device.
 class Device {
  public:
   virtual ~Device() = default;
   [[nodiscard]] virtual const DeviceInfo& info() const = 0;
-  /// Bits of the forces' `real`: 32 or 64. Anything else is the same in both.
+  /// Returns the bits of the forces' `real`: 32 or 64. Anything else is the same in both.
   [[nodiscard]] virtual int precision() const = 0;
 
-  /// The buffer is zero-filled.
+  /// Returns a zero-filled buffer.
   [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label) = 0;
   virtual void release(BufferId buffer) = 0;
-  /// At least what was asked for [bytes].
+  /// Returns at least what was asked for [bytes].
   [[nodiscard]] virtual std::size_t size_of(BufferId buffer) const = 0;
-  /// Of all buffers now held [bytes].
+  /// Returns the size of all buffers and of the device's own scratch memory [bytes].
   [[nodiscard]] virtual std::size_t allocated_bytes() const = 0;
   virtual void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) = 0;
   /// Waits for the kernels before it.
   virtual void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) = 0;
 
-  /// `name` is the file's and its function's: kernels/NAME.glsl. Throws Error (device) when it does not build.
+  /// Returns the kernel in the file kernels/NAME.glsl, whose function has the same name. Throws Error (device) if it does not
+  /// build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
-  /// Kernels that sum springs (kernels/parts/force_kernel.glsl) come in variants; their items are shares of bodies.
-  /// One with `all_stages` runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once()
-  /// items.
+  /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. With
+  /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once() items.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
-  /// Items of a force kernel that certainly run side by side, so that they may wait for each other; 0 where that is not known.
+  /// Returns how many items of a force kernel certainly run side by side, so that they may wait for each other. It is 0 if that
+  /// is not known.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// The variant that is fastest for so many vertices in all, with a dispatch a sum.
+  /// Returns the variant that is fastest for so many vertices in all, with one dispatch per sum.
   [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
-  /// By how much of themselves springs' strains come out too large, on average over springs.
+  /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;
-  /// Items that keep the device busy: how finely a search is best cut.
+  /// Returns how many items keep the device busy. That is how finely a search is best cut.
   [[nodiscard]] virtual std::uint32_t parallel_items() const = 0;
   /// Waits until everything has run.
   virtual void finish() = 0;
 
-  /// Queues a look at the device's own clock, taken when all kernels before it have finished.
+  /// Queues a reading of the device's own clock, taken when all kernels before it have finished.
   virtual void mark_time() = 0;
-  /// The marked times since the last call [s], from any origin. Waits for them.
+  /// Returns the marked times since the last call [s], from any origin. Waits for them.
   [[nodiscard]] virtual std::vector<double> take_times() = 0;
 };
 
@@ -158,7 +159,8 @@ class DeviceArray {
   BufferId id_ = 0;
 };
 
-/// `threads` 0: one a processor. `precision` 32 or 64.
+/// Makes the CPU a device. `threads` 0 asks for one per processor. `precision` is 32 or 64. Throws Error (device) if the system
+/// gives fewer threads.
 [[nodiscard]] std::unique_ptr<Device> make_cpu_device(unsigned threads, int precision);
 
 /// Opens the `index`-th adapter of gl::list_adapters() and keeps its context current on this thread. Throws Error (device).

@@ -1,4 +1,4 @@
-// Kernels of another program's, beside those of the library.
+// Lets another program add kernels to those of the library.
 #pragma once
 #include <span>
 
@@ -7,17 +7,17 @@
 
 namespace pliant {
 
-/// The same kernels for GPUs, as files named "compute/kernels/NAME.glsl", and compiled for CPUs (device/cpu/kernel_prelude.inc).
-/// What is viewed must outlive every device.
+/// The same kernels twice: for GPUs as files named "compute/kernels/NAME.glsl", and compiled for CPUs
+/// (device/cpu/kernel_prelude.inc). What is viewed must outlive every device.
 struct KernelPack {
   std::span<const gl::ShaderFile> files;
   std::span<const cpu::KernelEntry> on_cpu_32, on_cpu_64;
 };
 
-/// Devices that are made from then on have these kernels.
+/// Adds kernels to the devices that are made from then on.
 void add_kernels(const KernelPack& pack);
 
-/// The library's and all that were added.
+/// Return the library's and all that were added.
 [[nodiscard]] std::vector<gl::ShaderFile> all_shader_files();
 [[nodiscard]] std::vector<cpu::KernelEntry> all_kernels_on_cpu(int precision);
 

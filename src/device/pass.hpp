@@ -1,4 +1,4 @@
-// Passes beside each other, and timing them.
+// Lets passes run beside each other, and times them.
 #pragma once
 #include <map>
 #include <span>
@@ -13,8 +13,8 @@ namespace pliant {
   return pass;
 }
 
-/// Runs passes one by one, none beside another, and adds to `seconds` what each took. Costs more than Device::run, as the device
-/// has to look at its clock in between.
+/// Runs passes one by one, none beside another, and adds to `seconds` what each took. Costs more than Device::run, because the
+/// device has to read its clock in between.
 inline void run_timed(Device& device, std::span<const Pass> passes, std::map<std::string_view, double>& seconds) {
   device.mark_time();
   for (Pass pass : passes) {

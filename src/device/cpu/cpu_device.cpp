@@ -1,4 +1,4 @@
-// The CPU as a device: buffers are heap memory, kernels are functions over ranges of items.
+// Makes the CPU a device. Buffers are heap memory, and kernels are functions over ranges of items.
 #include "device/cpu/cpu_device.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string processor_name() {
   return "CPU";
 }
 
-// What the bits of fp32 and fp64 sums depend on.
+// Says what the bits of fp32 and fp64 sums depend on.
 std::string title_of(cpu::Isa isa) {
   constexpr std::array<std::string_view, 3> titles{"baseline vectors", "AVX2", "AVX-512"};
   return std::string(titles[static_cast<std::size_t>(isa)]);
@@ -143,7 +143,7 @@ class CpuDevice final : public Device {
     finish_forces(force, arguments);
   }
 
-  // Calls with every share that runs, and its sums.
+  // Calls `visit` with every share that runs, and its sums.
   template <class F>
   void for_shares(F&& visit) {
     glm::dvec3* sums = sums_.data();
@@ -198,7 +198,7 @@ class CpuDevice final : public Device {
   std::vector<KernelSignature> signatures_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_{{"plain", whole_bodies}};
-  std::vector<cpu::SpringSums<float>> sums_32_;  // one an instruction set, in the precision of this device alone
+  std::vector<cpu::SpringSums<float>> sums_32_;  // one per instruction set, in this device's precision only
   std::vector<cpu::SpringSums<double>> sums_64_;
   std::vector<cpu::ShareTask> tasks_;  // of the shares of the force kernel that runs
   std::vector<glm::dvec3> sums_;       // of all their vertices

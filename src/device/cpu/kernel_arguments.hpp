@@ -1,4 +1,4 @@
-// What a kernel on the CPU is called with.
+// The arguments of a kernel on the CPU.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -14,8 +14,8 @@ namespace pliant::cpu {
 
 struct KernelArguments {
   void* const* buffers = nullptr;         // in the order in which the kernel declares them
-  const Parameter* parameters = nullptr;  // likewise
-  KernelSignature* declared = nullptr;    // if not null the kernel only says what it declares
+  const Parameter* parameters = nullptr;  // in the same order
+  KernelSignature* declared = nullptr;    // if not null, the kernel only says what it declares
 };
 
 /// Hands a kernel its arguments one after another, as its members ask for them.
@@ -62,13 +62,13 @@ struct ShareTask {
   bool deformed = false;  // else the sums are zero
   std::uint32_t first_vertex = 0, vertex_count = 0;
   const void* positions = nullptr;      // real4 [vertex] of the share's body, from its first vertex on
-  const void* displacements = nullptr;  // likewise
+  const void* displacements = nullptr;  // the same of displacements
 };
 
-inline constexpr std::uint32_t longest_range = 64;  // of vertices that a force kernel finishes at once
+inline constexpr std::uint32_t longest_range = 64;  // most vertices that a force kernel finishes at once
 
-/// A force kernel: first says what it needs summed, then finishes vertices first to end - 1 of a share with the sums over their
-/// springs of strain times length [units], one a vertex of the share.
+/// A force kernel in two parts. `task` says what a share needs summed. `finish` then finishes vertices first to end - 1 of the
+/// share. `sums` holds for each vertex of the share the sum over its springs of strain times length [units].
 struct ForceFunctions {
   ShareTask (*task)(const KernelArguments& arguments, std::uint32_t share) = nullptr;
   void (*finish)(const KernelArguments& arguments, std::uint32_t share, const glm::dvec3* sums, std::uint32_t first,
@@ -78,12 +78,12 @@ struct ForceFunctions {
 struct KernelEntry {
   std::string_view name;
   KernelSignature (*signature)();
-  KernelFunction function;  // null for a force kernel, which has
-  ForceFunctions force;     // these instead
-  std::uint32_t grain;      // items that a thread takes at a time: some microseconds' work, more than it costs to wake one up
+  KernelFunction function;  // null for a force kernel
+  ForceFunctions force;     // what a force kernel has instead
+  std::uint32_t grain;      // items that a thread takes at a time: some microseconds' work, more than waking a thread costs
 };
 
-/// Sums the springs of the share's vertices first to end - 1, one by one: the reference for faster ways.
+/// Sums the springs of the share's vertices first to end - 1, one by one. Faster ways are compared with it.
 using PlainSum = void (*)(const ShareTask& task, glm::dvec3* sums, std::uint32_t first, std::uint32_t end);
 void sum_plainly_32(const ShareTask& task, glm::dvec3* sums, std::uint32_t first, std::uint32_t end);
 void sum_plainly_64(const ShareTask& task, glm::dvec3* sums, std::uint32_t first, std::uint32_t end);

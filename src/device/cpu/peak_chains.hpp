@@ -1,10 +1,10 @@
 // Chains of multiply-adds, once for each instruction set. Files that include this header are compiled for different processors,
-// so it holds declarations alone.
+// so it holds only declarations.
 #pragma once
 
 namespace pliant::cpu {
 
-/// What one thread does: `rounds` times v = v factor + addend in each of chain_count vectors.
+/// What one thread does: it computes v = v factor + addend `rounds` times in each of chain_count vectors.
 template <class Real>
 struct PeakTask {
   Real factor, addend;

@@ -1,5 +1,5 @@
-// A body's vertices are cut into blocks; every pair of blocks is a task that leaves its two sums in places of their own, so that
-// the order of additions depends on no thread.
+// Cuts a body's vertices into blocks. Every pair of blocks is a task that leaves its two sums in places of their own. So the
+// order of additions depends on no thread.
 #include "device/cpu/spring_sums.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace pliant::cpu {
 namespace {
 
-constexpr std::uint32_t shortest_block = 256;  // block lengths are multiples: a row is a whole number of rounds of its loop
+constexpr std::uint32_t shortest_block = 256;  // block lengths are multiples, so that a row takes whole rounds of its loop
 constexpr std::uint32_t most_blocks = 32;
 constexpr std::uint32_t chunk_length = 256;
 
@@ -177,7 +177,7 @@ void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout
     glm::dvec3 total(0.0);
     for (std::uint32_t block = 0; block < layout.block_count; ++block, sum += vector)
       total += glm::dvec3(sum[0], sum[layout.stride], sum[2 * std::size_t{layout.stride}]);
-    body.sums[i] = 4.0 * total;  // of quarters
+    body.sums[i] = 4.0 * total;  // because tiles sum quarters
   }
 }
 

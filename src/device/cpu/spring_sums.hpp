@@ -1,4 +1,4 @@
-// All springs of all bodies at once, in the widest vectors that the processor has and on all threads.
+// Sums all springs of all bodies at once, in the widest vectors that the processor has and on all threads.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -17,39 +17,39 @@ enum class Isa { portable, avx2, avx512 };
 /// The environment variable that names the fastest instruction set to use.
 inline constexpr const char* isa_variable = "PLIANT_ISA";
 
-/// What this machine runs and PLIANT_ISA allows, the fastest last. Reads the variable once. Throws Error (device) where the
-/// machine does not have what the variable names.
+/// Returns the instruction sets that this machine has and PLIANT_ISA allows, the fastest last. Reads the variable once. Throws
+/// Error (device) if the machine does not have what the variable names.
 [[nodiscard]] std::span<const Isa> available_isas();
-/// The first of `isas`, up to the one of that name. Throws Error (device) where none has it.
+/// Returns the first of `isas`, up to the one of that name. Throws Error (device) if none has it.
 [[nodiscard]] std::vector<Isa> isas_up_to(std::string_view most, std::span<const Isa> isas);
 [[nodiscard]] std::string_view name_of(Isa isa);
 
-/// One body.
+/// One body whose springs are summed.
 template <class Real>
 struct SpringBody {
   const glm::vec<4, Real>* positions;      // in a unit near the body's radius
-  const glm::vec<4, Real>* displacements;  // likewise
+  const glm::vec<4, Real>* displacements;  // in the same unit
   std::uint32_t vertex_count;
-  glm::dvec3* sums;  // out, one a vertex: of strain times length over its springs (physics/forces/spring.glsl) [units]
+  glm::dvec3* sums;  // out: each vertex's sum of strain times length over its springs (physics/forces/spring.glsl) [units]
 };
 
-/// Sums springs in scratch memory of its own, some 32 numbers a vertex and direction. A vertex that is not finite makes sums of
-/// its body not finite.
+/// Sums springs in scratch memory of its own, up to some 32 numbers per vertex and direction. If a vertex is not finite, sums of
+/// its body are not finite.
 template <class Real>
 class SpringSums {
  public:
   /// Expects an instruction set that is available.
   explicit SpringSums(Isa isa);
 
-  /// The same bits for any number of threads. Sums of a body add up to zero but for rounding.
+  /// Gives the same bits for any number of threads. Sums of a body add up to zero but for rounding.
   void sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies);
-  /// That a body of so many vertices takes.
+  /// Returns the scratch memory that a body of so many vertices takes [bytes].
   [[nodiscard]] static std::size_t scratch_bytes_of(std::uint32_t vertex_count);
-  /// Held since the largest sum so far.
+  /// Returns the scratch memory of the latest sum [bytes].
   [[nodiscard]] std::size_t scratch_bytes() const;
 
  private:
-  // A body in scratch. Arrays have `stride` numbers; vectors are three of them.
+  // A body's place in scratch memory. Arrays have `stride` numbers. Vectors are three arrays.
   struct Layout {
     std::uint32_t vertex_count, stride, padding, block_length, block_count;  // padding comes first
     std::size_t first_place;                                                 // of positions, then half displacements

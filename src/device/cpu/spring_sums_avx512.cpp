@@ -24,10 +24,11 @@ struct Vectors<double> {
   typedef long long Bits __attribute__((vector_size(64)));
 };
 
-// growth / (now + sqrt(now rest)), with all of now and a quarter of the others. With P = now rest / 4 and y near 1 / sqrt(P), to
-// 14 bits, e = 1 - P y^2 is small and sqrt(now rest) = 2 P y (1 + e / 2 + 3 e^2 / 8 + 5 e^3 / 16 + ...); fp32 needs no more than
-// e / 2. The divider works beside the multipliers, so a division costs less than to refine a guess. max() is for rests that
-// rounding has taken to zero or below, where a spring is stretched a thousand times; it lets what is not a number through.
+// Returns a quarter of the strain, growth / (now + sqrt(now rest)), as spring_tile.inc does.
+// With P = now rest / 4, let y be 1 / sqrt(P) to 14 bits. Then e = 1 - P y^2 is small, and
+//   sqrt(now rest) = 2 P y (1 + e / 2 + 3 e^2 / 8 + 5 e^3 / 16 + ...).
+// fp32 needs no more than e / 2. The divider works beside the multipliers, so a division costs less than refining a guess.
+// max() is for rests that rounding has taken to zero or below, where a spring is stretched a thousand times. It lets NaN through.
 #define PLIANT_HAS_QUARTER_STRAIN
 template <class Real>
 PLIANT_INLINE __m512 quarter_strain(__m512 growth, __m512 now) {

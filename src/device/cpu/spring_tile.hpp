@@ -1,5 +1,5 @@
-// The spring forces between two blocks of vertices, once for each instruction set. Files that include this header are compiled
-// for different processors, so it holds declarations alone: no inline function that a linker could take from the wrong one.
+// Sums the springs between two blocks of vertices, once for each instruction set. Files that include this header are compiled for
+// different processors. So it holds only declarations: a linker could take an inline function from the wrong file.
 #pragma once
 
 namespace pliant::cpu {
@@ -8,9 +8,10 @@ namespace pliant::cpu {
 template <class Real>
 inline constexpr unsigned widest_vector = 64 / sizeof(Real);
 
-/// Rows against columns: two blocks of one body, or one block against itself. Every pointer is to an x component; y and z stand
-/// `stride` and 2 `stride` numbers behind it. Starts of rows and columns are aligned to 64 bytes. A body begins with less than a
-/// vector of padding, which is zero, so that the rest are whole vectors; its first block has no columns but against itself.
+/// Rows and columns are two blocks of one body, or a block and itself. Every pointer is to an x component. y and z stand `stride`
+/// and 2 `stride` numbers behind it. Starts of rows and columns are aligned to 64 bytes.
+/// A body begins with padding, so that the rest are whole vectors. The padding is zero and shorter than a vector. A body's first
+/// block serves as columns only against itself.
 template <class Real>
 struct SpringTile {
   const Real* row_position;
@@ -18,11 +19,11 @@ struct SpringTile {
   const Real* column_position;
   const Real* column_half_displacement;
   double* row_sum;     // out: sum over the columns of x times a quarter of the strain, x = x_row - x_column
-  double* column_sum;  // out: the same over the rows, with the other sign; is row_sum in a block against itself
+  double* column_sum;  // out: the same over the rows, with the other sign. It is row_sum in a block against itself
   unsigned stride;
   unsigned row_count;
   unsigned column_count;
-  unsigned padding;  // of the rows, the first
+  unsigned padding;  // how many rows at the beginning are padding
 };
 
 template <class Real>

@@ -1,4 +1,4 @@
-// OpenGL compute as a device: buffers are SSBOs, kernels are programs made of shaders/compute/main.comp around the kernel's file.
+// Makes OpenGL compute a device. Buffers are SSBOs. Kernels are programs: shaders/compute/main.comp around the kernel's file.
 #include "device/gpu/gpu_device.hpp"
 
 #include <fmt/format.h>
@@ -21,16 +21,18 @@ namespace {
 // How force.comp cuts its work.
 struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
-  std::uint32_t plainly;        // springs that a lane adds up before it goes on exactly
-  std::uint32_t tile;           // vertices fetched at a time where groups run all stages; what shared memory leaves room for, in
-                                // multiples that add up in the same order as without; 0: no room
+  std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
+  std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
+                          // memory has room for, in multiples that keep the order of additions
   std::uint32_t most_vertices;  // of all bodies together, up to which this is the fastest
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
 };
-// The first is for processors that run shaders. The others were measured on an H200: few vertices need many lanes each, and where
-// there are many a lane serves several with what it loads. Small groups do worse: the compiler then takes so many registers a
-// thread that few of them fit. The third is for all stages at once alone, where every group has a multiprocessor to itself.
+// The first is for processors that run shaders. The others were measured on an H200:
+// - Few vertices need many lanes each.
+// - With many vertices, a lane serves several of them with what it loads.
+// - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
+// The third is only for all stages at once, where every group has a multiprocessor to itself.
 constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 2, 0, 0},
                                   {64, 1, 10, 4, 4, 768, 2600},
                                   {64, 2, 10, 4, 8, 512, 0},
@@ -44,7 +46,7 @@ class GpuDevice final : public Device {
     const gl::Adapter& adapter = context_.adapter();
     if (adapter.storage_blocks < max_arrays)
       throw Error(ErrorKind::device, adapter.renderer,
-                  fmt::format("its driver has {} storage blocks for a compute shader, and pliant needs {}",
+                  fmt::format("its driver has {} storage blocks for a compute shader, but pliant needs {}",
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
     info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
@@ -97,7 +99,8 @@ class GpuDevice final : public Device {
                  defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
-  // A group for each multiprocessor: that many run at once, however many registers and how much shared memory a group takes.
+  // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it
+  // takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::size_t best_force_variant(std::uint32_t vertex_count) const override {
@@ -141,7 +144,7 @@ class GpuDevice final : public Device {
     KernelSignature signature;
     gl::Program program;
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
-    std::vector<Parameter> parameters;    // as last set; program uniforms start as zero
+    std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
   };
 
   KernelId build(const std::string& name, std::string_view frame, const std::vector<gl::Define>& defines) {
@@ -206,14 +209,14 @@ class GpuDevice final : public Device {
       glUniform1ui(location, std::get<std::uint32_t>(value));
   }
 
-  std::unique_ptr<gl::Context> own_context_;  // null where it is a window's
+  std::unique_ptr<gl::Context> own_context_;  // null if it is a window's
   gl::Context& context_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
   std::vector<gl::ShaderFile> files_ = all_shader_files();
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;
-  std::array<BufferId, max_arrays> bound_{};  // by slot; constants have slots of their own
+  std::array<BufferId, max_arrays> bound_{};  // by slot, where constants have slots of their own
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::vector<Kernel> kernels_;
   BufferId next_buffer_ = 1;

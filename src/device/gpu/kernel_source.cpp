@@ -50,7 +50,7 @@ std::optional<Declaration> parse_declaration(std::string_view line) {
   return std::ranges::any_of(forms, fits) ? std::optional(found) : std::nullopt;
 }
 
-/// The place of the element with this name, which is added where there is none.
+/// Returns the place of the row with this name, and adds it if there is none.
 template <class Row>
 std::size_t place_of(std::vector<Row>& rows, const Row& row) {
   const auto found = std::ranges::find(rows, row.name, &Row::name);

@@ -1,5 +1,5 @@
-// From a kernel file to GLSL: the declarations READ, WRITE, SHARED_WRITE, CONSTANTS and PARAMETER become storage blocks, uniform
-// blocks and uniforms. Slots follow the order of the flattened source.
+// Turns a kernel file into GLSL. The declarations READ, WRITE, SHARED_WRITE, CONSTANTS and PARAMETER become storage blocks,
+// uniform blocks and uniforms. Slots follow the order of the flattened source.
 #pragma once
 #include <span>
 #include <string_view>
@@ -14,8 +14,8 @@ struct KernelSource {
   KernelSignature signature;
 };
 
-/// Flattens `frame`, and writes its declarations out. Array k of the signature has binding k, parameter k location k. Throws
-/// Error (device) with file and line where a declaration names no array of physics/arrays.glsl.
+/// Flattens `frame`, and writes its declarations out. Array k of the signature has binding k, parameter k has location k. Throws
+/// Error (device) with file and line if a declaration names no array of physics/arrays.glsl.
 [[nodiscard]] KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_view frame,
                                          std::span<const gl::Define> defines);
 

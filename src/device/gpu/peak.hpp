@@ -1,4 +1,4 @@
-// The fp32 multiply-adds that a GPU does at best: what sums of springs are measured against.
+// Does as many fp32 multiply-adds as a GPU can. Sums of springs are measured against that.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace pliant::gpu {
 
-/// Chains of multiply-adds on a GPU device (context_of(device) is not null), which must outlive this.
+/// Runs chains of multiply-adds on a GPU device, which must outlive this. Expects that context_of(device) is not null.
 class Peak {
  public:
   explicit Peak(Device& device);

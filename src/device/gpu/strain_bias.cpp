@@ -30,7 +30,7 @@ class Points {
   std::uniform_real_distribution<double> coordinate_{-1, 1};
 };
 
-// [spring][2]: from one point to another, and a change of that by up to 2 %.
+// Returns [spring][2]: the vector from one point to another, and a change of it by up to 2 % of the ball's radius.
 std::vector<glm::vec4> random_springs() {
   Points points;
   std::vector<glm::vec4> springs;
@@ -61,7 +61,7 @@ std::vector<float> strains_of(std::span<const glm::vec4> springs) {
 double measure_strain_bias() {
   const std::vector<glm::vec4> springs = random_springs();
   const std::vector<float> strains = strains_of(springs);
-  double excess = 0, whole = 0;  // of forces: short springs are strained more, and pull no harder
+  double excess = 0, whole = 0;  // of forces, because short springs are strained more but pull no harder
   for (std::size_t i = 0; i < strains.size(); ++i) {
     const glm::dvec3 x(springs[2 * i]), d(springs[2 * i + 1]);
     const double exact = physics64::spring_strain(x, d);
