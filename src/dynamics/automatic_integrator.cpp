@@ -13,10 +13,12 @@ struct Choice {
   std::string_view integrator;
 };
 
-// The first row whose law is the scene's and whose least tolerance is not above the scene's. Chosen by force evaluations at equal
-// true error of squashed spheres (docs/accuracy.md, "What a tolerance costs"). Undamped dprkn12 needs the fewest; from 1e-4 on
-// dprkn8 hardly needs more, and its steps are the cheapest where contacts bound them. The adaptive law has a kink, where high
-// orders are lost and verner78_8's milder estimate pays. vern8 is for fp64: its weights magnify what fp32 rounds.
+// The method is that of the first row whose law is the scene's and whose least tolerance is not above the scene's. Rows were
+// chosen by force evaluations at equal true error of squashed spheres (docs/accuracy.md, "What a tolerance costs"):
+// - Without damping dprkn12 needs the fewest. From 1e-4 on dprkn8 hardly needs more, and its steps are the cheapest where
+//   contacts bound them.
+// - The adaptive law has a kink. High orders are lost there, and verner78_8's milder estimate pays.
+// - vern8 is for fp64, because its weights magnify what fp32 rounds.
 // clang-format off
 constexpr Choice choices[] = {
     {DampingLaw::none, 1e-4, "dprkn8"},

@@ -1,4 +1,4 @@
-// Bounds are in terms of the body: its radius r, and its stiffest frequency omega. A vertex that is held back by springs alone
+// Bounds depend on the body's radius r and its stiffest frequency omega. Think of a vertex that is held back only by springs. It
 // moves by a / omega^2 under an acceleration a, and swings by v / omega after a kick of v.
 #include "dynamics/grip.hpp"
 
@@ -17,7 +17,7 @@ constexpr double largest_swing = 0.125;        // after one pull, in radii
 constexpr double approach = 10;                // [1/s]: nine tenths of the way in a quarter of a second
 constexpr double largest_speed = 15;           // in radii [1/s]
 
-/// 1 at the vertex itself, falling smoothly to 0 at the grip's reach.
+/// Returns 1 at the vertex itself, and falls smoothly to 0 at the grip's reach.
 float weight_at(double distance /* in reaches */) {
   const double rest = 1 - distance * distance;
   return static_cast<float>(rest * rest);

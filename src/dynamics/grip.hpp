@@ -15,20 +15,20 @@ struct Pull {
   glm::dvec3 target{0.0};    // [m]
 };
 
-/// Pulls change velocities alone, and no faster than the body bears: whatever the targets are, what is finite stays so. A body
-/// without springs can't be pulled.
+/// Pulls change only velocities, and no faster than the body bears. So what is finite stays finite, whatever the targets are. A
+/// body without springs can't be pulled.
 class Grip {
  public:
-  /// Of the vertices around one, less and less with their distance at rest. `bodies` must outlive the grip, and knows one
-  /// at a time.
+  /// Grips the vertices around `vertex`, less and less with their distance at rest. `bodies` must outlive the grip, and knows one
+  /// grip at a time.
   Grip(DeviceBodies& bodies, const Model& model, std::uint32_t vertex);
   Grip(const Grip&) = delete;
   Grip& operator=(const Grip&) = delete;
 
   [[nodiscard]] std::uint32_t vertex() const { return vertex_; }
-  /// Queues where the next passes() draw the grip [m], for a time that has gone by since the last ones [s].
+  /// Queues a change of the place to which the next passes() draw the grip [m]. `seconds` is the time since the last ones [s].
   void aim_at(const glm::dvec3& target, double seconds);
-  /// Between steps, with the state in `half`.
+  /// Returns the passes of one pull. They run between steps, with the state in `half`.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t half) const;
 
  private:

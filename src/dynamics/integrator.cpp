@@ -1,4 +1,4 @@
-// Looking integrators up, and what follows from their coefficients.
+// Looks integrators up, and computes what follows from their coefficients.
 #include "dynamics/integrator.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 bool has_weight(const std::vector<long double>& weights, int stage) { return !weights.empty() && weights[stage] != 0; }
 
-// The stages that reach the end of the step, or an estimate of its error, through weights or through other such stages.
+// Returns the stages that reach the end of the step, or an estimate of its error, through weights or through other such stages.
 std::vector<int> used_stages(const StagedMethod& method, Stages wanted) {
   std::vector<bool> used(method.stages);
   std::vector<int> stages;
@@ -28,13 +28,14 @@ std::vector<int> used_stages(const StagedMethod& method, Stages wanted) {
   return stages;
 }
 
-// What the velocity at the step's start, over h, and the used stages' accelerations, over h^2, add to a displacement.
+// A displacement is of_start h v + h^2 sum_k of_stages[k] a_k. v is the velocity at the step's start, and a_k are the used
+// stages' accelerations.
 struct Sum {
   long double of_start = 0;
   std::vector<long double> of_stages = {};
 };
 
-// ... and, over 1 and h, to a velocity.
+// For a velocity, the sum is of_start v + h sum_k of_stages[k] a_k.
 struct Row {
   Sum position, velocity;
 };
@@ -46,7 +47,7 @@ void append(NystromTableau& tableau, const Row& row) {
   for (const long double weight : row.velocity.of_stages) tableau.velocity.push_back(static_cast<double>(weight));
 }
 
-// Slopes of positions are velocities at the stages, so their weights are weights A.
+// The slopes of positions are the stages' velocities, so positions weigh accelerations by `weights` times A.
 class RungeKuttaRows {
  public:
   RungeKuttaRows(const RungeKutta& method, std::span<const int> used) : method_(method), used_(used) {}
@@ -70,7 +71,7 @@ class RungeKuttaRows {
   std::span<const int> used_;
 };
 
-// With drag, x'' = a(x) - g v, the method steps on y = e^(g t / 2) (x - x(0)), whose equation knows no velocity:
+// With drag, x'' = a(x) - g v, the method steps on y = e^(g t / 2) (x - x(0)). The equation of y knows no velocity:
 //   y'' = e^(g t / 2) a(x) + (g / 2)^2 y, with y(0) = 0, y'(0) = v(0), and v = e^(-g t / 2) y' - (g / 2) (x - x(0)).
 // Its stages are linear in v(0) and the a(x), which makes them rows once more. Taken back to x, a weight decays by e^(-g t / 2)
 // over the time from its stage to the row's.
@@ -94,7 +95,7 @@ class NystromRows {
   }
 
  private:
-  // of_start v(0) and the y'' of the stages before, at the time c.
+  // Returns the sum of of_start v(0) and the weighted y'' of the stages before, at the time c.
   [[nodiscard]] Sum sum(long double of_start, const long double* weights, long double c) const {
     Sum result{of_start * std::exp(-half_ * c), std::vector<long double>(used_.size())};
     for (std::size_t j = 0; j < stages_.size(); ++j) {

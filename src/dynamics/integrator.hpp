@@ -10,10 +10,10 @@
 
 namespace pliant {
 
-/// What explicit methods with stages consist of. Embedded weights estimate the error; their order is 0 where there are none.
+/// What explicit methods with stages consist of. Embedded weights estimate the error. Their order is 0 if there are none.
 struct StagedMethod {
   int stages = 0;
-  std::vector<long double> a;  // stages x stages, row by row; zero on and above the diagonal
+  std::vector<long double> a;  // stages x stages, row by row, with zeros on and above the diagonal
   std::vector<long double> b, c;
   std::vector<long double> b_hat = {}, b_hat2 = {};
   int order_hat = 0, order_hat2 = 0;
@@ -22,13 +22,16 @@ struct StagedMethod {
 /// A Runge-Kutta method, on x' = v, v' = a(x, v).
 struct RungeKutta : StagedMethod {};
 
-/// A Runge-Kutta-Nystrom method, on x'' = a(x): stages have no velocities. Of dampings it meets the constant one alone.
-///   x_i = x + c_i h v + h^2 sum_j a_ij a(x_j), and at the end
-///   x + h v + h^2 sum_j b_j (1 - c_j) a(x_j), v + h sum_j b_j a(x_j), or with b_hat for b.
+/// A Runge-Kutta-Nystrom method, on x'' = a(x). Its stages have no velocities, so it allows only the constant damping law.
+/// Its stages and the step's end, or with b_hat for b the embedded result, are
+///   x_i   = x + c_i h v + h^2 sum_j a_ij a(x_j)
+///   x_end = x + h v + h^2 sum_j b_j (1 - c_j) a(x_j)
+///   v_end = v + h sum_j b_j a(x_j).
 struct Nystrom : StagedMethod {};
 
 /// A symmetric composition kick, drift, kick, ..., kick: v += kick[i] h a(x), then x += drift[i] h v.
-/// kick.size() == drift.size() + 1. The last kick's acceleration serves the next step's first, unless x changed between.
+/// kick.size() == drift.size() + 1. The last kick's acceleration serves the next step's first kick, unless x has changed in
+/// between.
 struct Splitting {
   std::vector<long double> kick, drift;  // each sums to 1
 };
@@ -38,7 +41,7 @@ struct Integrator {
   std::string_view description;  // half a line
   std::string_view source;       // where the coefficients come from
   int order = 0;
-  double strained_bound = 1;  // the part of the step bound that spheres squashed to a half bear; measured, at most 1
+  double strained_bound = 1;  // the measured part of the step bound that spheres squashed to a half bear, at most 1
   std::variant<RungeKutta, Nystrom, Splitting> method;
   double fp32_tolerance = 1e-7;  // the smallest one that steps meet where forces are in fp32
 };
@@ -46,47 +49,51 @@ struct Integrator {
 /// Every integrator, in the order `pliant info --integrators` lists them.
 [[nodiscard]] std::span<const Integrator> integrators();
 
-/// Throws Error that lists the names and blames `where`.
+/// Returns the integrator of that name. If there is none, throws Error that lists the names and blames `where`.
 [[nodiscard]] const Integrator& find_integrator(std::string_view name, const Origin& where = {});
 
-/// Null where the method is a splitting.
+/// Returns null if the method is a splitting.
 [[nodiscard]] const StagedMethod* staged_method(const Integrator& integrator);
 
-/// Force evaluations of one step: stages that reach the result, or a splitting's drifts (its last acceleration is kept).
+/// Returns the force evaluations of one step: the stages that reach the result, or a splitting's drifts. A splitting keeps its
+/// last acceleration.
 [[nodiscard]] int evaluations_per_step(const Integrator& integrator);
 
-/// Whether the method may meet the law. A splitting damps with every kick, so a negative kick would feed energy in. A Nystrom
-/// method's stages have no velocities to damp; a constant rate of damping can be taken into its weights.
+/// Returns whether the method allows the damping law. A splitting damps with every kick, so a negative kick would feed energy in.
+/// A Nystrom method's stages have no velocities to damp, but its weights can hold a constant rate of damping.
 [[nodiscard]] bool allows_damping(const Integrator& integrator, DampingLaw law);
 
-/// Whether the method has embedded weights, so that a tolerance can govern its steps.
+/// Returns whether the method has embedded weights, so that a tolerance can govern its steps.
 [[nodiscard]] bool estimates_error(const Integrator& integrator);
 
-/// The power of the step with which the estimated error grows. Two estimates are joined as e^2 / sqrt(e^2 + f^2 / 100).
+/// Returns the power of the step with which the estimated error grows. Two estimates e and f are joined as
+/// e^2 / sqrt(e^2 + f^2 / 100).
 [[nodiscard]] int estimate_order(const StagedMethod& method);
 
 /// Which stages count: those that reach the step's end, or those that reach the error estimates as well.
 enum class Stages { of_result, of_estimates };
 
-/// A method with stages on x'' = a(x, v), for which accelerations alone have to be stored. With row = stage, or row = stages for
-/// the end of the step:
+/// A method with stages on x'' = a(x, v), in a form for which only accelerations have to be stored. Rows are stages, and
+/// row = stages is the end of the step:
 ///   x_row = x + c[row] h v    + h^2 sum_j position[row * stages + j] a_j
 ///   v_row =     keep[row] v   + h   sum_j velocity[row * stages + j] a_j
 struct NystromTableau {
   int stages = 0;
-  std::vector<double> c = {};         // stages + 1; without drag the stages' times, and 1
-  std::vector<double> keep = {};      // stages + 1; without drag 1
-  std::vector<double> position = {};  // (stages + 1) x stages: A A, then b A; of a Nystrom method A, then b (1 - c)
-  std::vector<double> velocity = {};  // (stages + 1) x stages: A, or zero, then b
+  std::vector<double> c = {};         // stages + 1: without drag the stages' times, then 1
+  std::vector<double> keep = {};      // stages + 1: without drag 1
+  std::vector<double> position = {};  // (stages + 1) x stages: A A, then b A, or for a Nystrom method A, then b (1 - c)
+  std::vector<double> velocity = {};  // (stages + 1) x stages: A, or zeros for a Nystrom method, then b
 };
 
-/// Computed in long double and rounded once. A Nystrom method's can be made for x'' = a(x) - g v: `drag` is g h, and the a_j are
-/// a(x_j) alone. Expects no splitting.
+/// Returns the tableau, computed in long double and rounded once. That of a Nystrom method can be made for x'' = a(x) - g v. Then
+/// `drag` is g h, and the a_j are only a(x_j). Expects no splitting.
 [[nodiscard]] NystromTableau nystrom_tableau(const Integrator& integrator, Stages stages = Stages::of_result, double drag = 0);
 
-/// (stages of nystrom_tableau(integrator, Stages::of_estimates)) x 4. The step's end is farther than the embedded method's by
-///   h^2 sum_j weights[4 j] a_j in position, h sum_j weights[4 j + 1] a_j in velocity;
-/// the other two are the second estimate's, or zero. Expects a method with an estimate.
+/// Returns 4 weights for each stage of nystrom_tableau(integrator, Stages::of_estimates). The step's end is farther than the
+/// embedded method's by
+///   h^2 sum_j weights[4 j]     a_j in position,
+///   h   sum_j weights[4 j + 1] a_j in velocity.
+/// The other two weights are the second estimate's, or zero. Expects a method with an estimate.
 [[nodiscard]] std::vector<double> error_weights(const Integrator& integrator);
 
 }  // namespace pliant

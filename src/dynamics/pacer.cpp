@@ -1,4 +1,4 @@
-// See pacer.hpp; the controller itself is physics/pace.glsl.
+// See pacer.hpp. The controller itself is physics/pace.glsl.
 #include "dynamics/pacer.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double unbounded = 1e30;  // [s] or [m]
 
-// Measured: with 3 / 8 three_spheres ends tangled at most tolerances, with 1 / 4 no scene does.
+// This is measured: with 3 / 8 three_spheres ends tangled at most tolerances, with 1 / 4 no scene does.
 constexpr double contact_motion_per_edge = 0.25;
 
 std::vector<double> error_scales(const Model& model, DampingLaw law) {

@@ -1,4 +1,4 @@
-// The bounds follow from scanning outward until a step first amplifies, then bisecting.
+// Finds the bounds by scanning outward until a step first amplifies, then bisecting.
 #include "dynamics/stability.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int grid_count = 32;  // intervals of the damping rate
 constexpr int largest_stage_count = 29;
 
-// The end of the interval that starts at 0 in which amplification(y) stays at or below the limit. Methods of the sizes in
+// Returns the end of the interval that starts at 0 in which amplification(y) stays at or below the limit. Methods of the sizes in
 // use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
 template <class Amplification>
 double first_exit(double stride, const Amplification& amplification) {
@@ -41,7 +41,7 @@ double amplification(const std::vector<double>& polynomial, std::complex<double>
   return std::abs(sum);
 }
 
-// Largest magnitude of the eigenvalues of the map that takes (x, v) = (1, 0) and (0, 1) there.
+// Returns the largest magnitude of the eigenvalues of the map that takes (x, v) = (1, 0) to `from_x` and (0, 1) to `from_v`.
 double spectral_radius(const double (&from_x)[2], const double (&from_v)[2]) {
   const double trace = from_x[0] + from_v[1], determinant = from_x[0] * from_v[1] - from_x[1] * from_v[0];
   const double discriminant = trace * trace / 4 - determinant;
@@ -49,7 +49,7 @@ double spectral_radius(const double (&from_x)[2], const double (&from_v)[2]) {
   return std::abs(trace) / 2 + std::sqrt(discriminant);
 }
 
-// One step of length h = y on x'' = -x - g v; a kick damps exactly: v <- exp(-g t) v + (1 - exp(-g t))/g a.
+// Makes one step of length h = y on x'' = -x - g v. A kick damps exactly: v <- exp(-g t) v + (1 - exp(-g t))/g a.
 double amplification(const Splitting& method, double y, double g) {
   double from_x[2] = {1, 0}, from_v[2] = {0, 1};
   for (std::size_t i = 0; i < method.kick.size(); ++i) {
@@ -64,7 +64,7 @@ double amplification(const Splitting& method, double y, double g) {
   return spectral_radius(from_x, from_v);
 }
 
-// One step of length h = y on x'' = -x, from state = {x, v}.
+// Makes one step of length h = y on x'' = -x, from state = {x, v}.
 void oscillate(const NystromTableau& method, double y, double* state) {
   const double x = state[0], v = state[1];
   double accelerations[largest_stage_count + 1];
@@ -86,8 +86,8 @@ double amplification(const NystromTableau& method, double y) {
   return spectral_radius(from_x, from_v);
 }
 
-// Below g = 2 omega lambda runs along the circle |lambda| = omega, above it along the real axis. On a ray the distance
-// of the exit is the same for every lambda, so the real axis matters at its far end alone.
+// Below g = 2 omega, lambda runs along the circle |lambda| = omega. Above it, lambda runs along the real axis. On a ray the
+// distance of the exit is the same for every lambda, so on the real axis only the far end matters.
 double runge_kutta_bound(const RungeKutta& method, double omega, double damping_rate_max) {
   const std::vector<double> polynomial = stability_polynomial(method);
   const auto exit_along = [&](double angle) {
@@ -107,8 +107,9 @@ double runge_kutta_bound(const RungeKutta& method, double omega, double damping_
   return bound;
 }
 
-// By how much a body that nothing but drag and gravity act on is wrong after a step, z = g h: of v / g and v, or of the final
-// velocity and its way over 1 / g.
+// Returns how wrong a body is after a step with z = g h, if nothing but drag and gravity act on it. Errors from its velocity v
+// are relative to v / g and v. Errors from gravity are relative to the final velocity, and to the way at that velocity in a time
+// 1 / g.
 double drift_error(const Integrator& integrator, double z) {
   const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_result, z);
   double position = 0, velocity = 0;  // per unit of acceleration
@@ -126,7 +127,8 @@ struct NystromBounds {
   double drifting;  // g h
 };
 
-// Found once for each method: the first scan has to be fine, for dprkn8's first instability is a sliver, y = 3.1403 to 3.1416.
+// Finds the bounds once for each method. The first scan has to be fine, because dprkn8's first instability is a sliver,
+// y = 3.1403 to 3.1416.
 NystromBounds nystrom_bounds(const Integrator& integrator) {
   static std::map<std::string_view, NystromBounds> found;
   static std::mutex mutex;
@@ -160,7 +162,7 @@ std::vector<double> stability_polynomial(const RungeKutta& method) {
     long double coefficient = 0;
     for (int i = 0; i < method.stages; ++i) coefficient += method.b[i] * power[i];
     polynomial.push_back(static_cast<double>(coefficient));
-    // Below the diagonal alone, so from the last row up the product can replace its factor.
+    // A has numbers only below the diagonal, so from the last row up the product can replace its factor.
     for (int i = method.stages - 1; i >= 0; --i) {
       long double sum = 0;
       for (int j = 0; j < i; ++j) sum += method.a[i * method.stages + j] * power[j];

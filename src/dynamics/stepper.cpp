@@ -1,4 +1,5 @@
-// A step of a method with stages is a dispatch a stage, of a splitting a dispatch a force; or one for all of these.
+// A step of a method with stages is one dispatch per stage, and that of a splitting is one dispatch per force. Both can be one
+// dispatch in all.
 #include "dynamics/stepper.hpp"
 
 #include <algorithm>
@@ -25,8 +26,8 @@ glm::dvec2 weight_at_end(const NystromTableau& tableau, std::size_t stage) {
   return {weight, weight == 0 ? 0 : 1 / weight};
 }
 
-// The rows that runge_kutta_stage.glsl reads: see its next_row(). An error estimate weighs stages in another way than the step's
-// end, so that what cancels in one does not in the other.
+// Returns the rows that runge_kutta_stage.glsl reads (see its next_row()). An error estimate weighs stages in another way than
+// the step's end, so what cancels in one does not cancel in the other.
 std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau, bool cancels_rounding) {
   std::vector<glm::dvec2> rows;
   const auto stages = static_cast<std::size_t>(tableau.stages);
@@ -43,7 +44,7 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau, bool cancels_r
   return rows;
 }
 
-// The rows that splitting_stage.glsl reads, for steps of the given length [s].
+// Returns the rows that splitting_stage.glsl reads, for steps of the given length [s].
 std::vector<glm::dvec2> splitting_rows(const Splitting& method, double time_step) {
   std::vector<glm::dvec2> rows;
   const auto seconds = [&](long double fraction) { return static_cast<double>(fraction * static_cast<long double>(time_step)); };
@@ -102,7 +103,7 @@ void Stepper::use_tableaus(Stages stages) {
     row_of_body.push_back(place->second);
     if (!is_new) continue;
     const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
-    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, the last another
+    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, but not the last stage
     stage_count_ = static_cast<std::uint32_t>(tableau.stages);
     std::ranges::copy(stage_rows(tableau, stages == Stages::of_result), std::back_inserter(rows));
   }

@@ -283,10 +283,11 @@ Splitting srkn11b() {
 }
 // clang-format on
 
-// Bounds hold for small motion. Strained bounds: with nine tenths of them the energy of no undamped sphere grew tenfold in
-// 20,000 steps (10,000 of 42 vertices), of 12 and 42 vertices squashed in six ways (tests/simulation/stress_test.cpp), in fp64.
-// The longer a step is against the period, the more is lost. vern8's estimate weighs forces so that their roundings in fp32 grow:
-// with it a tolerance of 1e-7 makes steps up to 12 times too short.
+// Step bounds hold for small motion. strained_bound was measured in fp64 on undamped spheres of 12 and 42 vertices, squashed in
+// six ways (tests/simulation/stress_test.cpp). With nine tenths of it, no sphere's energy grew tenfold in 20,000 steps (10,000
+// for 42 vertices). The longer a step is against the period, the more is lost.
+// vern8's estimate weighs forces so that their roundings in fp32 grow. In fp32 a tolerance of 1e-7 makes its steps up to 12 times
+// too short.
 std::vector<Integrator> all_integrators() {
   const long double root21 = std::sqrt(21.0L);
   return {

@@ -1,4 +1,4 @@
-// Before each stage one dispatch sums the volumes in parts, and one gathers each vertex's triangles. The volume is a sum in a
+// Before each stage one dispatch sums the volumes in parts, and another gathers each vertex's triangles. The volume is a sum in a
 // fixed order.
 #include "dynamics/forces/pressure.hpp"
 
@@ -17,14 +17,14 @@ bool has_pressure(const ModelBody& body) { return body.inflation.pressure > 0; }
 
 /// The arrays of all bodies with pressure.
 struct Shells {
-  std::vector<physics::Pressure> pressures;  // a body
+  std::vector<physics::Pressure> pressures;  // one for each body
   std::vector<std::uint32_t> triangles;      // three vertices each
   std::vector<glm::uvec4> parts;
   std::vector<std::uint32_t> fan_begins;
   std::vector<glm::uvec2> fans;
 };
 
-// Every vertex of a body adds its parts up, so that parts should be few; and they should be short, for a thread sums one.
+// Parts should be few, because every vertex of a body adds them up. They should be short, because one thread sums a part.
 std::uint32_t part_length(std::uint32_t triangle_count) {
   return std::max<std::uint32_t>(8, static_cast<std::uint32_t>(std::sqrt(triangle_count)) / 4);
 }
@@ -99,7 +99,7 @@ std::unique_ptr<AddedForce> make(DeviceBodies& bodies, const Model& model) {
   return std::make_unique<AddedPressure>(bodies, shells_of(model));
 }
 
-// In the bodies' frames.
+// Returns the positions in the bodies' frames.
 std::vector<glm::dvec3> positions_of(const Model& model, const State& state) {
   std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; i < model.rest_positions.size(); ++i)
@@ -124,8 +124,9 @@ double energy(const EnergyQuestion& question) {
 
 double energy_scale(const ModelBody& body) { return body.inflation.pressure * body.inflation.rest_volume; }
 
-// The second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 for a gas, less p times that of V. Down to half the rest volume p
-// is at most 2 p0. A shape that is pressed flat keeps its dV/dx, one that grows makes up for it by its lower pressure.
+// For a gas the second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 minus p times the second derivative of V. Down to half
+// the rest volume p is at most 2 p0. A shape that is pressed flat keeps its dV/dx. One that grows makes up for it by its lower
+// pressure.
 constexpr double least_volume = 0.5;  // of the rest volume
 
 double frequency_squared(const ModelBody& body) {
@@ -142,7 +143,7 @@ std::optional<std::string> warning(const Model& model, const State& state) {
     const double left = has_pressure(body) ? volume_of(model, body, positions) / body.inflation.rest_volume : 1;
     if (left < least_volume)
       return fmt::format(
-          "body \"{}\" was pressed to {:.3g} of its rest volume: the bound on steps holds down to {}, below it shorten them",
+          "body \"{}\" was pressed to {:.3g} of its rest volume: the bound on steps holds only down to {}, so use shorter steps",
           body.name, left, least_volume);
   }
   return {};

@@ -7,7 +7,7 @@
 namespace pliant {
 namespace {
 
-// Rest positions and displacements, an array a coordinate, so that the compiler sums several springs at once.
+// Rest positions and displacements, with one array per coordinate so that the compiler sums several springs at once.
 struct Coordinates {
   std::vector<double> rest[3], moved[3];  // [m]
 
@@ -23,9 +23,9 @@ struct Coordinates {
   }
 };
 
-// (|x| - L)^2 [m^2] of the spring between two vertices, without cancellation: with r from one to the other at rest, d its change,
-// and x = r + d, it is (|x|^2 - L^2)^2 / (|x| + L)^2, and |x|^2 - L^2 = d.(r + x). One factor is divided before the other comes
-// in, so that only an energy that is beyond all numbers overflows.
+// Returns (|x| - L)^2 [m^2] of the spring between two vertices, without cancellation. r leads from one to the other at rest, d is
+// its change, and x = r + d. Then (|x| - L)^2 is (|x|^2 - L^2)^2 / (|x| + L)^2, and |x|^2 - L^2 = d.(r + x). One factor is
+// divided before the other comes in, so that only an energy beyond all numbers overflows.
 inline double elongation_squared(const Coordinates& at, std::size_t i, std::size_t j) {
   double now = 0, rest = 0, growth = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,11 +34,11 @@ inline double elongation_squared(const Coordinates& at, std::size_t i, std::size
     rest += r * r;
     growth += d * (r + x);
   }
-  constexpr double least = std::numeric_limits<double>::min();  // of two vertices that share a place, in both shapes
+  constexpr double least = std::numeric_limits<double>::min();  // so that two vertices that share a place in both shapes give 0
   return growth * (growth / (now + rest + 2 * std::sqrt(now * rest) + least));
 }
 
-// The sum of (|x| - L)^2 [m^2] over the springs from `i` to the vertices from `i` + 1 to before `end`.
+// Returns the sum of (|x| - L)^2 [m^2] over the springs from `i` to the vertices from `i` + 1 to before `end`.
 double sum_of_springs(const Coordinates& at, std::size_t i, std::size_t end) {
   constexpr std::size_t lanes = 8;
   double sums[lanes] = {};
@@ -49,7 +49,7 @@ double sum_of_springs(const Coordinates& at, std::size_t i, std::size_t end) {
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-// A vertex: the energy of its springs to later vertices of its body [J]; NaN from where it was stopped.
+// Returns for each vertex the energy of its springs to later vertices of its body [J]. Vertices that a stop leaves out have NaN.
 std::vector<double> elastic_energies(const EnergyQuestion& question) {
   const auto& [model, state, pool, stopped] = question;
   const Coordinates at(model, state);
