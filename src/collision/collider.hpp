@@ -14,30 +14,31 @@ namespace pliant {
 class Collider {
  public:
   /// `bodies` and `model` must outlive the collider. The trees' structure comes from the rest positions. Searches are cut for
-  /// `parallel_items` threads at once, or else for as many as keep the device busy. Throws Error for a response that there is
-  /// not.
+  /// `parallel_items` threads at once, or else for as many as keep the device busy. Throws Error if there is no such response.
   Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
            std::optional<std::uint32_t> parallel_items = {});
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
 
-  /// Null where contacts are not answered.
+  /// Returns null if contacts are not answered.
   [[nodiscard]] const Response* response() const { return response_.get(); }
-  /// Whether there are two bodies and triangles to touch.
+  /// Returns whether there are two bodies and triangles to touch.
   [[nodiscard]] bool searches() const;
-  /// Whether a search refits and descends trees, instead of testing every two triangles.
+  /// Returns whether a search refits and descends trees, instead of testing every two triangles.
   [[nodiscard]] bool uses_trees() const;
 
   /// Bounds every body at `half`. A step does that itself as it ends.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
-  /// A search, in this order, at `half`: pairs of bodies; then, where it uses trees, their boxes and pairs of leaves; then
-  /// touching triangles, whose vertices it marks. A pass that changes neither world positions nor what is the collider's own may
-  /// run beside those after the first.
+  /// Return the passes of a search at `half`, which run in this order:
+  /// - Pairing finds pairs of bodies.
+  /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.
+  /// - Testing finds touching triangles and marks their vertices.
+  /// A pass may run beside those after the first if it changes neither world positions nor the collider's own arrays.
   [[nodiscard]] std::vector<Pass> pairing_passes() const;
   [[nodiscard]] std::vector<Pass> refitting_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> finding_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> testing_passes(std::uint32_t half) const;
-  /// All of it.
+  /// Returns all passes of a search.
   [[nodiscard]] std::vector<Pass> search_passes(std::uint32_t half) const;
 
   [[nodiscard]] const Forest& forest() const { return forest_; }

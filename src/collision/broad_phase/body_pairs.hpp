@@ -1,4 +1,4 @@
-// Which bodies may touch: pairs of bodies whose boxes overlap. All later collision work is for these alone.
+// Finds which bodies may touch: pairs of bodies whose boxes overlap. All later collision work is only for these.
 #pragma once
 #include "device/pass.hpp"
 #include "state/device_bodies.hpp"
@@ -10,11 +10,11 @@ class BodyPairs {
   /// `bodies` must outlive this.
   explicit BodyPairs(DeviceBodies& bodies);
 
-  /// At least 1.
+  /// Returns how many near pairs there can be, at least 1.
   [[nodiscard]] std::uint32_t most_pairs() const { return most_pairs_; }
   /// Bounds every body at `half`. A step does that itself as it ends.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const;
-  /// Lists the near pairs, as the bodies' boxes stand. Expects the trees' roots (TreeSearch).
+  /// Lists the near pairs of the bodies' present boxes. Expects the trees' roots (TreeSearch).
   [[nodiscard]] Pass pairing_pass() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 static_assert(static_cast<std::uint32_t>(TriangleTest::certified) == physics::certified_test);
 static_assert(static_cast<std::uint32_t>(TriangleTest::moller) == physics::moller_test);
 
-// See TreeSearch.
+// tree_search.cpp says why threads must not be too few.
 constexpr std::uint32_t least_threads = 4096, most_threads = 16384;
 
 std::uint32_t largest_triangle_count(const Model& model) {

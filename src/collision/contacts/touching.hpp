@@ -1,5 +1,5 @@
-// Which triangles of different bodies touch: they mark their vertices with the step's number. A mark is the same whoever comes
-// first, so that the order of contacts changes nothing.
+// Finds which triangles of different bodies touch, and marks their vertices with the step's number. A mark is the same whichever
+// contact comes first, so the order of contacts changes nothing.
 #pragma once
 #include <span>
 #include <vector>
@@ -21,7 +21,7 @@ class Touching {
   /// Tests every two triangles of near bodies instead.
   [[nodiscard]] Pass brute_force_pass(std::uint32_t half) const;
 
-  /// Of every vertex, the latest step in which it touched another body; 0: none.
+  /// Returns for every vertex the latest step in which it touched another body, or 0 if there is none.
   [[nodiscard]] std::vector<std::uint32_t> marks() const;
   void restore_marks(std::span<const std::uint32_t> marks);
 

@@ -1,5 +1,5 @@
-// The paper's response: a vertex that touches another body goes back to where the step began, and its velocity is reversed and
-// scaled by the elasticity. A contact holds no more than a mark of the vertex.
+// The paper's response. A vertex that touches another body goes back to where the step began. Its velocity is reversed and scaled
+// by the elasticity. A contact holds no more than a mark of the vertex.
 #pragma once
 #include <memory>
 

@@ -11,22 +11,22 @@
 
 namespace pliant {
 
-/// Records the passes of one response. What a contact holds is the response's own: it makes the arrays for it, or uses the marks
-/// of touching vertices. No result may depend on the order in which contacts were found.
+/// Records the passes of one response. Each response decides what a contact holds: it makes the arrays for that, or uses the
+/// marks of touching vertices. No result may depend on the order in which contacts were found.
 class Response {
  public:
   virtual ~Response() = default;
-  /// Before the integrator's passes, with the state in `from_half`.
+  /// Returns passes that run before the integrator's, with the state in `from_half`.
   [[nodiscard]] virtual std::vector<Pass> before_step(std::uint32_t from_half) const {
     static_cast<void>(from_half);
     return {};
   }
-  /// After the search for touching triangles and, where a tolerance governs steps, after the verdict: the state is in the other
-  /// half.
+  /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs
+  /// steps, they run after the verdict.
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
 };
 
-/// What a response is made for; all but the description must outlive it.
+/// What a response is made for. All but the description must outlive it.
 struct ResponseSetting {
   DeviceBodies& bodies;
   const Model& model;
@@ -39,9 +39,9 @@ struct ResponseRow {
 };
 
 [[nodiscard]] std::span<const ResponseRow> responses();
-/// Adds a row of another program's. Scenes read from then on may name it.
+/// Adds another program's row. Scenes read from then on may name it.
 void add_response(const ResponseRow& row);
-/// Null for "none". Throws Error, blaming the name's origin, for a name that no row has.
+/// Returns null for "none". Throws Error that blames the name's origin if no row has the name.
 [[nodiscard]] const ResponseRow* find_response(const Named& name);
 
 }  // namespace pliant

@@ -22,7 +22,7 @@ struct Box {
   }
 };
 
-/// What a split sees of a triangle.
+/// What a split needs to know of a triangle.
 struct Item {
   std::uint32_t triangle;
   glm::dvec3 centroid;
@@ -52,8 +52,8 @@ int longest_axis(const glm::dvec3& extent) {
   return extent.y >= extent.z ? 1 : 2;
 }
 
-/// The paper's split: at the centre of the box's longest axis. Reorders the items in two halves and returns the size of the
-/// first.
+/// Splits as the paper does, at the centre of the box's longest axis. Reorders the items in two halves and returns the size of
+/// the first.
 std::size_t split_at_centre(Items items) {
   const Box box = bounds(items);
   const int axis = longest_axis(box.upper - box.lower);
@@ -63,8 +63,8 @@ std::size_t split_at_centre(Items items) {
   return static_cast<std::size_t>(right - items.begin());
 }
 
-/// The depth of even splits and slack for uneven ones: beyond it no leaf of the bunny or the teapot splits any further
-/// (they need 5 and 6 levels more than even splits would, icospheres 2).
+/// Returns the depth of even splits and slack for uneven ones. Beyond it no leaf of the bunny or the teapot splits any further:
+/// they need 5 and 6 levels more than even splits would. Icospheres need 2.
 unsigned default_depth(std::size_t triangle_count, unsigned leaf_size) {
   constexpr unsigned slack = 6;
   return static_cast<unsigned>(std::bit_width(triangle_count / leaf_size)) + slack;

@@ -6,9 +6,9 @@
 namespace pliant {
 namespace {
 
-// Lists have lengths that the device alone knows, so a fixed number of threads shares them in strides. That costs less than an
-// indirect dispatch: on NVIDIA 2 us against 3.3, for the barrier in front of it. Not too few threads: Mesa's llvmpipe breaks off,
-// without a word, what has gone through loops 65,535 times.
+// Only the device knows the lengths of lists, so a fixed number of threads shares them in strides. That costs less than an
+// indirect dispatch, which needs a barrier in front of it: on NVIDIA 2 us against 3.3. Threads must not be too few, because
+// Mesa's llvmpipe silently stops what has gone through loops 65,535 times.
 constexpr std::uint32_t least_threads = 4096;
 
 std::vector<glm::uvec2> trees_of(const Forest& forest) {
@@ -23,14 +23,15 @@ std::vector<std::uint32_t> corners_of(const Forest& forest) {
   return corners;
 }
 
-// A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy, and needs nothing above it.
+// A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy. It needs nothing above that
+// depth.
 unsigned start_depth_for(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
   const std::uint32_t pairs = std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, 16);
   const auto depth = static_cast<unsigned>(std::bit_width(std::max(parallel_items / pairs, 1u)) - 1) / 2;
   return std::min(depth, forest.depth);
 }
 
-// The forest's nodes, cut off above the nodes that searches start from; behind them those nodes' indices.
+// Returns the forest's nodes, cut off above the nodes that searches start from. Behind them stand those nodes' indices.
 std::vector<glm::uvec4> cut_nodes(const Forest& forest, unsigned start_depth) {
   std::vector<glm::uvec4> nodes = forest.nodes;
   for (std::uint32_t body = 0; body < forest.roots.size(); ++body)

@@ -9,7 +9,8 @@
 
 namespace pliant {
 
-/// Threads that share a list whose length the device alone knows: as many as keep the device busy, but not too few.
+/// Returns how many pairs of a list are served at once, if only the device knows the list's length. They are as many as keep the
+/// device busy, but not too few.
 [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
 
 // A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
@@ -25,11 +26,11 @@ class TreeSearch {
   /// Lists the pairs of leaves whose boxes overlap.
   [[nodiscard]] Pass finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const;
 
-  /// Searches start from the nodes at this depth; boxes of those above are not kept.
+  /// Searches start from the nodes at this depth. Boxes of those above are not kept.
   [[nodiscard]] unsigned start_depth() const { return start_depth_; }
-  /// Of the latest search: two leaves whose boxes overlap, in no fixed order, as many as fit the list.
+  /// Returns the latest search's pairs of leaves whose boxes overlap, in no fixed order. There are as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
-  /// [node][2]: lower and upper corners, as of the latest refit of the node's body.
+  /// Returns [node][2]: lower and upper corners [m], from the latest refit of the node's body.
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
 
  private:
