@@ -1,4 +1,4 @@
-// Why a simulation ended, and what may help, in words.
+// Says in words why a simulation ended and what may help.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace pliant {
 
-/// "<what happened> in step <n> at vertex <v> of body "<name>"; <remedy>".
+/// Returns "<what happened> in step <n> at vertex <v> of body "<name>"; <remedy>".
 [[nodiscard]] std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Sums over vertices in order, and over the rows of forces.
+// Sums over the vertices in order, then over the list of forces.
 #include "simulation/measure.hpp"
 
 #include <algorithm>

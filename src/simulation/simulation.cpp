@@ -1,4 +1,4 @@
-// See simulation.hpp. Step s starts from half (s - 1) mod 2 and ends in the other, even if it is rejected or empty.
+// Step s starts from half (s - 1) mod 2 and ends in the other half, even if it is rejected or empty.
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
@@ -182,7 +182,7 @@ std::vector<std::uint32_t> Simulation::touching_vertices() {
 Intersections Simulation::intersections() {
   const Control saved = control();
   Control probe = saved;
-  probe.step = 0xffffffffu;  // no step's own
+  probe.step = 0xffffffffu;  // no step has this number
   probe.non_finite_step = 0;
   probe.non_finite_vertex = physics::no_vertex;
   const std::uint32_t current = half();
@@ -200,7 +200,7 @@ Intersections Simulation::intersections() {
       result.bodies.push_back(model_.body_index(i));
   collider_.touching().restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
-  bodies_.prepare_search();  // the next step's are its own
+  bodies_.prepare_search();  // the next step needs empty boxes again
   return result;
 }
 

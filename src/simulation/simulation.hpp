@@ -1,4 +1,4 @@
-// Runs steps that were recorded once, without reading back, and reports on them.
+// Runs steps and reports on them. The passes of a step are recorded once. Nothing is read back between steps.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,99 +20,100 @@
 
 namespace pliant {
 
-/// The first vertex that went non-finite, or whose error ended a run with a tolerance.
+/// The first vertex that became non-finite, or whose error ended a run with a tolerance.
 struct NonFinite {
-  std::uint64_t step = 0;              // the step that made it, from 1
-  std::uint32_t body = 0, vertex = 0;  // vertex of the body
-  double failed_step = 0;              // the step whose error ended the run [s]; else 0
-  bool takes_too_many = false;         // at the length that errors have come to, more steps are left than a run may have
+  std::uint64_t step = 0;              // in which it happened, counted from 1
+  std::uint32_t body = 0, vertex = 0;  // the vertex counts within the body
+  double failed_step = 0;              // length of the step whose error ended the run [s]; 0: no error did
+  bool takes_too_many = false;         // steps have become so short that more are left than a run may have
 
   bool operator==(const NonFinite&) const = default;
 };
 
-/// Of steps that a tolerance governs.
+/// What a tolerance did to the steps.
 struct AdaptiveReport {
-  std::uint64_t rejected = 0;                  // steps that were undone: their error was too large, or they met a contact
-  std::uint64_t rejected_in_contact = 0;       // of them, those in which touching vertices moved too far against each other
-  double smallest_step = 0, largest_step = 0;  // of the others [s]; 0: there are none
-  double next_step = 0;                        // allowed, before it is fitted to a target [s]
+  std::uint64_t rejected = 0;                  // steps undone: the error was too large, or touching vertices moved too far
+  std::uint64_t rejected_in_contact = 0;       // rejected steps in which touching vertices moved too far against each other
+  double smallest_step = 0, largest_step = 0;  // accepted steps [s]; 0: there are none
+  double next_step = 0;                        // allowed length before it is fitted to a target [s]
 
   bool operator==(const AdaptiveReport&) const = default;
 };
 
 /// What the simulation did since its start.
 struct StepReport {
-  std::uint64_t steps = 0;  // completed, a non-finite one included; rejected ones are none
+  std::uint64_t steps = 0;  // completed steps, including a non-finite one; rejected steps do not count
   double time = 0;          // of the state [s]
   std::optional<AdaptiveReport> adaptive;
   std::optional<NonFinite> non_finite;
   std::uint64_t contact_steps = 0;      // steps with a pair
   std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
   std::uint64_t reverted_vertices = 0;
-  std::uint64_t force_evaluations = 0;  // all forces of one body once
-  std::uint64_t pair_interactions = 0;  // N (N - 1) for each of them
+  std::uint64_t force_evaluations = 0;  // one evaluation is all forces of one body
+  std::uint64_t pair_interactions = 0;  // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
-  std::uint64_t pairs_beyond_capacity = 0;  // pairs of leaves tested where they were found, the list being full
-  std::uint64_t frame_changes = 0;          // of bodies' frames, following their rotation
-  std::uint64_t forces_skipped = 0;         // force evaluations that were zero beforehand: a body moving rigidly
-  std::uint64_t body_pairs_skipped = 0;     // root boxes apart
-  std::uint64_t refits_skipped = 0;         // trees without a partner
+  std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
+  std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
+  std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
+  std::uint64_t body_pairs_skipped = 0;     // pairs whose root boxes do not overlap
+  std::uint64_t refits_skipped = 0;         // trees whose body's box overlapped no other
 
   bool operator==(const StepReport&) const = default;
 };
 
-/// Triangles of different bodies that touch.
 struct Intersections {
-  std::uint64_t pairs = 0;
-  std::vector<std::uint32_t> bodies;  // that take part
+  std::uint64_t pairs = 0;            // pairs of triangles of different bodies that touch
+  std::vector<std::uint32_t> bodies;  // bodies with a touching triangle, ascending
 };
 
 class Simulation {
  public:
-  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports, so that nobody waits long
+  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports; it bounds how long a caller waits
 
   /// `device` and `model` must outlive the simulation.
   Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, const CollisionDescription& collision);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Queues steps of a fixed length; they may still be running when this returns. After a non-finite step nothing moves.
+  /// Queues steps of a fixed length. They may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
-  /// With a tolerance instead: queues as many steps as may reach `time` [s], `most_steps` at most, waits, and reports. The
-  /// last one ends there exactly; what is queued beyond it is empty. The same bits, however many are queued at a time.
+  /// Does the same with a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits
+  /// and reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
+  /// how many steps are queued at a time.
   StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);
   /// Goes on until report().time is `time` [s], or a step was non-finite.
   StepReport advance_to(double time);
-  /// From here on the device waits after each pass, and notes what each kind of pass takes; or no more. Slower: see run_timed.
+  /// Turns on or off that steps measure the time of each pass. Measured steps are slower: see run_timed.
   void time_passes(bool timed = true) { timed_ = timed; }
-  /// Device time since time_passes() by kernel [s].
+  /// Returns the device time of all measured passes by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
-  /// Between steps: queues a change of velocities, as drawing a body for so long does [s]. See Grip.
+  /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
-  /// Waits for the queued steps.
+  /// The next three wait for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
   [[nodiscard]] std::vector<glm::vec4> world_positions();
-  /// All that the next steps and reports depend on, as bytes. Waits for the queued steps.
+  /// Returns as bytes everything that the next steps and reports depend on. Waits for the queued steps.
   [[nodiscard]] std::string save();
-  /// What save() gave of a simulation of the same bodies, plan and kind of collisions: goes on from there, bit for bit if on the
-  /// same device. Throws Error (input), without a place, where the bytes do not fit; the simulation is then of no use.
+  /// Goes on from bytes of save(). The simulation that saved them must have the same bodies, plan and kind of collisions. On the
+  /// same device it goes on bit for bit. Throws Error (input), without a place, if the bytes do not fit. The simulation can't be
+  /// used after that.
   void restore(std::string_view saved);
-  /// The vertices that touched another body when the latest queued step was looked at. Waits for it.
+  /// Returns the vertices that touched another body in the latest queued step. Waits for it.
   [[nodiscard]] std::vector<std::uint32_t> touching_vertices();
-  /// Tests the world positions as they stand, by the scene's own search and triangle test.
+  /// Tests the current world positions with the scene's own search and triangle test.
   [[nodiscard]] Intersections intersections();
 
-  /// The device's own world positions: buffer and first element, for drawing.
+  /// The device's buffer of world positions, for drawing. The current ones begin at element first_position().
   [[nodiscard]] BufferId position_buffer() const { return bodies_.world_positions.id(); }
   [[nodiscard]] std::uint32_t first_position() { return half() * bodies_.vertex_count; }
-  /// Likewise its motions: doubles, 6 a vertex, from the same vertex on.
+  /// The device's buffer of motions: 6 doubles a vertex. The current ones also begin at vertex first_position().
   [[nodiscard]] BufferId motion_buffer() const { return bodies_.motions.id(); }
   [[nodiscard]] const Collider& collider() const { return collider_; }
 
  private:
-  [[nodiscard]] const physics::Control& control();  // after the queued steps, for which it waits
-  [[nodiscard]] std::uint32_t half();               // the one that holds the current state
+  [[nodiscard]] const physics::Control& control();  // waits for the queued steps
+  [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
   void add_pace(StepReport& report);
@@ -124,12 +125,12 @@ class Simulation {
   Stepper stepper_;
   Collider collider_;
   std::optional<Grip> grip_;                       // of the latest pull
-  std::optional<Pacer> pacer_;                     // where a tolerance governs the steps
+  std::optional<Pacer> pacer_;                     // empty: steps have a fixed length
   physics::Pace known_pace_{};                     // of the latest report
-  double fixed_step_;                              // else their length [s]
+  double fixed_step_;                              // length of a step without a pacer [s]
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
-  std::optional<physics::Control> known_control_;  // read once for all who ask between steps
-  std::uint64_t queued_steps_ = 0;                 // rejected and empty ones count here
+  std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
+  std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
   bool timed_ = false;
   std::map<std::string_view, double> pass_seconds_;
 };

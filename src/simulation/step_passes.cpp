@@ -15,7 +15,7 @@ class List {
   std::vector<Pass> passes_;
 };
 
-// Frames follow beside the passes of a search that use none of what changes.
+// Frames follow their bodies while search passes run that do not use the changed arrays.
 void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
   const std::uint32_t half = 1 - from_half;
   step.add(collider.pairing_passes());
@@ -52,7 +52,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
   if (searches) step.add(response->before_step(from_half));
   // integrate
   step.add(stepper.passes(from_half));
-  // find contacts; frames follow, but no step that a tolerance undoes
+  // find contacts and let frames follow; with a tolerance frames follow after the judging, because it may undo the step
   if (pacer != nullptr) {
     step.add(pacer->estimating_pass());
     if (searches) add_search(step, collider, half);
@@ -67,7 +67,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
   }
   // answer contacts
   if (searches) step.add(response->after_step(from_half));
-  // report; the next step's first pass asks for nothing that changes
+  // report; the next step's first pass may run beside it because it uses nothing that this pass changes
   step.add(beside_next(make_pass(bodies.arrays, "finish_step", {}, physics::counter_count)));
   return step.take();
 }

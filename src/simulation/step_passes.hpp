@@ -8,7 +8,8 @@
 
 namespace pliant {
 
-/// One step in order, from `from_half` into the other. A null pacer: a step of fixed length.
+/// Returns the passes of one step in order, from `from_half` into the other half. If `pacer` is null, the step has a fixed
+/// length.
 [[nodiscard]] std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider,
                                             std::uint32_t from_half, const Pacer* pacer);
 

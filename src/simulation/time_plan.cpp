@@ -1,4 +1,4 @@
-// The automatic step keeps a tenth away from what the stiffest body bears when it is squashed to a half.
+// The automatic step stays at least a tenth below the bound of the stiffest body when that is squashed to a half.
 #include "simulation/time_plan.hpp"
 
 #include <fmt/format.h>
@@ -31,12 +31,12 @@ DampingLaw effective_law(DampingLaw law, const Model& model) {
   return damped ? law : DampingLaw::none;
 }
 
-// A tableau that holds the damping is made for one length of steps.
+// A Nystrom tableau holds the damping for one length of steps, and a tolerance varies that length.
 bool bears_tolerance(const Integrator& integrator, DampingLaw law) {
   return estimates_error(integrator) && (law == DampingLaw::none || !std::holds_alternative<Nystrom>(integrator.method));
 }
 
-// The scene's method gives way where it can't meet the tolerance of an option; one that an option names as well does not.
+// If the scene's method can't meet the tolerance of --tolerance, "auto" replaces it. A method that the command line names stays.
 bool gives_way(const Integrator& integrator, const SimulationDescription& simulation, DampingLaw law) {
   return simulation.tolerance && simulation.tolerance_where.from == Origin::From::option &&
          !simulation.integrator.where.is_command_line() && !bears_tolerance(integrator, law);
@@ -108,7 +108,8 @@ void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDe
       "shorten the time step, or choose verlet, which takes any");
 }
 
-// Of all bodies. A bound depends on the stiffest frequency and the damping rate alone, and a search for it takes some 20 ms.
+// Returns the shortest bound of all bodies. Bodies with the same stiffest frequency and damping rate have the same bound, so one
+// search serves them all: it takes some 20 ms.
 template <class Bound>
 double shortest_bound(const TimePlan& plan, const Model& model, const Bound& bound) {
   std::set<std::pair<double, double>> known;  // omega^2 and rate
@@ -121,7 +122,7 @@ double shortest_bound(const TimePlan& plan, const Model& model, const Bound& bou
   return shortest;
 }
 
-// The duration before the time step, but an option before a line of the file.
+// Blames the duration rather than the time step, but an option rather than a line of the file.
 Origin origin_of_length(const SceneDescription& scene) {
   const Origin &duration = scene.simulation.duration_where, &step = scene.simulation.time_step_where;
   const Origin& where = duration.from >= step.from ? duration : step;
@@ -129,7 +130,7 @@ Origin origin_of_length(const SceneDescription& scene) {
 }
 
 std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
-  const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance the least there can be
+  const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance: at least so many
   if (!(count <= physics::most_steps()))
     throw Error(origin_of_length(scene), "the run takes more than 3e8 steps",
                 "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
@@ -139,7 +140,7 @@ std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
 }  // namespace
 
 std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
-  constexpr double rounding = 1e-12;  // relative: a frame on a step, but for the quotient's last digits, takes that step
+  constexpr double rounding = 1e-12;  // relative: a frame takes a step that misses it only by the quotient's rounding
   const double step = static_cast<double>(frame) / (frame_rate * time_step);
   return static_cast<std::uint64_t>(std::min(std::ceil(step * (1 - rounding)), 1e18));
 }
@@ -147,7 +148,7 @@ std::uint64_t TimePlan::step_of_frame(std::uint64_t frame) const {
 std::uint64_t TimePlan::next_frame_step(std::uint64_t step) const {
   const double frames_per_step = frame_rate * time_step;
   if (frames_per_step >= 1) return step + 1;
-  auto frame = static_cast<std::uint64_t>(static_cast<double>(step) * frames_per_step);  // one or two before the frame sought
+  auto frame = static_cast<std::uint64_t>(static_cast<double>(step) * frames_per_step);  // one or two too few
   while (step_of_frame(frame) <= step) ++frame;
   return step_of_frame(frame);
 }
@@ -168,7 +169,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
                 .tolerance = simulation.tolerance,
                 .duration = simulation.duration};
   plan.integrator = &choose_integrator(simulation, plan.damping_law);
-  expect_method_estimates(plan, simulation.integrator.where);  // first, for its remedies hold for damping as well
+  expect_method_estimates(plan, simulation.integrator.where);  // first, because its remedies also help with damping
   expect_method_damps(plan, simulation.integrator.where);
   expect_tableaus_fit(plan, model, simulation.integrator.where);
   plan.step_bound = shortest_bound(plan, model, [](auto&... what) { return step_bound(what...); });
