@@ -12,7 +12,7 @@
 namespace pliant::render {
 namespace {
 
-/// Straight down or up, another axis has to say where the picture's top is.
+/// If the camera looks straight down or up, y can't say where the picture's top is, so -z does.
 glm::dvec3 up_for(const glm::dvec3& forward) {
   return std::abs(forward.y) > 0.999 * glm::length(forward) ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
 }

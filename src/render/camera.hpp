@@ -16,20 +16,20 @@ struct SceneBox {
   [[nodiscard]] double radius() const;
 };
 
-/// The corner with each coordinate from above where its bit is set: x has the lowest of three.
+/// Returns a corner of the box. Bits 0, 1 and 2 of `bits` choose the high x, y and z.
 [[nodiscard]] glm::dvec3 corner_of(const SceneBox& box, unsigned bits);
 
-/// Around the places that are finite; the default box if there are none.
+/// Returns the box around all finite places, or the default box if there are none.
 [[nodiscard]] SceneBox box_around(std::span<const glm::dvec3> places);
 
-/// A camera on the side of the box to which `back` points (unit length), with the whole box inside the picture and a margin
-/// around it. `aspect` is width / height, `field_of_view` vertical [degrees].
+/// Returns a camera on the side of the box that the unit vector `back` points to. The picture shows the whole box with a margin
+/// around it. `aspect` is width / height, and `field_of_view` is vertical [degrees].
 [[nodiscard]] CameraDescription frame_from(const glm::dvec3& back, const SceneBox& box, double aspect, double field_of_view);
 
-/// A three-quarter view from the front, slightly above, by frame_from.
+/// Returns a three-quarter view from the front and slightly above, made by frame_from.
 [[nodiscard]] CameraDescription frame_scene(const SceneBox& box, double aspect);
 
-/// Height of a ground plane just below the box [m].
+/// Returns the height of a ground plane just below the box [m].
 [[nodiscard]] double ground_below(const SceneBox& box);
 
 /// Unit vectors of a camera's picture: to its right, to its top, and from the target to the eye.
@@ -38,7 +38,7 @@ struct CameraAxes {
 };
 [[nodiscard]] CameraAxes axes_of(const CameraDescription& camera);
 
-/// World to clip space; y is up in the picture.
+/// Returns the matrix from world to clip space, in which y is up.
 [[nodiscard]] glm::dmat4 view_projection(const CameraDescription& camera, double aspect);
 
 }  // namespace pliant::render

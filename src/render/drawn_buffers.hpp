@@ -1,4 +1,4 @@
-// Where a renderer finds what a simulation holds: in the buffers of a GPU device, or in copies of what a CPU device has.
+// Gives a renderer the arrays of a simulation as GL buffers. A GPU device has them already. From a CPU device they are copied.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,17 +11,17 @@
 namespace pliant::render {
 
 struct DrawnBuffer {
-  std::uint32_t id = 0;            // of OpenGL
-  std::uint32_t first_vertex = 0;  // the element that is the model's vertex 0
+  std::uint32_t id = 0;            // name of the GL buffer
+  std::uint32_t first_vertex = 0;  // index of the element that belongs to the model's vertex 0
 };
 
-/// Needs a current gl::Context while it lives, which is that of any GPU device it is asked of. What it gives stands until the
-/// next step. Throws Error (device) where there is no room for a copy.
+/// Needs a current gl::Context while it lives. A GPU device must use the same context. A returned buffer is valid until the next
+/// step. Throws Error (device) if there is no room for a copy.
 class DrawnBuffers {
  public:
-  /// World positions: a vec4 a vertex [m].
+  /// Returns the world positions, one vec4 a vertex [m].
   [[nodiscard]] DrawnBuffer positions(Device& device, Simulation& simulation);
-  /// Motions: 6 doubles a vertex [m], [m/s].
+  /// Returns the motions, 6 doubles a vertex: displacement [m] and velocity [m/s] in the body's frame.
   [[nodiscard]] DrawnBuffer motions(Device& device, Simulation& simulation);
 
  private:

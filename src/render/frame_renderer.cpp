@@ -1,5 +1,5 @@
-// The passes of one picture: smooth normals, shadow map, light on the ground, what each sample sees, occlusion, shading. Graphics
-// hardware only finds out what is seen; all light is computed by compute shaders, once a pixel.
+// A picture has these passes: smooth normals, shadow map, light on the ground, what each sample sees, occlusion, shading.
+// Rasterisation only finds out what is seen. Compute shaders compute all light, once a pixel.
 #include "render/frame_renderer.hpp"
 
 #include <glad/gl.h>
@@ -19,7 +19,7 @@ namespace pliant::render {
 namespace {
 
 constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a side
-constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // of a work group
+constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // pixels a side, and vertices, of a work group
 constexpr GLfloat far_depth = 1;
 // Uniform locations in the shaders.
 constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
@@ -38,7 +38,7 @@ std::vector<glm::vec4> colors_of(const Model& model) {
   return colors;
 }
 
-/// The bodies' surfaces on the GPU: what never changes, and smooth normals and strains, made anew for each picture.
+/// The bodies' surfaces on the GPU. Only `smooth`, the normals and strains, is computed again for each picture.
 struct Surface {
   explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
   Surface(const Model& model, const IncidentTriangles& around)
@@ -58,11 +58,11 @@ struct Surface {
   gl::VertexArray vertices;
 };
 
-/// What a level of detail comes to.
+/// What a level of detail means for the shaders.
 struct Sampling {
   std::uint32_t ground_light_size;       // [texels] a side
-  int shadow_blocker_taps, shadow_taps;  // on bodies, each of four texels
-  bool inner_outlines;                   // smoothed, too, not those before the backdrop alone
+  int shadow_blocker_taps, shadow_taps;  // on bodies, of four texels each
+  bool inner_outlines;                   // also smooths outlines before other surfaces, not only before the backdrop
 };
 
 Sampling sampling_of(Detail detail) { return detail == Detail::full ? Sampling{256, 12, 16, true} : Sampling{128, 4, 4, false}; }
@@ -86,13 +86,13 @@ struct Programs {
   gl::Program picture;
 };
 
-/// Clearing all depths can take a GPU as long as drawing. Each picture therefore has a slice of them nearer than that of the one
-/// before, so that what is left of that one is behind. All slices lie above a half, where floats are equally far apart.
+/// Clearing all depths can take a GPU as long as drawing, so pictures share one clearing. Each picture uses a slice of the depths
+/// in front of the slice of the picture before. All slices lie above a half, where floats are equally far apart.
 class DepthSlices {
  public:
   explicit DepthSlices(int pictures_per_clear) : pictures_per_clear_(pictures_per_clear) {}
 
-  /// Where the next picture's slice begins, and its width. Clears the depths of the target that is bound if none is left.
+  /// Returns where the next picture's slice begins, and its width. If no slice is left, clears the depths of the bound target.
   glm::vec2 next() {
     if (left_ == 0) {
       glClearBufferfv(GL_DEPTH, 0, &far_depth);
@@ -123,7 +123,7 @@ gl::TextureOptions footprint_options() {
   return options;
 }
 
-/// What depends on no size: the maps of light and shadow.
+/// The maps of light and shadow. They do not depend on the picture's size.
 struct Maps {
   Maps(const Sampling& sampling, int pictures_per_clear)
       : shadow_slices(pictures_per_clear),
@@ -154,7 +154,8 @@ struct Picture {
   gl::Framebuffer seen_target, shaded_target;
 };
 
-/// One thread a texel; waits for those who read what it overwrites, and lets textures and framebuffers see the result.
+/// Runs a program with one thread a texel. It waits for readers of what it overwrites. Later passes see the result through
+/// textures and framebuffers.
 void fill(const gl::Texture& texture, GLenum format, const gl::Program& program) {
   const glm::uvec2 groups = (texture.size() + tile - 1u) / tile;
   glBindImageTexture(0, texture.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
@@ -289,7 +290,7 @@ void FrameRenderer::Impl::draw_seen() {
   glEnable(GL_DEPTH_TEST);
   if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   glEnable(GL_CULL_FACE);
-  for (const GLenum hidden : {GL_BACK, GL_FRONT}) {  // the sides that face the eye first: most of the others are then behind them
+  for (const GLenum hidden : {GL_BACK, GL_FRONT}) {  // draws the sides that face the eye first, because they hide most others
     glCullFace(hidden);
     draw_bodies(programs.seen, studio.view_projection);
   }
@@ -391,13 +392,13 @@ void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_ver
   tell("occlusion");
   impl_->shade();
   tell("shading");
-  glUseProgram(0);  // a program left current would be checked against textures that are bound or deleted later
+  glUseProgram(0);  // else drivers check the program against textures that are bound or deleted later
 }
 
 void FrameRenderer::copy_to_window() const {
   const auto w = static_cast<GLint>(impl_->options.size.x), h = static_cast<GLint>(impl_->options.size.y);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, w, h);  // where Mesa looks whether the window has been resized
+  glViewport(0, 0, w, h);  // in this call Mesa checks whether the window has been resized
   glBlitNamedFramebuffer(impl_->picture->shaded_target.id(), 0, 0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 

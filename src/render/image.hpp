@@ -7,7 +7,7 @@ namespace pliant::render {
 
 struct Image {
   std::uint32_t width = 0, height = 0;  // [pixels]
-  std::vector<std::uint8_t> pixels;     // red, green, blue; sRGB; row by row from the top left
+  std::vector<std::uint8_t> pixels;     // red, green, blue in sRGB, row by row from the top left
 };
 
 }  // namespace pliant::render

@@ -15,7 +15,7 @@ void LineOverlay::draw(std::span<const LineEnd> ends, const CameraDescription& c
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, ends_.id());
   glBindVertexArray(no_vertices_.id());
   glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);  // what draws light on the ground leaves another behind
+  glBlendEquation(GL_FUNC_ADD);  // FrameRenderer leaves GL_MAX behind
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(ends.size()));
   glDisable(GL_BLEND);

@@ -1,4 +1,4 @@
-// Lines in the world, drawn over a picture.
+// Draws lines of the world over a picture.
 #pragma once
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -12,14 +12,14 @@ namespace pliant::render {
 
 struct LineEnd {
   glm::vec4 place{0.0f};  // xyz [m]
-  glm::vec4 color{1.0f};  // sRGB, and how much of it covers
+  glm::vec4 color{1.0f};  // sRGB and opacity
 };
 
 /// Needs a current gl::Context while it lives.
 class LineOverlay {
  public:
-  /// Draws lines between the first and second end, third and fourth, ..., into the framebuffer that is bound, over all that is
-  /// there.
+  /// Draws a line between the first and second end, another between the third and fourth, and so on. They go into the bound
+  /// framebuffer and cover what is there.
   void draw(std::span<const LineEnd> ends, const CameraDescription& camera, const glm::uvec2& size);
 
  private:

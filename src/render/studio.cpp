@@ -1,4 +1,4 @@
-// Lights and maps fitted to a scene's box.
+// Fits lights and maps to a scene's box.
 #include "render/studio.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ glm::mat4 key_projection_for(double radius, const glm::dvec3& direction) {
   return glm::mat4(glm::ortho(-r, r, -r, r, 2 * r - half_depth, 2 * r + half_depth) * view);
 }
 
-/// From the ground up to the ceiling; z of the world is y of the map.
+/// The map's depth runs from the ground up to the ceiling. The world's z is the map's y.
 glm::mat4 above_projection_for(const glm::vec4& ground, float radius) {
   const float side = 1 / ground.w, height = 2 / (ceiling * radius);
   return {glm::vec4(side, 0, 0, 0), glm::vec4(0, 0, height, 0), glm::vec4(0, side, 0, 0),

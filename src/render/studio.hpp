@@ -1,14 +1,14 @@
-// The set that bodies stand in: where the key light is, and what the maps of light and shadow cover.
+// Places the key light, and says what the maps of light and shadow cover.
 #pragma once
 #include "../../shaders/render/studio.glsl"
 #include "render/frame_renderer.hpp"
 
 namespace pliant::render {
 
-/// All but the camera's part. The key light stands behind the camera's left shoulder.
+/// Returns a studio without the camera's part, which see_from sets. The key light stands behind the camera's left shoulder.
 [[nodiscard]] Studio studio_for(const RenderOptions& options);
 
-/// The camera's part; `options.size` is the picture's.
+/// Sets the camera's part of the studio. `options.size` is the picture's size.
 void see_from(Studio& studio, const RenderOptions& options);
 
 }  // namespace pliant::render

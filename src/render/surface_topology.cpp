@@ -1,4 +1,4 @@
-// Counting sort of triangle corners by vertex.
+// Sorts triangle corners by vertex with a counting sort.
 #include "render/surface_topology.hpp"
 
 #include <numeric>

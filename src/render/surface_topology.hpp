@@ -1,4 +1,4 @@
-// What the renderer uploads once: which triangles meet at each vertex.
+// Finds the triangles around each vertex. The renderer uploads them once.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,11 +8,11 @@
 namespace pliant::render {
 
 struct IncidentTriangles {
-  std::vector<std::uint32_t> first;                  // of each vertex in `others`, and the end: vertices + 1
+  std::vector<std::uint32_t> first;                  // [vertex + 1] where each vertex's triangles begin in `others`
   std::vector<std::array<std::uint32_t, 2>> others;  // the triangle's other two corners, in winding order
 };
 
-/// Triangles are gathered in their own order, so sums over them come out the same every time.
+/// Returns each vertex's triangles in their own order, so that sums over them come out the same every time.
 [[nodiscard]] IncidentTriangles incident_triangles(std::uint32_t vertex_count,
                                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
