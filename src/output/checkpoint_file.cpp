@@ -1,4 +1,4 @@
-// A magic word, the version, the content's length and checksum, the content.
+// The file holds a magic word, the version, the content's length and checksum, and the content.
 #include "output/checkpoint_file.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace pliant {
 namespace {
 
-// As PNG's: damage by a transfer as text shows at once.
+// Built like PNG's signature, so that damage by a transfer as text shows at once.
 constexpr std::string_view magic = "\x8bpliant checkpoint\r\n\x1a\n";
 
 std::string header_of(std::string_view content) {

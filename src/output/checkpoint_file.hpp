@@ -1,4 +1,4 @@
-// The file around a checkpoint: says what it is and of which version, and shows when a byte of it is wrong or missing.
+// Reads and writes the file around a checkpoint. The file names its version and shows when a byte of it is wrong or missing.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -7,18 +7,18 @@
 
 namespace pliant {
 
-/// To be raised whenever what a checkpoint holds changes: fields, their order, or the device's structs.
+/// Raise it whenever the content of a checkpoint changes: fields, their order, or the device's structs.
 inline constexpr std::uint32_t checkpoint_version = 7;
 
-/// Throws Error (command_line) where one may not write a checkpoint: also where anything stands that is none, for it would be
-/// lost.
+/// Throws Error (command_line) if no checkpoint can be written to `path`, or if anything but a checkpoint stands there, because
+/// that would be lost.
 void expect_place_for_checkpoint(const std::filesystem::path& path);
 
-/// Replaces `path` as a whole once the disk holds the new one. Throws Error (command_line) where it can't; `path` is then as it
-/// was.
+/// Replaces the file at `path` as a whole once the disk holds the new one. Throws Error (command_line) if it can't. The file is
+/// then as it was.
 void write_checkpoint(const std::filesystem::path& path, std::string_view content);
 
-/// The content. Throws Error (input) when the file is none of pliant's, of another version, cut short or damaged.
+/// Returns the content. Throws Error (input) if the file is not a checkpoint, has another version, is cut short or is damaged.
 [[nodiscard]] std::string read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace pliant

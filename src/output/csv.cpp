@@ -12,7 +12,7 @@
 namespace pliant {
 namespace {
 
-// A leading comma, so that numbers follow one another.
+// Writes a comma first, so that numbers can follow one another.
 void append_number(std::string& line, double value) {
   if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
   fmt::format_to(std::back_inserter(line), ",{:.17g}", value);

@@ -1,4 +1,4 @@
-// The numbers of a run as CSV: 17 digits, which hold every bit of a double; what is not finite is `nan`.
+// Writes the numbers of a run as CSV, with 17 digits, which hold every bit of a double. A number that is not finite is `nan`.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -24,14 +24,14 @@ struct HistoryRow {
   std::uint64_t reverted_vertices = 0;  // since the start
 };
 
-/// history.csv, which can be read while it grows. All throw Error (command_line) when the file can't be written.
+/// history.csv, which can be read while it grows. All functions but text() throw Error (command_line) if it can't be written.
 class HistoryFile {
  public:
   explicit HistoryFile(const std::filesystem::path& path);
-  /// Goes on behind `so_far`, an earlier text(), whatever stands at `path`: that is replaced as a whole.
+  /// Goes on behind `so_far`, an earlier text(). A file at `path` is replaced as a whole.
   HistoryFile(const std::filesystem::path& path, std::string so_far);
   void append(const HistoryRow& row);
-  /// The rows so far, with the header.
+  /// Returns the header and the rows so far.
   [[nodiscard]] const std::string& text() const { return text_; }
   void close() { file_.close(); }
 
@@ -41,8 +41,8 @@ class HistoryFile {
   std::string text_;
 };
 
-/// final_state.csv: a row a vertex, numbered within its body; world positions [m] and velocities [m/s]. It appears as a whole.
-/// Throws Error (command_line) when it can't be written.
+/// Writes final_state.csv with one row a vertex: its body, its number in the body, its position [m] and velocity [m/s] in the
+/// world. The file appears as a whole. Throws Error (command_line) if it can't be written.
 void write_final_state(const std::filesystem::path& path, const Model& model, std::span<const glm::dvec3> positions,
                        std::span<const glm::dvec3> velocities);
 

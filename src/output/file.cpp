@@ -16,7 +16,7 @@ Error unwritable(const std::filesystem::path& path, const char* problem) {
   return {ErrorKind::command_line, path.string(), problem, "make room and check that you may write there, or name another place"};
 }
 
-// A plain file that may not be written must not be replaced either.
+// If a plain file is protected from writing, it must not be replaced either.
 std::filesystem::path checked_place(const std::filesystem::path& path) {
   expect_replaceable(path);
   return place_behind(path);
@@ -33,7 +33,7 @@ void make_folder_of(const std::filesystem::path& path) {
   if (failure) throw unwritable(path, "its folder can't be made");
 }
 
-// Makes an empty file of a name that none had: what stands beside the place is someone's own, or another program's.
+// Makes an empty file under an unused name, because files beside `place` belong to the user or to other programs.
 std::filesystem::path new_file_beside(const std::filesystem::path& place) {
   const std::string first = place.string() + ".tmp-" + std::to_string(getpid());
   std::string name = first;
@@ -46,7 +46,8 @@ std::filesystem::path new_file_beside(const std::filesystem::path& place) {
   return name;
 }
 
-// Waits until it is. Devices and some file systems can't; what they hold is as safe as they make it.
+// Waits until the disk holds the file, and returns false if writing failed. Devices and some file systems can't wait: the
+// result for them is true.
 bool is_on_disk(const std::filesystem::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return true;
@@ -119,7 +120,7 @@ void WholeFile::close_on_disk() {
     throw unwritable(place_, "can't be written to the end");
   }
   move(written);
-  static_cast<void>(is_on_disk(place_.has_parent_path() ? place_.parent_path() : "."));  // the new name; the file stands anyway
+  static_cast<void>(is_on_disk(place_.has_parent_path() ? place_.parent_path() : "."));  // the folder's entry for the new name
 }
 
 std::filesystem::path WholeFile::write_out() const {

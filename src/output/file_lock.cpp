@@ -1,4 +1,4 @@
-// By flock(2).
+// Locks with flock(2).
 #include "output/file_lock.hpp"
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ bool is_at(const std::filesystem::path& path, int file) {
          there.st_ino == here.st_ino;
 }
 
-// Pliant's are; anything else is someone's own.
+// Pliant's lock files are empty. Any other file belongs to someone else.
 bool is_empty_file(int file) {
   struct stat status {};
   return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0;
@@ -33,11 +33,12 @@ Error in_the_way(const std::filesystem::path& lock) {
           "move it, or name another place"};
 }
 
-// -1 where there is none and none can be made. What stands there is neither followed nor changed.
+// Opens or makes the lock file. Returns -1 if there is none and none can be made. It follows no link and changes no existing
+// file.
 int opened(const std::filesystem::path& lock) {
   constexpr int carefully = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   int file = open(lock.c_str(), O_RDWR | O_CREAT | carefully, 0666);
-  if (file < 0) file = open(lock.c_str(), O_RDONLY | carefully);  // another user's
+  if (file < 0) file = open(lock.c_str(), O_RDONLY | carefully);  // it may be another user's
   struct stat there {};
   if (file < 0 && lstat(lock.c_str(), &there) == 0 && !(S_ISREG(there.st_mode) && there.st_size == 0)) throw in_the_way(lock);
   if (file < 0 || is_empty_file(file)) return file;
@@ -58,12 +59,12 @@ FileLock::FileLock(const std::filesystem::path& path, For use) {
   std::error_code failure;
   if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) return;
   lock_ = std::filesystem::weakly_canonical(place_behind(path), failure);
-  if (failure) return;  // a link to itself, or a name that is too long: nothing can stand there
+  if (failure) return;  // the path is a link to itself or too long a name, so no file can exist there
   lock_ += ".lock";
   std::filesystem::create_directories(lock_.parent_path(), failure);
   const int operation = use == For::writing ? LOCK_EX : LOCK_SH;
   file_ = locked(lock_, path, operation);
-  while (file_ >= 0 && !is_at(lock_, file_)) {  // who had it has removed it meanwhile
+  while (file_ >= 0 && !is_at(lock_, file_)) {  // the program that had the lock has removed its file meanwhile
     close(file_);
     file_ = locked(lock_, path, operation);
   }
@@ -73,7 +74,7 @@ FileLock::~FileLock() {
   if (file_ < 0) return;
   std::error_code ignored;
   const bool is_alone = flock(file_, LOCK_EX | LOCK_NB) == 0;
-  if (is_alone && is_at(lock_, file_) && is_empty_file(file_)) std::filesystem::remove(lock_, ignored);  // before it is let go
+  if (is_alone && is_at(lock_, file_) && is_empty_file(file_)) std::filesystem::remove(lock_, ignored);  // while it is locked
   close(file_);
 }
 

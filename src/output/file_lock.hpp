@@ -1,21 +1,25 @@
-// Who may write or read a file, among all programs that ask.
+// Lets pliant's programs take turns at writing and reading a file.
 #pragma once
 #include <filesystem>
 
 namespace pliant {
 
-/// Keeps a file for one program that writes it, or for those that read it, as long as it lives: by a lock on PATH.lock, which the
-/// system lets go with a program that is killed. Paths and symbolic links that lead to one place have one lock; hard links do
+/// Reserves a file for one program that writes it, or for several that read it, while the object lives. It locks PATH.lock. The
+/// system releases the lock of a killed program. Paths and symbolic links to the same place share one lock, but hard links do
 /// not.
 class FileLock {
  public:
   enum class For { writing, reading };
 
-  /// Makes PATH.lock, and the folders that are missing, or takes an empty one that was left there. Throws Error (command_line)
-  /// while another one has it, unless both read, and where anything but an empty file stands there: that is left as it is.
-  /// What is no plain file, such as /dev/null, is everyone's; so is a file where there are no locks, or none can be made.
+  /// Makes PATH.lock and missing folders, or takes an empty PATH.lock that was left there. Throws Error (command_line) if
+  /// - another program has the lock, unless both read
+  /// - anything but an empty file stands at PATH.lock, which stays as it is.
+  ///
+  /// There is no lock, and no error, if
+  /// - `path` is not a plain file, such as /dev/null
+  /// - the file system has no locks, or no lock file can be made.
   explicit FileLock(const std::filesystem::path& path, For use = For::writing);
-  /// Removes PATH.lock, but for others that read, and unless it has become another file or is empty no more.
+  /// Removes PATH.lock, unless other programs still read, or it was replaced or written to meanwhile.
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;

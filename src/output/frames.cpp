@@ -23,7 +23,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   file.close();
 }
 
-// A name that no reader takes for two words or two lines.
+// Replaces blanks and control characters, so that no reader takes the name for two words or two lines.
 std::string one_word(std::string name) {
   std::ranges::replace_if(
       name, [](unsigned char c) { return c <= ' ' || c == 0x7F; }, '_');

@@ -1,4 +1,4 @@
-// PNG through stb_image_write, whose code is compiled here.
+// Writes PNG with stb_image_write, whose code is compiled here.
 #include "output/png.hpp"
 
 #include "core/expect.hpp"

@@ -1,4 +1,4 @@
-// Pictures as PNG files.
+// Writes pictures as PNG files.
 #pragma once
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 
 namespace pliant {
 
-/// Replaces `path` as a whole. Throws Error (command_line) when it can't be written.
+/// Replaces the file at `path` as a whole. Throws Error (command_line) if it can't be written.
 void write_png(const std::filesystem::path& path, const render::Image& image);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// The pipe is a pair of sockets: to write to one whose other end is gone is an error and not a signal, where asked for.
+// The pipe is a pair of sockets, because MSG_NOSIGNAL makes writing to a closed one an error instead of a signal.
 #include "output/program_pipe.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ int spawn(pid_t& child, std::vector<std::string> words, int input, int output) {
   return code;
 }
 
-// The last line alone often says only that something failed, and one before it what.
+// The last line alone often says only that something failed. A line before it says what.
 std::string last_lines_of(std::FILE* file) {
   std::rewind(file);
   std::deque<std::string> lines;

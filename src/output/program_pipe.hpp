@@ -1,4 +1,4 @@
-// Another program that is fed through its standard input.
+// Runs another program and feeds it through its standard input.
 #pragma once
 #include <sys/types.h>
 
@@ -13,10 +13,11 @@
 
 namespace pliant {
 
-/// Where PATH has an executable of that name.
+/// Returns the first executable of that name on PATH, or nothing.
 [[nodiscard]] std::optional<std::filesystem::path> find_program(const std::string& name);
 
-/// The program runs without a shell, in a process group of its own: Ctrl-C is not for it. What it prints is kept for its end.
+/// Runs the program without a shell. It has its own process group, so Ctrl-C does not end it. What it prints is kept until its
+/// end.
 class ProgramPipe {
  public:
   struct End {
@@ -24,16 +25,16 @@ class ProgramPipe {
     std::string account;  // its last three lines, and the signal that ended it; never empty
   };
 
-  /// Throws Error (command_line) when it can't be started.
+  /// Starts the program. Throws Error (command_line) if it can't.
   ProgramPipe(const std::filesystem::path& program, const std::vector<std::string>& arguments);
   /// Ends its input and waits for its end.
   ~ProgramPipe();
   ProgramPipe(const ProgramPipe&) = delete;
   ProgramPipe& operator=(const ProgramPipe&) = delete;
 
-  /// Waits until the program has taken the bytes, or nearly. False when it takes no more.
+  /// Waits until the pipe has taken all bytes. Returns false if the program takes no more.
   [[nodiscard]] bool write(std::span<const std::byte> bytes);
-  /// Ends its input and waits for its end; once.
+  /// Ends its input and waits for its end. Call it once at most.
   End finish();
 
  private:
@@ -42,7 +43,7 @@ class ProgramPipe {
   };
   void close_input();
 
-  std::unique_ptr<std::FILE, CloseFile> printed_;  // a file, for nobody reads it meanwhile: a full pipe would stop the program
+  std::unique_ptr<std::FILE, CloseFile> printed_;  // nobody reads it until the end, so a pipe could fill up and stop the program
   int input_ = -1;                                 // -1: it has ended
   pid_t child_ = 0;                                // 0: it has been waited for
 };

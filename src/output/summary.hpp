@@ -1,4 +1,4 @@
-// summary.json: what a run did, for scripts. The members' names are the file's keys.
+// Writes summary.json, which tells scripts what a run did. The members' names are the file's keys.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -20,32 +20,32 @@ struct Summary {
   int precision = 32;  // of the forces [bits]
   unsigned threads = 1;
   std::string integrator;
-  std::optional<double> time_step;  // [s]; empty where a tolerance governs it
-  std::uint64_t steps = 0;          // that stand
+  std::optional<double> time_step;  // [s]; empty with a tolerance
+  std::uint64_t steps = 0;          // without rejected ones
   struct Adaptive {
     double tolerance = 0;
     std::uint64_t accepted = 0, rejected = 0;    // steps
-    std::uint64_t rejected_in_contact = 0;       // of those rejected
-    double smallest_step = 0, largest_step = 0;  // of those accepted [s]
+    std::uint64_t rejected_in_contact = 0;       // part of the rejected steps
+    double smallest_step = 0, largest_step = 0;  // accepted steps [s]
   };
   std::optional<Adaptive> adaptive;  // empty: steps are fixed
   double simulated_seconds = 0;
-  double wall_seconds = 0;  // stepping alone
+  double wall_seconds = 0;  // of stepping alone
   double steps_per_second = 0;
   struct {
     double initial = 0, final = 0;    // [J]
-    std::optional<double> max_drift;  // relative; empty where energy is not conserved
+    std::optional<double> max_drift;  // relative; empty with damping or after contacts
   } energy;
   struct {
     std::uint64_t steps = 0;              // steps with a pair of touching triangles
     std::uint64_t pairs_max = 0;          // most triangle pairs in one step
     std::uint64_t reverted_vertices = 0;  // sum over the run
   } contacts;
-  std::optional<std::uint64_t> final_intersecting_pairs;  // empty where the state is not finite
+  std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite
   bool non_finite = false;
   bool interrupted = false;
   struct {
-    std::uint64_t force_evaluations = 0;  // all forces of one body, once
+    std::uint64_t force_evaluations = 0;  // one evaluation is all forces of one body
     std::uint64_t pair_interactions = 0;
     std::uint64_t nodes_refitted = 0;
     std::uint64_t node_tests = 0;
@@ -53,12 +53,12 @@ struct Summary {
   } work;
   std::vector<std::string> warnings;  // before and after the run
   std::vector<Count> skipped;
-  std::vector<Duration> timings_ms;       // parts of the run, one after the other
-  std::vector<Duration> pass_timings_ms;  // of the time on steps, by pass; empty where they were not measured
+  std::vector<Duration> timings_ms;       // parts of the run, in order
+  std::vector<Duration> pass_timings_ms;  // stepping time by pass; empty: not measured
   std::string version;
 };
 
-/// Numbers that are not finite become null. Throws Error (command_line) when the file can't be written.
+/// Writes the summary. Numbers that are not finite become null. Throws Error (command_line) if the file can't be written.
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Raw pictures go through a pipe; see ffmpeg(1) and https://trac.ffmpeg.org/wiki/Encode/H.264.
+// Sends raw pictures to ffmpeg through a pipe. See ffmpeg(1) and https://trac.ffmpeg.org/wiki/Encode/H.264.
 #include "output/video.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ Error failed(const std::filesystem::path& path, const ProgramPipe::End& end) {
   return {ErrorKind::command_line, path.string(), "ffmpeg failed: " + end.account, "mend that, or write --frames png"};
 }
 
-// Others that ffmpeg knows have no H.264, or no good place for it; it says so only when it has begun the file.
+// Other containers that ffmpeg knows can't hold H.264, or not well. ffmpeg says so only after it has begun the file.
 void expect_container(const std::filesystem::path& path) {
   for (const char* known : {".mp4", ".mkv", ".mov"})
     if (extension_of(path) == known) return;
@@ -27,8 +27,8 @@ std::filesystem::path encoder() {
   throw Error(ErrorKind::command_line, "--video", "there is no ffmpeg on PATH", "install it, or write --frames png");
 }
 
-// yuv420p, which every player knows, has even sizes. Colours are sRGB's, said to be so, for players guess by size otherwise.
-// "file:" keeps names with colons or a leading dash from being taken for something else.
+// Every player knows yuv420p, which needs even sizes. The colours are labelled as sRGB, because players otherwise guess them from
+// the size. With "file:" ffmpeg takes names with colons or a leading dash for files.
 std::vector<std::string> arguments_for(const std::filesystem::path& path, const VideoFormat& format) {
   return {"-hide_banner",
           "-nostdin",

@@ -1,4 +1,4 @@
-// A video of a run's frames, encoded by ffmpeg while the run goes on.
+// Writes a video of a run's frames. ffmpeg encodes it while the run goes on.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -16,18 +16,19 @@ struct VideoFormat {
 
 class VideoFile {
  public:
-  /// Whether ffmpeg is there, on PATH.
+  /// Returns whether ffmpeg is on PATH.
   [[nodiscard]] static bool has_encoder();
 
-  /// H.264 in the container that the path's ending names: mp4, mkv or mov. Creates the folders that are missing, and replaces
-  /// an existing file. Throws Error (command_line) for another ending, where the file can't be written or is no plain one, or
+  /// Writes H.264 into the container that the path's ending names: mp4, mkv or mov. Makes missing folders and replaces an
+  /// existing file. Throws Error (command_line) for another ending, if the file can't be written or is not a plain file, or if
   /// ffmpeg can't be started.
   VideoFile(const std::filesystem::path& path, const VideoFormat& format);
 
-  /// Expects a picture of the format's size. Throws Error (command_line), with ffmpeg's last lines, when it takes no more.
+  /// Adds a picture. Expects one of the format's size. If ffmpeg takes no more, it throws Error (command_line) with ffmpeg's last
+  /// lines.
   void write(const render::Image& image);
-  /// Waits until ffmpeg is done; before that, the file may not be whole. Throws as write() does. Without it the file becomes
-  /// whole when the VideoFile goes, but a failure goes unnoticed.
+  /// Waits until ffmpeg is done and the file is whole. Throws as write() does. Without this call the destructor waits, but a
+  /// failure goes unnoticed.
   void close();
 
  private:
