@@ -11,12 +11,11 @@
 namespace pliant {
 namespace {
 
-constexpr double longest_tried = 1;  // of a step, where a tolerance asks for some [s]
+constexpr double longest_tried = 1;  // longest step that a trial with a tolerance makes [s of wall time]
 
-// No numbers: nothing came of a trial. At least: a trial would take long.
 struct Estimate {
-  double steps = 0, seconds = 0;
-  bool is_least = false;
+  double steps = 0, seconds = 0;  // NaN if no step of the trial stood or it became non-finite
+  bool is_least = false;          // a lower bound, because a trial would take long
 };
 
 Estimate estimate_fixed(const PreparedRun& run) {
@@ -30,8 +29,8 @@ Estimate least_of_adaptive(const PreparedRun& run, double step_seconds) {
   return {steps, steps * step_seconds, true};
 }
 
-// Runs the scene for a second, at least a step, and takes the rest to be alike. Bodies that meet only later, or come to rest, are
-// beyond it.
+// Runs the scene for a second, or for one step if that is longer, and assumes that the rest costs the same. It can't foresee that
+// bodies meet later or come to rest.
 Estimate estimate_adaptive(const PreparedRun& run) {
   const double step_seconds = seconds_per_step(run);
   if (step_seconds > longest_tried) return least_of_adaptive(run, step_seconds);

@@ -1,4 +1,3 @@
-// See checkpoint.hpp.
 #include "run/checkpoint.hpp"
 
 #include <fmt/format.h>
@@ -17,13 +16,14 @@
 namespace pliant {
 namespace {
 
-// These are held as they stand in memory. Whoever changes one raises the version, too: a changed order does not show here.
+// A checkpoint holds these structs as bytes of memory. If you change one, raise checkpoint_version too: the sizes here do not
+// show a changed order.
 static_assert(checkpoint_version == 7 && sizeof(physics::Pose) == 200 && sizeof(physics::Status) == 16 &&
                   sizeof(physics::Tally) == 12 && sizeof(physics::Control) == 144 && sizeof(physics::Pace) == 192 &&
                   sizeof(RunProgress) == 296 && physics::slot_count == 3,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
-// Every option by its name: with a new one this does not compile until it says whether a checkpoint holds it.
+// Names every option, so that adding one does not compile until this function says whether a checkpoint holds it.
 template <class Archive, class Options>
 void visit_options(Archive& archive, Options& options) {
   auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
@@ -33,7 +33,7 @@ void visit_options(Archive& archive, Options& options) {
           interval);
 }
 
-// The same for writing and for reading.
+// Serves writing and reading.
 template <class Archive, class Held>
 void visit(Archive& archive, Held& held) {
   auto& [version, options, working_folder, device_name, scene_text, mesh_checksums, warnings, progress, history, simulation] =
@@ -43,10 +43,10 @@ void visit(Archive& archive, Held& held) {
   archive(working_folder, device_name, scene_text, mesh_checksums, warnings, progress, history, simulation);
 }
 
-// Bits change between commits, too.
+// Includes the commit, because bits can change between commits too.
 std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
 
-// With a project that was moved its folder is gone, and the one to be in is the one it has come to.
+// If the folder is gone, the project was moved. Relative paths then start in the current folder.
 bool is_here_or_gone(const std::filesystem::path& folder) {
   std::error_code failure;
   return folder == std::filesystem::current_path(failure) || !std::filesystem::is_directory(folder, failure);
@@ -82,10 +82,10 @@ bool is_over(const PreparedRun& run) {
   return run.plan.tolerance ? report.time >= run.plan.duration : report.steps >= run.plan.steps;
 }
 
-// Those that the run had stay with it.
+// Keeps the warnings that the run had, and warns if its bits may differ from here on.
 void add_warnings(const Checkpoint& before, PreparedRun& run) {
   run.warnings = before.warnings;
-  if (is_over(run)) return;  // there are no bits to differ
+  if (is_over(run)) return;  // no more steps are made, so no bits can differ
   const std::uint64_t step = run.simulation->report().steps;
   if (device_of(before) != device_of(run))
     run.warnings.push_back(fmt::format("up to step {} the run was on {}, and goes on on {}: its bits differ from there on", step,
@@ -105,13 +105,13 @@ Checkpoint load_checkpoint(const std::filesystem::path& file) {
   }
 }
 
-// Whether or not there is a file yet.
+// Works for files that do not exist yet, too.
 std::filesystem::path full_place(const std::filesystem::path& path) {
   std::error_code failure;
   return std::filesystem::weakly_canonical(place_behind(path), failure);
 }
 
-// One file by two names, too.
+// Also finds that two names are hard links to one file.
 bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code failure;
   return full_place(a) == full_place(b) || std::filesystem::equivalent(a, b, failure);
@@ -137,7 +137,7 @@ void take_device(RunOptions& run, const RunOptions& given) {
   if (!given.device.kind && !given.device.gpu_index) return;
   run.device.kind = given.device.kind;
   run.device.gpu_index = given.device.gpu_index;
-  if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) run.device.precision.reset();  // it has its own
+  if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) run.device.precision.reset();  // a GPU has only one
 }
 
 void take_threads(RunOptions& run, const RunOptions& given) {
@@ -191,7 +191,7 @@ Checkpoint checkpoint_from(std::string_view bytes) {
   return checkpoint;
 }
 
-// The lock comes first: what a run writes there at its end would be lost to one that had read what it wrote before.
+// Locks the file before it reads it. Else another run could write there after the reading, and that would be lost.
 Resumed load_resumed(const RunOptions& given) {
   const bool goes_on_there = given.checkpoint.empty() || full_place(given.checkpoint) == full_place(given.resume);
   std::unique_ptr<FileLock> lock;
@@ -226,7 +226,7 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
 CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock)
     : file_(options.checkpoint),
       lock_(std::move(lock)),
-      has_one_(lock_ != nullptr),  // the one that it goes on from
+      has_one_(lock_ != nullptr),  // with a lock the run goes on from a checkpoint in this file
       interval_(options.checkpoint_interval.value_or(default_checkpoint_interval)) {
   if (!is_wanted()) return;
   expect_no_output(file_, options);

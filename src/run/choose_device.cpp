@@ -6,7 +6,7 @@
 namespace pliant {
 namespace {
 
-// Where none is asked for.
+// Returns whether an automatic choice may take a GPU.
 bool may_be_gpu(const DeviceChoice& choice) {
   return choice.kind.value_or(DeviceKind::automatic) == DeviceKind::automatic && choice.precision.value_or(32) == 32;
 }

@@ -1,4 +1,4 @@
-// Which device a run takes.
+// Chooses the device of a run.
 #pragma once
 #include <memory>
 #include <optional>
@@ -11,7 +11,7 @@ namespace pliant {
 enum class DeviceKind { automatic, cpu, gpu };
 
 struct DeviceChoice {
-  std::optional<DeviceKind> kind;  // empty: automatic, or what a run had that is resumed
+  std::optional<DeviceKind> kind;  // empty: automatic, or what a resumed run had before
   std::optional<int> gpu_index;    // of gl::list_adapters()
   std::optional<int> precision;    // of the forces [bits]; empty: 32
   unsigned threads = 0;            // 0: one a processor
@@ -19,13 +19,14 @@ struct DeviceChoice {
 
 [[nodiscard]] bool has_hardware_gpu();
 
-/// Throws Error (command_line) for a contradiction.
+/// Throws Error (command_line) if the choice contradicts itself.
 void expect_consistent(const DeviceChoice& choice);
 
-/// Automatic: a hardware GPU if there is one and precision is 32, else the CPU; software OpenGL only when the GPU is asked for.
-/// Throws Error: command_line for a contradiction, device when there is no such device.
+/// Makes the device. The automatic choice is a hardware GPU if there is one and the precision is 32, else the CPU. Software
+/// OpenGL is used only if a GPU is asked for. Throws Error: command_line if the choice contradicts itself, device if there is no
+/// such device.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice);
-/// The same, where the only GPU is that of a window.
+/// Does the same, but the only GPU is the window's.
 [[nodiscard]] std::unique_ptr<Device> choose_device(const DeviceChoice& choice, gl::Context& window);
 
 }  // namespace pliant

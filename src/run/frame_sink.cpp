@@ -15,7 +15,7 @@ namespace {
 
 render::SceneBox box_of(const PreparedRun& run) { return render::box_around(run.start.state.world_positions(run.start.model)); }
 
-// Where steps are longer than frames there is a frame a step: a second of video is a second all the same.
+// If steps are longer than frames, each step is a frame. The lower rate lets a second of video still be a second of the run.
 VideoFormat video_format_of(const PreparedRun& run) {
   const double rate = run.scene.output.frame_rate;
   return {run.scene.output.size.x, run.scene.output.size.y, run.plan.tolerance ? rate : std::min(rate, 1 / run.plan.time_step)};
@@ -31,7 +31,7 @@ std::unique_ptr<gl::Context> context_for_drawing() {
 
 }  // namespace
 
-/// Draws on the GPU device's context, or on its own beside a CPU device.
+/// Draws on the GPU device's context. For a CPU device it makes its own context.
 class FrameSink::Painter {
  public:
   explicit Painter(PreparedRun& run)

@@ -13,12 +13,12 @@ namespace pliant {
 
 struct FrameTargets {
   FrameFormat format = FrameFormat::none;
-  std::filesystem::path folder;  // of files of that format
-  std::filesystem::path video;   // a file instead of these; empty: none
+  std::filesystem::path folder;  // for files of that format
+  std::filesystem::path video;   // file to write instead of these; empty: none
   int first = 0;                 // number of the first frame
 };
 
-/// "1 frame", "2 frames".
+/// Returns such as "1 frame" or "2 frames".
 [[nodiscard]] std::string counted(int count, const char* thing);
 
 class FrameSink {
@@ -26,12 +26,12 @@ class FrameSink {
   FrameSink(PreparedRun& run, FrameTargets targets);
   ~FrameSink();
 
-  /// Writes the state as it stands as the next frame. A video that fails costs no run: a warning tells of it, and later frames
-  /// go nowhere.
+  /// Writes `state`, the simulation's current state, as the next frame. If a video fails, it warns and drops later frames, and
+  /// the run goes on.
   void write(const State& state);
-  /// After the last frame. Throws Error (command_line) where a video failed, on the way or at its end.
+  /// Call it after the last frame. Throws Error (command_line) if a video has failed.
   void close();
-  /// Of all frames, those before the first one too.
+  /// Returns the number of frames written, plus FrameTargets::first.
   [[nodiscard]] int count() const { return count_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 std::atomic<std::int64_t> first_interrupt{0};  // [ns] of the monotonic clock; 0: none yet
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a signal's handler may use it");
 
-// By the one way to ask that a signal's handler may take.
+// A signal handler may call clock_gettime.
 std::int64_t nanoseconds_now() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

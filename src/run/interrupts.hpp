@@ -1,19 +1,19 @@
-// What Ctrl-C and SIGTERM do, in every command that takes long.
+// Handles Ctrl-C and SIGTERM in commands that take long.
 #pragma once
 #include <chrono>
 
 namespace pliant {
 
-inline constexpr int exit_interrupted = 130;  // as shells have it after Ctrl-C
+inline constexpr int exit_interrupted = 130;  // the code that shells use after Ctrl-C
 
-/// From here on the first Ctrl-C or SIGTERM asks for an early end, after what is in hand; another one, a second or more later,
-/// ends the program at once. Until it is called, the first one ends it.
+/// After this call the first Ctrl-C or SIGTERM asks for an early end, and the current work is finished first. Another one, a
+/// second or more later, ends the program at once. Before this call the first one ends it at once.
 void watch_for_interrupts();
 
-/// Whether to come to an end. Any thread may ask.
+/// Returns whether the program should come to an end. Any thread may ask.
 [[nodiscard]] bool is_interrupted();
 
-/// Whether an interrupt so long after the first is another one: `timeout` sends two together, which are one.
+/// Returns whether an interrupt so long after the first counts as another one. `timeout` sends two together, which count as one.
 [[nodiscard]] constexpr bool is_another_interrupt(std::chrono::nanoseconds after_first) {
   return after_first >= std::chrono::seconds(1);
 }

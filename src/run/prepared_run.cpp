@@ -13,7 +13,7 @@
 namespace pliant {
 namespace {
 
-// An option replaces what the scene says; but with --set both come from the command line.
+// An option replaces what the scene says. But --set comes from the command line, too, and then neither can replace the other.
 void expect_one_of(const std::string& option, const std::string& key, const RunOptions& options) {
   for (const std::string& override : options.overrides)
     if (override.substr(0, override.find_first_of("= ")) == key)

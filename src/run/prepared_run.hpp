@@ -1,4 +1,4 @@
-// A scene made ready to run: loaded, built and planned, with the command line's changes applied.
+// Makes a scene ready to run: loads, builds and plans it with the command line's changes.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -14,10 +14,10 @@
 namespace pliant {
 
 struct PreparedRun {
-  std::filesystem::path working_folder;  // that relative places are in; empty if it had gone at the start
+  std::filesystem::path working_folder;  // where relative paths start; empty: it was gone at the start
   std::string scene_text;
   SceneDescription scene;
-  std::vector<std::uint64_t> mesh_checksums;  // of each body's vertices and triangles
+  std::vector<std::uint64_t> mesh_checksums;  // one a body, of its vertices and triangles
   ModelAndState start;
   TimePlan plan;
   std::unique_ptr<Device> device;
@@ -26,8 +26,12 @@ struct PreparedRun {
   Stopwatch load_time, build_time;
 };
 
-/// It must not move, since its simulation refers to its model. Throws Error. Warnings tell of meshes, of a step beyond the
-/// stability bound and of bodies that overlap at the start.
+/// Returns a run that must not move, because its simulation refers to its model. Throws Error.
+/// The run's warnings tell of
+/// - flaws of meshes
+/// - an integrator that was replaced because it can't meet the tolerance
+/// - a step beyond the stability bound, or no step at all
+/// - bodies that intersect at the start.
 [[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options);
 
 }  // namespace pliant

@@ -19,10 +19,10 @@
 namespace pliant {
 namespace {
 
-// Of energy, from which on a run warns.
+// A run warns if its energy has grown by this factor or more.
 constexpr double told_growth = 1.05;
 
-// Less than this is rounding, or nothing to speak of: of a spring as long as a body's radius, some 1e-12.
+// Returns the energy [J] below which a change counts as rounding: 1e-12 of the largest energy_scale of a force.
 double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
   for (const ModelBody& body : model.bodies)
@@ -31,7 +31,7 @@ double smallest_energy(const Model& model) {
   return scale;
 }
 
-// Against what there was at the start and what gravity has given since: neither depends on where the world's origin is.
+// Compares with the energy at the start plus what gravity has given since. Neither depends on the world's origin.
 double energy_growth(const RunProgress& progress, const Model& model) {
   const Measurement &first = progress.first, &latest = progress.latest;
   const double had = first.kinetic + first.elastic_size + std::abs(latest.gravitational - first.gravitational);
@@ -89,7 +89,7 @@ Summary summary_of(const RunStatus& status) {
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
   s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices};
   if (report.non_finite)
-    s.energy.final = std::nan("");  // the step that broke, whatever a sum of it gives
+    s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   else
     s.final_intersecting_pairs = run.simulation->intersections().pairs;
   s.non_finite = report.non_finite.has_value();
@@ -115,7 +115,7 @@ Summary summary_of(const RunStatus& status) {
 void show_beginning(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   fmt::print("going on with {} at step {}, into {}\n", run.scene.file.string(), report.steps, folder_of(options).string());
-  std::fflush(stdout);  // it may take hours until there is more
+  std::fflush(stdout);  // the next output may come hours later
 }
 
 void show_progress(const RunStatus& status) {

@@ -1,4 +1,4 @@
-// What a run says of itself: on the way, at the end, and in its summary.
+// Reports on a run: on the way, at the end, and in its summary.
 #pragma once
 #include <optional>
 #include <string>
@@ -17,15 +17,15 @@ struct RunStatus {
   const StepReport& report;
 };
 
-/// What went wrong; a step beyond its bound is among the warnings from before the run.
+/// Describes a breakdown or growing energy, or returns nothing. A step beyond its bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
 
-/// Counts the triangles that intersect at the end.
+/// Returns the summary. Unless the state is non-finite, it searches for the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);
 
-/// Where a resumed run goes on.
+/// Prints where a resumed run goes on.
 void show_beginning(const RunStatus& status);
-/// A bar, on a terminal.
+/// Draws a progress bar if standard error is a terminal.
 void show_progress(const RunStatus& status);
 void show_end(const RunStatus& status);
 

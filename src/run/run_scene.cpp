@@ -1,4 +1,4 @@
-// Steps from frame to frame; measures, writes and draws at each; reports at the end.
+// Steps from frame to frame. It measures, writes and draws at each frame, and reports at the end.
 #include "run/run_scene.hpp"
 
 #include <fmt/format.h>
@@ -29,12 +29,12 @@
 namespace pliant {
 namespace {
 
-constexpr double patience = 1;           // that Ctrl-C has with measuring [s]
-constexpr double time_of_a_batch = 0.1;  // of steps, after which Ctrl-C is heard and progress shown [s]
+constexpr double patience = 1;           // how long measuring may go on after Ctrl-C [s]
+constexpr double time_of_a_batch = 0.1;  // aimed at between two checks for Ctrl-C and updates of the progress [s]
 
 class Run {
  public:
-  /// From its start, or from where the checkpoint stood, whose lock it takes.
+  /// Begins at the start, or goes on from a checkpoint and takes over its lock.
   Run(const RunOptions& options, PreparedRun& prepared, std::optional<Resumed> from)
       : options_(options),
         run_(prepared),
@@ -56,7 +56,7 @@ class Run {
   int execute() try {
     if (options_.timings) run_.simulation->time_passes();
     report_ = run_.simulation->report();
-    if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // not another run's until one is due
+    if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // replaces another run's at once
     if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
     if (report_.steps == 0)
       begin();
@@ -107,7 +107,7 @@ class Run {
     record_unless_recorded();
   }
 
-  // Batches grow while they are short: a report a step would cost more than small steps do.
+  // Batches grow while they are short, because a report after each step would cost more than small steps.
   void advance_by(std::uint64_t steps) {
     const double before = progress_.times.stepping.seconds();
     step([&] {
@@ -130,14 +130,15 @@ class Run {
     if (checkpoints_.is_due() && report_.steps > 0) keep_checkpoint(progress_, history_.text());
   }
 
-  // Not of a run that has failed: the one before is worth more. At step 0 the history has no row, for a run begins with one.
+  // If the run has failed, the checkpoint before is worth more. At step 0 the history has no row yet.
   void keep_checkpoint(RunProgress progress, const std::string& history) {
     if (report_.non_finite) return;
     progress.times = progress_.times;
     progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
   }
 
-  // An interrupt may have put the latest row between two frames, or left it without its energy: it is made again.
+  // An interrupt may have put the latest row between two frames, or left it without its energy. So the checkpoint is from before
+  // that row, and a resumed run makes the row again.
   void keep_interrupted() {
     if (checkpoints_.is_wanted() && is_interrupted())
       keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
@@ -169,7 +170,7 @@ class Run {
                      .reverted_vertices = report_.reverted_vertices});
   }
 
-  // Once for each force.
+  // Warns once for each force.
   void warn_of_forces() {
     for (const Force& force : forces()) {
       if (force.warning == nullptr || warned_of_.contains(force.name)) continue;
@@ -181,7 +182,7 @@ class Run {
     }
   }
 
-  // After Ctrl-C for a moment only; without the elastic energy where that is not enough.
+  // After Ctrl-C it measures for a moment only. If that is too short, the elastic energy is missing.
   Measurement measured() {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(patience);
@@ -194,7 +195,8 @@ class Run {
     progress_.frames_written = static_cast<std::uint64_t>(frames_.count());
   }
 
-  // At last: when a video can't be ended, all else is there. How the run itself ended says more than that.
+  // Runs last, so that all else is written if a video can't be ended. If the run itself failed, its exit code matters more than
+  // the video's error.
   int end_frames(int exit_code) {
     try {
       frames_.close();
@@ -214,7 +216,7 @@ class Run {
       fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
   }
 
-  // A file that can't be written leaves those of two runs side by side.
+  // If a file can't be written, files of an earlier run may stand beside those of this run. Returns which.
   std::string told_earlier_files() const {
     std::string names;
     std::error_code unknown;  // counts as none
@@ -230,7 +232,7 @@ class Run {
     return names.empty() ? "" : fmt::format("left there by an earlier run: {}; all else is of this one", names);
   }
 
-  // The summary is small: it may fit where the state does not.
+  // If the state can't be written, the summary may still fit, because it is small.
   void write_end() {
     const std::optional<Error> lost = write_state();
     has_state_ = !lost;
@@ -255,21 +257,22 @@ class Run {
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
   RunProgress progress_;
-  FrameSink frames_;  // before any file is touched: there may be nothing to draw with
+  FrameSink frames_;  // made before any file is touched, because drawing may be impossible here
   CheckpointKeeper checkpoints_;
   HistoryFile history_;
   struct {
     RunProgress progress;
     std::size_t history_length;
-  } before_row_;  // the latest one
+  } before_row_;  // as they were before the latest row
   StepReport report_;
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
-  std::set<std::string_view> warned_of_;  // forces
-  bool has_state_ = false, has_summary_ = false;  // their files are this run's
+  std::set<std::string_view> warned_of_;          // names of forces
+  bool has_state_ = false, has_summary_ = false;  // this run has written them
 };
 
-// Makes the first folder that is missing, and removes it: permissions do not tell it everywhere, as in /proc.
+// Throws Error if the folder can't be made or written to. It tries by making and removing the first missing folder, because
+// permissions do not tell everywhere, for example in /proc.
 void expect_folder(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::path existing = std::filesystem::absolute(folder, failure), missing;
@@ -285,7 +288,7 @@ void expect_folder(const std::filesystem::path& folder) {
   std::filesystem::remove(missing, failure);
 }
 
-// Before any of it is replaced, and not after hours of steps.
+// Checks the outputs before any is replaced, and before hours of steps.
 void expect_outputs(const RunOptions& options) {
   const std::filesystem::path folder = folder_of(options);
   expect_folder(folder);
@@ -293,7 +296,7 @@ void expect_outputs(const RunOptions& options) {
   if (options.frames != FrameFormat::none) expect_folder(folder / "frames");
 }
 
-// Where nothing can encode a video its pictures are written.
+// If no program can encode a video, its frames are written as pictures.
 RunOptions drawable(RunOptions options) {
   if (options.video.empty() || VideoFile::has_encoder()) return options;
   options.video.clear();
@@ -318,7 +321,8 @@ int run_scene(const RunOptions& given) {
   PreparedRun& prepared = *run;
   if (from) resume(given, from->checkpoint, prepared);
   if (!given.video.empty() && options.video.empty())
-    prepared.warnings.emplace_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
+    prepared.warnings.emplace_back(
+        "--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
   for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   if (options.check) {
     show_check(prepared);

@@ -1,4 +1,4 @@
-// `pliant run`: a scene from file to pictures and numbers.
+// `pliant run`: simulates a scene and writes pictures and numbers.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -14,14 +14,14 @@ namespace pliant {
 inline constexpr int exit_non_finite = 5;
 inline constexpr double default_checkpoint_interval = 300;  // [s] of wall time
 
-// What a run leaves in its folder, beside frames.
+// Files that a run writes into its folder, besides frames.
 inline constexpr const char* history_name = "history.csv";
 inline constexpr const char* final_state_name = "final_state.csv";
 inline constexpr const char* summary_name = "summary.json";
 inline constexpr const char* output_names[] = {history_name, final_state_name, summary_name};
 
 struct RunOptions {
-  std::filesystem::path base;  // folder that `scene` and `out` are in where they are relative; empty: the current one
+  std::filesystem::path base;  // folder where relative `scene` and `out` start; empty: the current one
   std::filesystem::path scene;
   DeviceChoice device;
   std::optional<std::uint64_t> steps;
@@ -35,19 +35,20 @@ struct RunOptions {
   std::filesystem::path video;                // file to write instead of frames; empty: none
   std::filesystem::path checkpoint;           // file to write what the run can be resumed from; empty: none
   std::optional<double> checkpoint_interval;  // [s] of wall time
-  std::filesystem::path resume;  // such a file, instead of a scene; options of the scene and of frames are then the file's
-  std::optional<std::string> scene_text;  // instead of what the scene's file holds
-  bool timings = false;                   // of each kind of pass
+  /// Checkpoint to go on from, instead of a scene. Options of the scene and of frames then come from the checkpoint.
+  std::filesystem::path resume;
+  std::optional<std::string> scene_text;  // used instead of the scene file's content
+  bool timings = false;                   // measure each kind of pass
   bool check = false;                     // validate and estimate only
   bool quiet = false;
 };
 
-/// The scene's file, and where a run writes.
+/// Return the scene's file, and the folder where a run writes.
 [[nodiscard]] std::filesystem::path scene_of(const RunOptions& options);
 [[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
-/// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp); what there is was written in each case. Throws
-/// Error.
+/// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp). In each case it has written the results so
+/// far. Throws Error.
 [[nodiscard]] int run_scene(const RunOptions& options);
 
 }  // namespace pliant

@@ -9,8 +9,8 @@
 namespace pliant {
 namespace {
 
-constexpr double most_pairs_tried = 1e7;       // N (N - 1) of all bodies: 0.1 s a step on a CPU
-constexpr double shortest_calibration = 0.02;  // of a step [s]: on a GPU shorter ones have a rate of their own
+constexpr double most_pairs_tried = 1e7;       // sum of N (N - 1) over all bodies: 0.1 s a step on a CPU
+constexpr double shortest_calibration = 0.02;  // of a step [s]; on a GPU shorter steps have other rates
 constexpr int coarsest = 3, finest = 7;        // spheres of 642 to 163,842 vertices
 
 double pair_count(const Model& model) {
@@ -19,14 +19,14 @@ double pair_count(const Model& model) {
   return pairs;
 }
 
-// So that no force is skipped.
+// Deforms every body, so that no force is skipped.
 State deformed(const ModelAndState& start) {
   State state = start.state;
   swell(start.model, state, 1e-3);
   return state;
 }
 
-// A second step's, unless that would take long: the first also pays for what is done once.
+// Times a second step, unless that would take long, because the first also pays for what is done once.
 double seconds_of_step(Device& device, const ModelAndState& start, TimePlan plan, const CollisionDescription& collision) {
   plan.tolerance.reset();
   Simulation trial(device, start.model, deformed(start), plan, collision);
@@ -53,7 +53,7 @@ double seconds_by_springs(const PreparedRun& run) {
   const bool is_cpu = run.device->info().kind == "cpu";
   const auto own = is_cpu ? make_cpu_device(run.device->info().threads, run.device->precision()) : nullptr;
   TimePlan plan = run.plan;
-  plan.time_step = 1e-6;  // stable, whatever the sphere
+  plan.time_step = 1e-6;  // stable for every sphere
   for (int level = coarsest;; ++level) {
     const ModelAndState start = sphere(level);
     const double seconds = seconds_of_step(own ? *own : *run.device, start, plan, {});

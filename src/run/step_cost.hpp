@@ -1,4 +1,4 @@
-// What a step of a scene costs, found without making one that takes long.
+// Estimates what a step of a scene costs, without making one that takes long.
 #pragma once
 #include <cstddef>
 
@@ -6,11 +6,11 @@
 
 namespace pliant {
 
-/// Time of a step in which every body is deformed [s]. A scene of few springs makes one. Else spheres of growing size do, until a
-/// step takes 20 ms, and the cost goes by the number of springs: contacts are then left out.
+/// Returns the time of a step in which every body is deformed [s]. If the scene has few springs, it times a step of the scene.
+/// Else it times spheres of growing size until a step takes 20 ms, and scales by the number of springs. That leaves out contacts.
 [[nodiscard]] double seconds_per_step(const PreparedRun& run);
 
-/// What the device holds, with what summing forces takes on a CPU.
+/// Returns the device's memory [bytes]. For a CPU it includes the scratch memory for summing forces.
 [[nodiscard]] std::size_t bytes_of_run(const PreparedRun& run);
 
 }  // namespace pliant
