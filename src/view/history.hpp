@@ -1,4 +1,4 @@
-// The latest states of a simulation, as many as a bounded memory holds, to go back to.
+// Keeps the latest states of a simulation to go back to, as many as a bounded memory holds.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,19 +9,19 @@ namespace pliant::view {
 
 struct Snapshot {
   std::uint64_t step = 0;
-  std::string saved;  // by Simulation::save
+  std::string saved;  // what Simulation::save returned
 
   [[nodiscard]] std::size_t bytes() const;
 };
 
 class History {
  public:
-  /// Holds the latest snapshots that fit into `most_bytes` together, but always one.
+  /// Holds the latest snapshots that fit into `most_bytes` together. It always holds the latest one.
   explicit History(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Snapshots of this step and of later ones are replaced by it.
+  /// Adds a snapshot. It replaces snapshots of the same step and of later ones.
   void record(Snapshot snapshot);
-  /// The latest one from before a step; null if there is none. Valid until the next record() or clear().
+  /// Returns the latest snapshot from before `step`, or null. It is valid until the next record() or clear().
   [[nodiscard]] const Snapshot* before(std::uint64_t step) const;
   void clear();
   [[nodiscard]] std::size_t size() const { return snapshots_.size(); }

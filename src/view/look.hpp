@@ -1,4 +1,4 @@
-// What a picture of a session depends on.
+// The values that a picture of a session depends on.
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -10,12 +10,12 @@ namespace pliant::view {
 
 enum class Colors { body, deformation, speed };
 
-/// What is drawn over the bodies, and how they are.
+/// How bodies are drawn, and what is drawn over them.
 struct Shows {
   bool wireframe = false;
   Colors colors = Colors::body;
   bool velocities = false, contacts = false;
-  std::optional<unsigned> tree_level;  // whose boxes are drawn; the root is 0
+  std::optional<unsigned> tree_level;  // level whose boxes are drawn, 0 for the root; empty: no boxes
 
   bool operator==(const Shows&) const = default;
 };

@@ -1,4 +1,4 @@
-// What is drawn over bodies to show how they are simulated, as lines.
+// Makes the lines that are drawn over bodies to show how they are simulated.
 #pragma once
 #include <span>
 #include <vector>
@@ -11,13 +11,14 @@ namespace pliant::view {
 
 using Lines = std::vector<render::LineEnd>;
 
-/// The boxes of all trees' nodes at a level, the root's being 0, and of leaves above it. `positions` are the vertices' [m].
+/// Adds the boxes of all trees' nodes at a level, and of leaves above it. The root's level is 0. `positions` are the vertices'
+/// [m].
 void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> positions, unsigned level);
 
-/// A tenth of a second's way of each vertex.
+/// Adds a line from each vertex to where its velocity takes it in a tenth of a second.
 void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
 
-/// A cross, a tenth of the body's radius wide, at each of the vertices.
+/// Adds a cross at each touching vertex. It is a tenth of the body's radius wide.
 void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions,
                   std::span<const std::uint32_t> touching);
 

@@ -14,7 +14,7 @@ void Series::add(double value) {
 }
 
 void Observer::look(Session& session) {
-  constexpr double interval = 0.1, largest_share = 0.1;  // [s], of the time
+  constexpr double interval = 0.1, largest_share = 0.1;  // [s], and the part of the time that samples may take
   const double began = clock_();
   if (began < next_ || session.non_finite()) return;
   if (!before_ || session.step() != before_->step) take_sample(session);
@@ -39,7 +39,7 @@ void Observer::take_sample(Session& session) {
   before_ = after;
 }
 
-// On one thread: the others belong to the device.
+// Measures on one thread, because the others belong to the device.
 void Observer::measure_energy(Session& session) {
   ThreadPool pool(1);
   const auto began = std::chrono::steady_clock::now();

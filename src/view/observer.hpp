@@ -1,4 +1,4 @@
-// What a viewer tells of a simulation: read back, measured and kept only while somebody looks.
+// Observes a simulation for a viewer. It reads back and measures only while somebody looks.
 #pragma once
 #include <functional>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace pliant::view {
 
-/// The latest numbers, as many as a plot shows.
+/// The latest numbers of a plot.
 class Series {
  public:
   static constexpr std::size_t most = 240;
@@ -26,15 +26,15 @@ class Series {
 
 struct PassTime {
   std::string name;
-  double milliseconds = 0;  // of the device, a step
+  double milliseconds = 0;  // device time in a step
 };
 
 struct Observation {
   Series energy;                 // of all bodies [J]
-  bool energy_is_known = true;   // else there are too many springs to measure it live
-  Series touching;               // vertices that contacts held back from one sample to the next
-  std::vector<PassTime> passes;  // while they are timed
-  double step_milliseconds = 0;  // a step took, over the latest samples; 0: none was seen
+  bool energy_is_known = true;   // false: there are too many springs to measure it live
+  Series touching;               // number of vertices that contacts held back between two samples
+  std::vector<PassTime> passes;  // longest first; empty: not timed
+  double step_milliseconds = 0;  // mean time of a step over the latest samples; 0: none was made
 };
 
 class Observer {
@@ -42,16 +42,17 @@ class Observer {
   /// `clock` gives the time from any origin [s].
   explicit Observer(std::function<double()> clock) : clock_(std::move(clock)) {}
 
-  /// Takes a sample where the latest one began a tenth of a second ago, or ten times as long ago as it took to take.
+  /// Takes a sample if the latest one began at least a tenth of a second ago. A sample that took longer than 10 ms delays the
+  /// next one to ten times as long.
   void look(Session& session);
-  /// What happens before the next sample is not counted: nobody looked, or the simulation is another.
+  /// Drops what happens before the next sample from the counts. Call it if nobody looked meanwhile or the simulation is another.
   void count_anew() { before_.reset(); }
-  /// Of another scene, or from another start.
+  /// Forgets all samples. Call it for another scene or another start.
   void forget();
   [[nodiscard]] const Observation& observation() const { return observation_; }
 
  private:
-  struct Counts {  // all of them sums
+  struct Counts {  // sums since the start
     std::uint64_t step = 0, touching = 0;
     Stepping stepping;
     std::map<std::string_view, double> pass_seconds;
@@ -63,7 +64,7 @@ class Observer {
 
   std::function<double()> clock_;
   Observation observation_;
-  double next_ = 0;               // [s]
+  double next_ = 0;               // time of the next sample [s]
   std::optional<Counts> before_;  // at the latest sample; empty: the next one is the first
 };
 

@@ -1,4 +1,4 @@
-// The camera's place on a sphere around its target, by azimuth and elevation.
+// Places the camera on a sphere around its target by azimuth and elevation.
 #include "view/orbit.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace pliant::view {
 namespace {
 
-const double highest = glm::radians(87.0);  // beyond, another axis would say where the picture's top is
+const double highest = glm::radians(87.0);  // above it axes_of takes another axis for the picture's top
 
 /// Unit vector towards the eye.
 glm::dvec3 direction(double azimuth, double elevation) {
@@ -23,7 +23,7 @@ CameraDescription orbit(const CameraDescription& camera, const glm::dvec2& from,
   const glm::dvec2 drag = (to - from) / size;
   const glm::dvec3 back = render::axes_of(camera).back;
   const double azimuth = std::atan2(back.x, back.z) - 2 * std::numbers::pi * drag.x;
-  const double before = std::asin(std::clamp(back.y, -1.0, 1.0));  // of a camera that looks straight down: let it stay there
+  const double before = std::asin(std::clamp(back.y, -1.0, 1.0));  // may exceed `highest` and is then kept
   const double elevation = std::clamp(before + std::numbers::pi * drag.y, std::min(-highest, before), std::max(highest, before));
   CameraDescription turned = camera;
   turned.eye = camera.target + glm::distance(camera.eye, camera.target) * direction(azimuth, elevation);

@@ -10,7 +10,7 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// How far along the ray a triangle is hit, in its direction's length (Moeller and Trumbore, 1997).
+/// Returns how far along the ray it hits a triangle, in lengths of the direction (Moeller and Trumbore, 1997).
 std::optional<double> distance_to(const Corners& corners, const Ray& ray) {
   const glm::dvec3 along = corners[1] - corners[0], across = corners[2] - corners[0], side = glm::cross(ray.direction, across);
   const double determinant = glm::dot(along, side);

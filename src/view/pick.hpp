@@ -1,4 +1,4 @@
-// From a place in the picture to what is there in the world.
+// Finds what is in the world at a place of the picture.
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -17,13 +17,14 @@ struct Ray {
   glm::dvec3 direction{0, 0, -1};  // of any length
 };
 
-/// Along which a place lies that is seen at `place` [pixels from the picture's top left].
+/// Returns the ray of all points that are seen at `place` [pixels from the picture's top left]. `size` is the picture's [pixels].
 [[nodiscard]] Ray ray_through(const CameraDescription& camera, const glm::dvec2& place, const glm::dvec2& size);
 
-/// Of the nearest triangle that the ray hits, the corner next to the hit. `positions` are those of the model's vertices [m].
+/// Finds the nearest triangle that the ray hits, and returns its corner next to the hit. Returns nothing if the ray hits none.
+/// `positions` are those of the model's vertices [m].
 [[nodiscard]] std::optional<std::uint32_t> pick_vertex(const Model& model, std::span<const glm::vec4> positions, const Ray& ray);
 
-/// Where the ray meets the plane through `point` that faces along `normal`; `point` itself where it does not.
+/// Returns where the ray meets the plane through `point` with this normal, or `point` if it does not meet it.
 [[nodiscard]] glm::dvec3 meet_plane(const Ray& ray, const glm::dvec3& point, const glm::dvec3& normal);
 
 }  // namespace pliant::view

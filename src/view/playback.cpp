@@ -4,7 +4,7 @@
 
 namespace pliant::view {
 
-// Where a picture takes longer to draw than a display to refresh, as much time goes into steps.
+// If a picture takes longer to draw than a display to refresh, steps may take as long as the excess.
 void Playback::begin(double now, double simulated) {
   constexpr double refresh = 1.0 / 60;  // [s]
   budget_ = pace_.budget;

@@ -1,4 +1,4 @@
-// When the simulation steps, so that its time goes with the clock's. Owns no clock: every time of it is an argument.
+// Says when the simulation steps, so that its time keeps up with the clock. Callers pass every time, because it owns no clock.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -7,59 +7,59 @@ namespace pliant::view {
 
 struct Pace {
   double speed = 1;       // simulated time in a second of real time [s]
-  double budget = 0.012;  // for stepping in one picture [s], so that the window stays awake; more where drawing takes longer
+  double budget = 0.012;  // for stepping in one picture, so that the window reacts [s]; slow drawing raises it
 };
 
-/// For each picture: begin(), steps as long as the simulation is before goal() and has_time(), end(). What does not fit the
-/// budget is let go, so that a device that is too slow shows slow motion instead of ever longer pictures.
+/// For each picture, call begin(), step while the simulation is before goal() and has_time(), and call end(). Steps that do not
+/// fit into the budget are dropped. So a device that is too slow shows slow motion instead of ever longer pictures.
 class Playback {
  public:
   explicit Playback(const Pace& pace) : pace_(pace) {}
 
   /// Begins a picture at `now` [s], with the simulation at `simulated` [s].
   void begin(double now, double simulated);
-  /// The latest time at which the simulation may be in this picture [s].
+  /// Returns the latest time that the simulation may reach in this picture [s].
   [[nodiscard]] double goal() const { return goal_; }
-  /// Whether the budget, counted from begin(), leaves time at `now` [s].
+  /// Returns whether the budget, counted from begin(), leaves time at `now` [s].
   [[nodiscard]] bool has_time(double now) const { return now - began_ < budget_; }
-  /// Ends the steps of a picture at `now`, with the simulation at `simulated` [s]; `reached_goal`: one more step would go beyond
-  /// it.
+  /// Ends the steps of a picture at `now`, with the simulation at `simulated` [s]. `reached_goal` says that one more step would
+  /// go beyond the goal.
   void end(double now, double simulated, bool reached_goal);
 
-  /// What happens while paused takes no time.
+  /// Stops the clock of the playback. Steps during a pause do not count.
   void pause();
   void toggle_pause();
   [[nodiscard]] bool is_paused() const { return paused_; }
-  /// The simulation has been put to another time: goes on from there.
+  /// Goes on from another time of the simulation.
   void restart() { in_stretch_ = false; }
 
-  /// Simulated by real time: the speed or, where the device does not keep up, what it was over half a second or more.
+  /// Returns simulated time over real time. It is the speed, or a mean over half a second or more if the device is too slow.
   [[nodiscard]] double factor() const { return slow_factor_.value_or(pace_.speed); }
   [[nodiscard]] double speed() const { return pace_.speed; }
   void set_speed(double speed) { pace_.speed = speed; }
 
  private:
-  struct Span {                       // over which the factor is measured
-    double began = 0, simulated = 0;  // [s]
-    bool was_behind = false;          // in a picture of it
+  struct Span {                       // stretch of time over which the factor is measured
+    double began = 0, simulated = 0;  // times at its begin [s]
+    bool was_behind = false;          // a picture in it did not reach its goal
   };
   void measure(double now, double simulated);
 
   Pace pace_;
   bool paused_ = false;
-  bool in_stretch_ = false;                  // else the next picture is the first one since the start or a pause
+  bool in_stretch_ = false;                  // false: the next picture is the first since the start, a pause or a restart
   double began_ = 0, ended_ = 0, goal_ = 0;  // of this picture's steps [s]
   double budget_ = 0;                        // in this picture [s]
   Span span_;
   std::optional<double> slow_factor_;
 };
 
-/// How many steps to make between two looks at the clock: as many as take a sixth of a usual budget, more or less, since each
-/// look waits for the device.
+/// Chooses how many steps to make between two looks at the clock. They take about a sixth of a usual budget, because each look
+/// waits for the device.
 class BatchSize {
  public:
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
-  /// So long they took [s].
+  /// Tells it how long steps() steps took [s].
   void took(double seconds);
 
  private:

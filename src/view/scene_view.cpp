@@ -6,7 +6,7 @@
 namespace pliant::view {
 namespace {
 
-// The fastest vertex at the start, or one that crosses the scene in two seconds.
+// Returns the speed of the fastest vertex at the start, but at least one that crosses the scene in two seconds.
 double top_speed_of(const Session& session, const render::SceneBox& box) {
   double top = box.radius();
   for (const glm::dvec3& velocity : session.start().world_velocities(session.model())) top = std::max(top, glm::length(velocity));
@@ -41,7 +41,7 @@ std::optional<render::Speeds> SceneView::speeds(Colors colors) {
   return render::Speeds{motions.id, motions.first_vertex, top_speed_};
 }
 
-// The state visits the CPU for these, if they are wanted.
+// Reads the state back to the CPU, but only if lines are wanted.
 Lines SceneView::lines(const Shows& shows) {
   Lines lines;
   if (!shows.velocities && !shows.contacts && !shows.tree_level) return lines;

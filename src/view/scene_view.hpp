@@ -1,4 +1,4 @@
-// Pictures of a session: its bodies, and lines over them.
+// Draws pictures of a session: its bodies, and lines over them.
 #pragma once
 #include <glm/vec2.hpp>
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace pliant::view {
 
-/// Needs a current gl::Context while it lives, which is that of any GPU device the session is on.
+/// Needs a current gl::Context while it lives. If the session is on a GPU device, it must be that device's context.
 class SceneView {
  public:
-  /// `session` must outlive it; lights are fitted to its start. `size` is that of the first picture [pixels]. Throws Error
-  /// (device) when there is no room for it.
+  /// `session` must outlive it, and lights are fitted to its start. `size` is the size of the first picture [pixels]. Throws
+  /// Error (device) if there is no room for it.
   SceneView(Session& session, const glm::uvec2& size, render::Detail detail);
 
-  /// The scene's, or one that frames where it starts.
+  /// Returns the scene's camera, or one that frames the bodies at the start.
   [[nodiscard]] const CameraDescription& first_camera() const { return options_.camera; }
-  /// Draws the session as it stands, which is at the look's step; nothing where the latest picture looks so. Throws Error
-  /// (device) when there is no room for it.
+  /// Draws the session's current state, whose step the look must name. Draws nothing if the latest picture has the same look.
+  /// Throws Error (device) if there is no room for the picture.
   void draw(const Look& wanted);
   /// Copies the latest picture, with its lines, into the window whose context is current.
   void show();
-  /// The latest picture, without its lines.
+  /// Returns the latest picture without its lines.
   [[nodiscard]] render::Image picture() const { return renderer_.read(); }
 
  private:
@@ -38,9 +38,9 @@ class SceneView {
   double top_speed_;  // of the colour scale [m/s]
   render::FrameRenderer renderer_;
   render::DrawnBuffers buffers_;
-  std::optional<render::LineOverlay> overlay_;  // once there have been lines
+  std::optional<render::LineOverlay> overlay_;  // made for the first lines
   Lines lines_;                                 // over the latest picture
-  std::optional<Look> drawn_;                   // what that is; empty: there is none
+  std::optional<Look> drawn_;                   // look of the latest picture; empty: there is none
 };
 
 }  // namespace pliant::view

@@ -13,7 +13,7 @@
 namespace pliant::view {
 namespace {
 
-constexpr double rounding = 1e-9;  // of a step or a frame, by which its time may seem to be later than a goal
+constexpr double rounding = 1e-9;  // by this part of a step or frame its time may seem later than a goal
 
 bool is_obj(const std::filesystem::path& file) { return extension_of(file) == ".obj"; }
 
@@ -102,15 +102,15 @@ StepReport Session::advance(double time, std::uint64_t most_steps) {
 void Session::step_once() {
   const std::uint64_t before = step();
   const double due = plan_.tolerance ? time_of_frame(next_frame()) : time_of_step(before + 1);
-  while (step() == before && !report_.non_finite) advance_toward(due, 1);  // what a tolerance rejects is no step
+  while (step() == before && !report_.non_finite) advance_toward(due, 1);  // a tolerance may reject some
 }
 
 void Session::record() {
   if (!report_.non_finite) history_.record({step(), simulation_->save()});
 }
 
-// Of a long way only the end is kept: what lies before is made anew when it is reached, and leaves older states their room, half
-// of all there is if states are large.
+// Goes to the snapshot before and steps on from there. Of a long way it records only the last steps. Earlier ones are made again
+// when they are reached, so that older snapshots keep about half of the memory.
 bool Session::step_back() {
   const Snapshot* found = history_.before(step());
   if (found == nullptr) return false;

@@ -1,4 +1,4 @@
-// A scene that is being simulated, with a way back: what a viewer shows.
+// Simulates a scene for a viewer, with a way back.
 #pragma once
 #include <memory>
 #include <span>
@@ -14,34 +14,34 @@ namespace pliant::view {
 struct LoadedScene {
   SceneDescription description;
   ModelAndState start;
-  std::vector<std::string> warnings;  // of the meshes
+  std::vector<std::string> warnings;  // about the meshes
 };
 
-/// A scene file, or an OBJ file as a lone body with every default, which takes no overrides. Throws Error.
+/// Loads a scene file, or an OBJ file as a lone body with every default. An OBJ file takes no overrides. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// What of a scene can be changed while it plays.
+/// The values of a scene that can change while it plays.
 struct Settings {
   std::string integrator;
   std::optional<double> time_step;  // [s]; empty: automatic, or by the scene's tolerance
   DampingLaw damping_law = DampingLaw::none;
   double elasticity = 0;
-  std::vector<Material> materials;  // of the bodies
+  std::vector<Material> materials;  // one a body
   bool operator==(const Settings&) const = default;
 };
 
-/// Steps that were made, those made anew on the way back among them.
+/// The steps made so far, including those made again on the way back.
 struct Stepping {
   std::uint64_t steps = 0;
-  double seconds = 0;  // that they took [s]
+  double seconds = 0;  // wall time of these steps [s]
 };
 
 /// Goes on beyond the scene's duration. Every call waits until the device has done it.
 class Session {
  public:
-  static constexpr std::size_t history_bytes = std::size_t{256} << 20;  // at most, for going back
+  static constexpr std::size_t history_bytes = std::size_t{256} << 20;  // most memory of the history
 
-  /// `device` must outlive it. Throws Error where there is no plan for the scene's steps, or the device has no room for it.
+  /// `device` must outlive it. Throws Error if plan_time can't plan the scene's steps, or the device has no room for the scene.
   Session(Device& device, LoadedScene scene, std::size_t most_history_bytes = history_bytes);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -57,32 +57,33 @@ class Session {
   [[nodiscard]] Stepping stepping() const { return {steps_made_, stepping_.seconds()}; }  // since the session began
   [[nodiscard]] double time() const;                                                      // of the state [s]
   [[nodiscard]] const TimePlan& plan() const { return plan_; }
-  [[nodiscard]] std::optional<NonFinite> non_finite() const;  // its step counts as step() does
+  [[nodiscard]] std::optional<NonFinite> non_finite() const;  // its step counts like step()
 
-  /// Whether there is a step to make for the state at `time` [s]: the next one or, with a tolerance, the next frame, which is
-  /// where steps end then whenever they are made. Never after a step that was not finite.
+  /// Returns whether there is a step to make toward `time` [s]. That is so if the next step ends at or before `time`. With a
+  /// tolerance the next frame counts instead, because steps end at frames, whenever they are made. After a non-finite step
+  /// nothing is due.
   [[nodiscard]] bool is_due(double time) const;
-  /// Makes at most `most_steps` of those that are due at `time` [s].
+  /// Makes the steps that are due at `time` [s], but at most `most_steps`.
   void advance_toward(double time, std::uint64_t most_steps);
   /// Makes one step.
   void step_once();
-  /// From here on steps draw a body; empty: none.
+  /// Makes later steps pull a body, or none if `by` is empty.
   void pull(const std::optional<Pull>& by) { pull_ = by; }
-  /// Records the state as it stands, to go back to. It visits the CPU for that.
+  /// Records the current state, to go back to. Copies it to the CPU.
   void record();
-  /// Back by one step, to the very bits: to the state recorded last before it, and on from there if steps lie between, though
-  /// without pulls. False where none is left.
+  /// Goes back by one step. It restores the latest state recorded before, and makes the steps in between again, without pulls.
+  /// The bits are the same if those steps had no pulls. Returns false if no state is left.
   bool step_back();
-  /// Back to the start.
+  /// Goes back to the start.
   void restart();
   [[nodiscard]] unsigned deepest_level() const { return simulation_->collider().forest().depth; }  // of the trees
   [[nodiscard]] Settings settings() const;
-  /// Goes on from the state as it stands, or from the start if it is not finite; the ways back before are forgotten. Throws
-  /// Error, with all as it was, where there is no plan for the scene's steps.
+  /// Goes on from the current state with other settings, or from the start if that state is not finite. Recorded states are
+  /// forgotten. If plan_time can't plan the scene's steps, it throws Error and changes nothing.
   void change(const Settings& wanted);
-  /// Whether the device's time is taken for each pass, which slows it down.
+  /// Turns on or off that the device's time is measured for each pass, which slows it down.
   void time_passes(bool timed);
-  /// Goes on on another device of the same precision, with the very state, and so do all ways back. `device` must outlive it.
+  /// Goes on with the same state and history on another device of the same precision. `device` must outlive the session.
   void move_to(Device& device);
 
  private:
@@ -93,19 +94,18 @@ class Session {
   [[nodiscard]] double time_of_frame(std::uint64_t frame) const { return static_cast<double>(frame) / plan_.frame_rate; }
   void make_due_steps(double time, std::uint64_t most_steps);
   [[nodiscard]] StepReport advance(double time, std::uint64_t most_steps);
-  /// Of this session's scene, by its plan.
   [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device, const State& from) const;
   void begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time);
   void go_to(std::string_view saved);
 
   Device* device_;
-  std::unique_ptr<const LoadedScene> scene_;  // other settings make another one, for a model never changes
+  std::unique_ptr<const LoadedScene> scene_;  // other settings make another one, because a model never changes
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;
-  std::string beginning_;  // its state at the start, saved; empty: settings have been changed since
-  StepReport report_;      // of the simulation, which began at:
-  std::uint64_t base_step_ = 0;
-  double base_time_ = 0;  // [s]
+  std::string beginning_;        // saved state at the start; empty: settings have been changed since
+  StepReport report_;            // of the simulation
+  std::uint64_t base_step_ = 0;  // at which the simulation began
+  double base_time_ = 0;         // at which it began [s]
   History history_;
   std::optional<Pull> pull_;
   bool times_passes_ = false;
