@@ -1,5 +1,5 @@
-// In Dear ImGui, which nothing else here includes, with its own drawing through OpenGL. Window events are handed on by hand, so
-// that only window.cpp knows of GLFW.
+// Draws the panel with Dear ImGui and its OpenGL backend. Nothing else includes Dear ImGui. It gets window events from takes(),
+// so that only window.cpp knows GLFW.
 #include "window/panel.hpp"
 
 #include <backends/imgui_impl_opengl3.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr float margin = 10, width = 330, plot_height = 56, text_height = 13;  // [pixels of a usual display]
 
-/// What is so large on a usual display, on this one; while a picture is made [pixels].
+/// Converts a length on a usual display to this display [pixels]. Call it only between begin() and end().
 float scaled(float pixels) { return pixels * ImGui::GetFontSize() / text_height; }
 
 template <class... T>
@@ -35,7 +35,7 @@ void say_muted(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-/// Digits can't be typed, since keys are the viewer's.
+/// Values can't be typed, because keys belong to the viewer.
 constexpr ImGuiSliderFlags by_mouse = ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp;
 
 bool slide(const char* label, double& value, double low, double high, const char* format, bool logarithmic = true) {
@@ -45,7 +45,7 @@ bool slide(const char* label, double& value, double low, double high, const char
 
 void choose_scene(const Facts& facts, Wishes& wishes) {
   if (!ImGui::BeginCombo("scene", facts.scene.filename().c_str())) return;
-  for (const std::filesystem::path& scene : facts.scenes) {  // a label would end at "##"
+  for (const std::filesystem::path& scene : facts.scenes) {  // the name is no label, because labels end at "##"
     ImGui::PushID(scene.c_str());
     if (ImGui::Selectable("##scene", scene == facts.scene)) wishes.scene = scene;
     ImGui::SameLine(0, 0);
@@ -182,7 +182,7 @@ void choose_look(const Facts& facts, Shows& shows) {
   int colors = static_cast<int>(shows.colors);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("colour by");
-  ImGui::PushID("colour");  // another control of the panel is for a speed, too
+  ImGui::PushID("colour");  // another control of the panel is labelled "speed", too
   for (const auto& [name, value] :
        {std::pair{"body", Colors::body}, {"deformation", Colors::deformation}, {"speed", Colors::speed}}) {
     ImGui::SameLine();
@@ -198,7 +198,7 @@ void choose_look(const Facts& facts, Shows& shows) {
   choose_level(facts.deepest_level, shows.tree_level);
 }
 
-// At the picture's bottom right, where it moves nothing.
+// Shows the message at the picture's bottom right, where it moves nothing else.
 void show_message(const glm::uvec2& size, const std::string& message) {
   if (message.empty()) return;
   const ImVec2 corner(static_cast<float>(size.x) - scaled(margin), static_cast<float>(size.y) - scaled(margin));
@@ -238,7 +238,7 @@ void set_style(float scale) {
 
 }  // namespace
 
-/// The mouse's buttons as ImGui is to hear of them next, and what lies under the mouse.
+/// The state of the mouse's buttons for ImGui's next picture, and the windows of the latest one.
 struct Panel::Mouse {
   std::array<bool, 2> is_down{};
   std::vector<ImRect> windows;  // of the latest picture [pixels]
@@ -249,11 +249,11 @@ struct Panel::Mouse {
       if (window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0)
         windows.push_back(window->Rect());
   }
-  /// ImGui itself knows only of the place at which the mouse was in the latest picture.
+  /// ImGui itself can only tell for the place of the mouse in the latest picture.
   [[nodiscard]] bool is_over_window() const {
     return std::ranges::any_of(windows, [](const ImRect& window) { return window.Contains(ImGui::GetIO().MousePos); });
   }
-  /// An open list takes every press: one beside it closes it.
+  /// An open list takes every press, because a press beside it closes it.
   [[nodiscard]] bool takes_press() const {
     return is_over_window() || (!windows.empty() && !ImGui::GetCurrentContext()->OpenPopupStack.empty());
   }

@@ -1,4 +1,4 @@
-// The panel beside the scene: shows facts, and edits wishes, which the viewer fulfils.
+// The panel beside the scene. It shows facts and edits wishes, which the viewer fulfils.
 #pragma once
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -14,7 +14,7 @@
 
 namespace pliant::view {
 
-/// What the panel can ask for. It changes what it is given, and nothing else.
+/// The values that the panel can change. It changes nothing else.
 struct Wishes {
   bool is_paused = false, times_passes = false, is_on_gpu = false;
   double speed = 1;
@@ -26,7 +26,7 @@ struct Wishes {
   bool operator==(const Wishes&) const = default;
 };
 
-/// What the panel tells.
+/// The values that the panel shows.
 struct Facts {
   std::string title, device, message;
   std::vector<std::filesystem::path> scenes;  // to choose from
@@ -35,7 +35,7 @@ struct Facts {
   std::uint64_t step = 0, vertices = 0;
   double time = 0, time_step = 0, pictures_per_second = 0;  // [s]; time_step 0: a tolerance governs it
   std::optional<double> tolerance;
-  double factor = 1;           // simulated by real time
+  double factor = 1;           // simulated time over real time
   unsigned deepest_level = 0;  // of the trees
   StepReport report;
   const Observation* observation = nullptr;
@@ -43,22 +43,24 @@ struct Facts {
 
 class Panel {
  public:
-  /// All it draws is `scale` times as large as on a usual display. Needs a current gl::Context while it lives. One at a time.
+  /// Draws everything `scale` times as large as on a usual display. Needs a current gl::Context while it lives. There may be only
+  /// one panel at a time.
   explicit Panel(float scale);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  /// Hears of the mouse, also while nothing is shown; of one press or release a picture. True where it is the panel's: pressed
-  /// over what is shown, until it is let go, or turned there.
+  /// Takes a mouse event, and returns whether it belongs to the panel. A press over the panel's windows belongs to it, and so do
+  /// moves until the release. A turn of the wheel there belongs to it, too. Pass it every mouse event, even while it is hidden,
+  /// but at most one press or release a picture.
   bool takes(const WindowEvent& event);
-  /// Draws into the window, `seconds` after the time before. `help`: a text to show over all, or empty.
+  /// Draws into the window, `seconds` after the last time. `help` is a text to show over all, or empty.
   void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
-  /// Draws the help alone.
+  /// Draws only the help.
   void draw_help(const glm::uvec2& size, double seconds, const std::string& help);
-  /// Nothing is shown until it draws again.
+  /// Tells it that nothing is shown until it draws again.
   void hide();
-  /// Of the latest picture: itself, the help, an open list.
+  /// Returns the number of windows in the latest picture: the panel, the help, an open list.
   [[nodiscard]] std::size_t window_count() const;
 
  private:

@@ -17,10 +17,10 @@
 namespace pliant::view {
 namespace {
 
-constexpr double a_picture = 1.0 / 60, a_while = 60;  // to wait for events where nothing is shown, or nothing moves [s]
-constexpr int pictures_after_an_event = 3;  // ImGui's widgets follow a press, a release and what they have led to one by one
+constexpr double a_picture = 1.0 / 60, a_while = 60;  // time to wait for events if no new picture is due, or in a pause [s]
+constexpr int pictures_after_an_event = 3;            // ImGui takes one picture each for a press, a release and their effect
 
-/// From any origin [s].
+/// Returns the time from any origin [s].
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 Json described(const CameraDescription& camera) {
@@ -54,7 +54,7 @@ struct Viewer::Command {
   std::string_view help;
   void (Viewer::*execute)();
   bool repeats = false;        // while the key is held, once a picture
-  bool keeps_message = false;  // so that it can be read there
+  bool keeps_message = false;  // so that it can be read in the panel
 };
 
 std::span<const Viewer::Command> Viewer::commands() {
@@ -111,8 +111,8 @@ void Viewer::run() {
   }
 }
 
-// Where anything is missing, the scene before stays: all that can fail comes first. The first picture is part of that, and takes
-// a while, since shaders are compiled.
+// Everything that can fail comes first, so that the scene before stays if something does. The first picture is part of that. It
+// takes a while, because shaders are compiled.
 void Viewer::open(LoadedScene scene) {
   std::vector<std::filesystem::path> scenes = scenes_beside(scene.description.file);
   auto session = std::make_unique<Session>(*device_, std::move(scene));
@@ -134,14 +134,14 @@ void Viewer::open(LoadedScene scene) {
   playback_.restart();
 }
 
-// In a pause there is nothing to draw but what events ask for.
+// Waits if there is nothing to draw. In a pause only events ask for pictures.
 void Viewer::await_events() {
   const bool is_paused = playback_.is_paused(), waits = events_.empty() && (is_paused || is_up_to_date_);
   const double longest = is_paused && owed_pictures_ == 0 ? a_while : a_picture;
   std::ranges::move(waits ? window_.wait_for_events(longest) : window_.poll_events(), std::back_inserter(events_));
 }
 
-// ImGui looks at the mouse once a picture: of what it is to hear, a picture has one press or release, and the rest waits.
+// ImGui looks at the mouse once a picture, so the panel gets at most one press or release in it. Later events wait for the next.
 void Viewer::handle_events() {
   bool is_heard = false;
   while (!events_.empty() && !window_.is_closed() && !is_heard) {
@@ -162,7 +162,7 @@ void Viewer::handle(const KeyPressed& event) {
   try_to([&] { (this->*command->execute)(); });
 }
 
-// The body is pulled in the plane of the picture in which the vertex was picked. Positions visit the CPU for that one time.
+// Picks a vertex and pulls it from then on in a plane parallel to the picture. Picking reads the positions back to the CPU once.
 void Viewer::handle(const MousePressed& event) {
   if (event.button != MouseButton::left || !event.with_control) return;
   const std::vector<glm::vec4> positions = session_->simulation().world_positions();
@@ -211,7 +211,7 @@ void Viewer::try_to(const std::function<void()>& wish) {
   }
 }
 
-// The clock starts when the GPU has drawn the picture before: waiting for that is no stepping.
+// Starts the clock when the GPU has drawn the picture before, because waiting for that is not stepping.
 void Viewer::play() {
   constexpr double record_interval = 0.1;  // [s]
   device_->finish();
@@ -261,7 +261,7 @@ void Viewer::restart() {
   playback_.restart();
 }
 
-// Pictures are drawn from the device's own positions, which are the same on the other.
+// The picture does not change, because the positions on the other device are the same.
 void Viewer::switch_device() {
   if (device_->precision() != 32) throw Error(ErrorKind::command_line, "", "fp64 forces run on the CPU alone", "");
   std::unique_ptr<Device> other = make_device_(device_->info().kind == "gpu" ? "cpu" : "gpu");
@@ -272,7 +272,7 @@ void Viewer::switch_device() {
   message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);
 }
 
-// As it is, not as it was at the start: the state visits the CPU for that.
+// Frames the bodies where they are, not where they started. Reads the state back to the CPU.
 void Viewer::frame_scene() {
   const auto positions = session_->simulation().state().world_positions(session_->model());
   camera_ = frame(camera_, render::box_around(positions), at_least_a_pixel(window_.framebuffer_size()));
@@ -310,7 +310,7 @@ void Viewer::close() { window_.close(); }
 
 Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
 
-// What is shown already is not shown again, but for what lies over it.
+// Draws nothing if the window already shows this look, unless the panel or the help lies over it.
 void Viewer::draw() {
   has_repeated_ = false;
   const Look wanted = look();

@@ -1,4 +1,4 @@
-// Shows a session in a window: events in, pictures out.
+// Shows a session in a window. It takes events and draws pictures.
 #pragma once
 #include <deque>
 #include <filesystem>
@@ -22,21 +22,21 @@ namespace pliant::view {
 
 struct ViewerOptions {
   Pace pace;
-  std::function<std::unique_ptr<Device>(std::string_view kind)> make_device;  // "cpu" or "gpu", of the same precision
+  std::function<std::unique_ptr<Device>(std::string_view kind)> make_device;  // "cpu" or "gpu", with the same precision
   bool starts_paused = false;
   std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
 };
 
 class Viewer {
  public:
-  /// What keys and mouse do, as text.
+  /// Returns a text that says what keys and mouse do.
   [[nodiscard]] static std::string help();
 
-  /// The window must outlive it; a GPU device runs in its context. Throws Error.
+  /// The window must outlive the viewer. A GPU device must run in its context. Throws Error.
   Viewer(Window& window, std::unique_ptr<Device> device, LoadedScene scene, const ViewerOptions& options);
 
-  /// Until the window is closed. What a user's wish leads to that can't be is told on standard error and in the title; only a
-  /// device that fails throws Error.
+  /// Runs until the window is closed. If a user's wish can't be fulfilled, it says so on standard error and in the title. It
+  /// throws Error only if a device fails.
   void run();
 
  private:
@@ -66,7 +66,7 @@ class Viewer {
   void toggle_wireframe();
   void toggle_panel();
   void toggle_help();
-  void toggle(bool& is_shown);  // one of the two
+  void toggle(bool& is_shown);  // the panel or the help
   void save_picture();
   void close();
   void open_file(const std::filesystem::path& file);
@@ -76,10 +76,10 @@ class Viewer {
   void present(const glm::uvec2& size);
   void draw_panel(const glm::uvec2& size, double seconds);
   [[nodiscard]] Facts facts() const;
-  [[nodiscard]] Wishes wishes() const;  // that are fulfilled
+  [[nodiscard]] Wishes wishes() const;  // the current values
   void fulfil();
   void change(const Settings& wanted);
-  void tell();  // in the title, and in the report if there is one
+  void tell();  // sets the title and adds to the report
   [[nodiscard]] std::string title() const;
 
   Window& window_;
@@ -91,24 +91,24 @@ class Viewer {
   std::unique_ptr<SceneView> view_;
   CameraDescription camera_;
   Shows shows_;
-  std::unique_ptr<Panel> panel_;  // once it has been asked for
+  std::unique_ptr<Panel> panel_;  // made when the panel or the help is first shown
   bool shows_panel_ = false, shows_help_ = false;
   Observer observer_;
   std::deque<WindowEvent> events_;             // not handled yet
-  std::vector<std::filesystem::path> scenes_;  // beside the one that is shown
+  std::vector<std::filesystem::path> scenes_;  // in the folder of the one that is shown
   std::optional<Pull> pull_;
-  glm::dvec3 pulled_from_{0.0};  // where the picked vertex was [m]
-  std::string message_;          // until the next key or wish, but those that show or hide the panel
+  glm::dvec3 pulled_from_{0.0};  // where the vertex was picked [m]
+  std::string message_;          // cleared by the next key or wish, except those for the panel and the help
   bool is_breakdown_told_ = false;
   std::string shown_title_;
   std::uint64_t picture_ = 0;
-  double recorded_at_ = 0;                         // the latest state to go back to [s]
-  bool has_repeated_ = false;                      // a key that is held has done its work since the latest picture
-  bool is_up_to_date_ = false;                     // there was nothing to draw anew
-  std::optional<Look> shown_;                      // what the window shows; empty: it is to be shown again
-  std::optional<Wishes> wanted_;                   // in the latest picture, if it had the panel and they are not fulfilled
-  double presented_at_ = 0, picture_seconds_ = 0;  // between pictures, on average [s]
-  int owed_pictures_ = 0;                          // for the panel to follow what it was done to
+  double recorded_at_ = 0;                         // when the latest state was recorded [s]
+  bool has_repeated_ = false;                      // a held key has had its effect since the latest picture
+  bool is_up_to_date_ = false;                     // the window showed the wanted look already
+  std::optional<Look> shown_;                      // what the window shows; empty: it must be shown again
+  std::optional<Wishes> wanted_;                   // from the panel in the latest picture; empty: fulfilled, or no panel
+  double presented_at_ = 0, picture_seconds_ = 0;  // time of the latest picture, and mean time between pictures [s]
+  int owed_pictures_ = 0;                          // to draw until the panel has followed an event
   bool times_passes_ = false;
   std::ofstream report_;
 };

@@ -1,4 +1,4 @@
-// The window through GLFW, which nothing else here includes.
+// Makes the window with GLFW, which nothing else includes.
 #include "window/window.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -21,7 +21,7 @@ std::string latest_problem() {
   return text == nullptr ? "no reason given" : text;
 }
 
-/// GLFW, once initialised, for as long as the window lives.
+/// Initialises GLFW and terminates it with the window.
 struct Library {
   Library() {
     if (!glfwInit()) throw Error(ErrorKind::device, "", "there is no display for a window: " + latest_problem(), remedy);
@@ -36,7 +36,7 @@ void ask_for_opengl() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures have their own
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);  // pictures have their own depths
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
 }
@@ -53,13 +53,14 @@ gl::WindowContext context_of(GLFWwindow* window) {
   return {.find = glfwGetProcAddress, .make_current = [window] { glfwMakeContextCurrent(window); }};
 }
 
-// Of keys that write nothing; empty where there is no such name.
+// Returns the name of a key that writes nothing, or an empty text if pliant has no name for it.
 std::string name_of_key(int key) {
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return std::string("F").append(std::to_string(key - GLFW_KEY_F1 + 1));
   return key == GLFW_KEY_TAB ? "tab" : key == GLFW_KEY_ESCAPE ? "escape" : "";
 }
 
-// Of a key that writes a character: the character, or the letter that stands there on a US keyboard if it is not Latin.
+// Returns the name of a key that writes a character: that character in capitals. If it is not Latin, the name is the letter at
+// the key's place on a US keyboard.
 std::string name_of_character(unsigned character, int key) {
   if (character == ' ') return "space";
   if (character > ' ' && character < 0x7f) return {static_cast<char>(std::toupper(static_cast<int>(character)))};
@@ -92,10 +93,10 @@ struct Window::Impl {
   gl::Context context;
   std::vector<WindowEvent> events;
   glm::uvec2 framebuffer_size{0};     // 0 x 0 while minimised
-  glm::dvec2 pixels{1.0};             // in a screen unit
-  int latest_key = GLFW_KEY_UNKNOWN;  // pressed
-  bool is_repeating = false;          // that key
-  std::optional<MouseButton> held;    // pressed last, and not released since
+  glm::dvec2 pixels{1.0};             // pixels of a screen unit
+  int latest_key = GLFW_KEY_UNKNOWN;  // pressed last
+  bool is_repeating = false;          // latest_key is held
+  std::optional<MouseButton> held;    // pressed last and not released since
   std::optional<glm::dvec2> cursor;   // where it was last seen [pixels]
 };
 
@@ -115,7 +116,7 @@ void Window::Impl::listen() {
   glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).measure(); });
 }
 
-// To ask the display takes a while, so it is asked only when something changes.
+// Asks the display only when something changes, because asking takes a while.
 void Window::Impl::measure() {
   int width = 0, height = 0, pixels_across = 0, pixels_down = 0;
   glfwGetWindowSize(window, &width, &height);
@@ -126,7 +127,7 @@ void Window::Impl::measure() {
   events.emplace_back(PictureNeeded{});
 }
 
-// With other modifiers keys mean something to the desktop, if anything. What writes a character is heard of by write().
+// Ignores keys with Control, Alt or Super, which belong to the desktop. Keys that write a character arrive in write().
 void Window::Impl::press_key(int key, int action, int modifiers) {
   if (action == GLFW_RELEASE) return;
   latest_key = key;
