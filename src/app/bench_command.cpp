@@ -34,7 +34,7 @@ bench::Selection selection_of(const BenchOptions& options) {
           .threads = options.threads};
 }
 
-// Answers whether to go on.
+// Returns whether to go on.
 bool show_progress(double done, std::string_view next) {
   if (isatty(fileno(stderr)) == 0) return !is_interrupted();
   fmt::print(stderr, "\r{}  {:<50}", progress_bar(done), next);
@@ -42,7 +42,8 @@ bool show_progress(double done, std::string_view next) {
   return !is_interrupted();
 }
 
-// The table comes before any error of writing the file. Without a row an earlier file stays.
+// Prints the table first, so that an error of writing the file does not lose it. If an interrupted suite has no rows, an earlier
+// file stays.
 template <class Options, class Result>
 void write_results(const bench::Machine& machine, const Options& asked, const Result& result, std::optional<WholeFile>& file) {
   fmt::print("{}", bench::to_table(result));
@@ -52,7 +53,7 @@ void write_results(const bench::Machine& machine, const Options& asked, const Re
   file->close();
 }
 
-// The file's place is checked first: minutes of measuring should not end with a folder that can't be written.
+// Checks the file's place first, so that minutes of measuring do not end with a folder that can't be written.
 template <class Options, class Measure>
 int measure_and_write(const BenchOptions& options, const Options& asked, const Measure& measure) {
   watch_for_interrupts();

@@ -1,4 +1,4 @@
-// `pliant bench`: measures this machine, as a table and as JSON.
+// `pliant bench`: measures this machine and gives the results as a table and as JSON.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace pliant::app {
 
-/// What to measure on. Automatic: the CPU, and a hardware GPU if there is one; all: both, the GPU whatever it is.
+/// The devices to measure. `automatic` means the CPU, and a hardware GPU if there is one. `all` means both, even if the GPU is in
+/// software.
 enum class BenchDevices { automatic, cpu, gpu, all };
 
 enum class BenchSuite { forces, steps, precision, stability, draw };
@@ -20,8 +21,8 @@ struct BenchOptions {
   std::filesystem::path json;                     // empty: no file
   bool quick = false;                             // figures of the right size in a few seconds
   bool all_variants = false;                      // forces: every way of summing that a device knows
-  std::filesystem::path scenes = "scenes";        // steps, precision, draw: folder
-  std::array<std::uint32_t, 2> size{1920, 1080};  // draw: of the picture [pixels]
+  std::filesystem::path scenes = "scenes";        // steps, precision, draw: folder of scenes
+  std::array<std::uint32_t, 2> size{1920, 1080};  // draw: size of the picture [pixels]
 };
 
 /// Prints the machine and a table, and writes the file. An earlier file stays until then. After Ctrl-C (interrupts.hpp) both hold

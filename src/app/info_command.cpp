@@ -50,7 +50,7 @@ Json described_cpu() {
 
 struct Devices {
   std::vector<gl::Adapter> gpus;
-  std::string missing;  // why there is no GPU, and what to do about it; empty where there is one
+  std::string missing;  // why there is no GPU, and what to do about it; empty: there is one
 };
 
 Devices find_devices() {

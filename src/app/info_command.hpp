@@ -1,4 +1,4 @@
-// `pliant info`: what this machine offers pliant, and what pliant offers.
+// `pliant info`: shows the machine's devices, or pliant's integrators.
 #pragma once
 
 namespace pliant::app {

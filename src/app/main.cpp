@@ -1,4 +1,4 @@
-// The command line: options in, exit code out.
+// Parses the command line and runs a command. Returns its exit code.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +31,7 @@ std::string complaint_of_range(const std::string& text, T value, T lowest, T hig
   return value > highest ? fmt::format("{} is above {}", text, highest) : "";
 }
 
-// CLI11's own checks let nan and inf pass, and take what is no number for one out of range.
+// CLI11's own checks let nan and inf pass, and call a word that is not a number out of range.
 CLI::Validator number(double lowest, double highest) {
   const auto complaint = [lowest, highest](const std::string& text) {
     char* end = nullptr;
@@ -42,7 +42,7 @@ CLI::Validator number(double lowest, double highest) {
   return {complaint, fmt::format("{} to {}", lowest, highest)};
 }
 
-// For transform(): in decimal, and written again without leading zeros, which CLI11 takes for octal.
+// For transform(). It reads a decimal number and rewrites it without leading zeros, because CLI11 takes those for octal.
 CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
   const auto complaint = [lowest, highest](std::string& text) {
     std::int64_t value = 0;
@@ -60,7 +60,7 @@ CLI::Validator not_empty() {
   return {[](const std::string& text) { return text.empty() ? std::string("is empty; name a place") : std::string(); }, ""};
 }
 
-// An option that takes one of a few words.
+// Adds an option that takes one of a few words.
 template <class T>
 void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std::pair<std::string, T>>& choices,
                 const char* help) {
@@ -251,7 +251,7 @@ void show_mesh(const MeshOptions& options) {
   std::cout << (options.json ? to_json(report) : to_text(report));
 }
 
-// The command that was being read, and what it is called.
+// Returns the command that was being read, and its name.
 std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
   std::string name = "pliant";
   while (!program->get_subcommands().empty()) {
@@ -261,14 +261,14 @@ std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
   return {program, name};
 }
 
-// CLI11 says "--steps: At Most 1 required but received 2" of an option that is given twice.
+// If an option is given twice, CLI11 says "--steps: At Most 1 required but received 2".
 std::string complaint_of_count(const std::string& text) {
   const auto at = text.find(": At Most 1 required but received ");
   if (at == std::string::npos) return text;
   return fmt::format("{}: is given {} times; give it once", text.substr(0, at), text.substr(text.rfind(' ') + 1));
 }
 
-// CLI11 asks for a subcommand without naming the word that is none, or no option.
+// Names the unknown subcommand or option. CLI11 only asks for a subcommand.
 std::string complaint_of(const CLI::App* program, const CLI::Error& error) {
   const auto [command, name] = command_in(program);
   std::string choices;

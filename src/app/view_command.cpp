@@ -14,7 +14,7 @@ namespace pliant::app {
 
 #ifdef PLIANT_VIEWER
 
-// Options and scene are looked at first: a mistake in them shall not need a display to be seen.
+// Checks options and scene first, so that mistakes in them are reported even without a display.
 void view(const ViewOptions& options) {
   expect_consistent(options.device);
   view::LoadedScene scene = view::load(options.scene, options.overrides);

@@ -1,4 +1,4 @@
-// `pliant view`: a scene live in a window.
+// `pliant view`: shows a scene live in a window.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -17,11 +17,11 @@ struct ViewOptions {
   std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
 };
 
-/// Returns when the window is closed. Throws Error, of kind device where there is no display or this program was built without
-/// the viewer.
+/// Returns when the window is closed. Throws Error. Its kind is device if there is no display, or if this program was built
+/// without the viewer.
 void view(const ViewOptions& options);
 
-/// What keys and mouse do, as text.
+/// Returns a text that says what keys and mouse do.
 [[nodiscard]] std::string view_help();
 
 }  // namespace pliant::app
