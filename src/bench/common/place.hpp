@@ -1,4 +1,4 @@
-// Where a benchmark runs: a device with its precision and threads.
+// Says where a benchmark runs: a device with its precision and threads.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,10 +18,10 @@ struct Place {
   int gpu_index = 0;     // of gl::list_adapters()
 };
 
-/// Throws Error (device).
+/// Opens the place's device. Throws Error (device).
 [[nodiscard]] std::unique_ptr<Device> open(const Place& place);
 
-/// Such as "cpu, 4 threads, fp64" or "gpu".
+/// Returns such as "cpu, 4 threads, fp64" or "gpu".
 [[nodiscard]] std::string name_of(const Place& place);
 
 /// What the command line asks for.
@@ -32,10 +32,10 @@ struct Selection {
   unsigned threads = 0;  // most threads of the CPU; 0: one a processor
 };
 
-/// The CPU on one thread and on all, each with every one of `cpu_precisions`, then the GPU.
+/// Returns the CPU on one thread and on all threads, each with every one of `cpu_precisions`, and then the GPU.
 [[nodiscard]] std::vector<Place> places_of(const Selection& selection, std::span<const int> cpu_precisions);
 
-/// Hears what is measured next, and how much of the suite is done (0 to 1). The suite ends early where it answers false.
+/// Is called with what is measured next, and with how much of the suite is done (0 to 1). If it returns false, the suite ends.
 using Progress = std::function<bool(double done, std::string_view next)>;
 
 }  // namespace pliant::bench

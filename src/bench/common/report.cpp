@@ -72,7 +72,7 @@ Json crossover_json(const FamilyCrossover& crossover) {
 std::vector<std::string> notes_of(const StepsResult& result) { return result.notes; }
 std::vector<std::string> notes_of(const DrawResult& result) { return result.notes; }
 
-// A sum can't be faster than its bound, unless the bound was measured in a worse moment.
+// A sum can only be faster than its bound if the machine was slower when the bound was measured.
 std::vector<std::string> notes_of(const ForcesResult& result) {
   std::vector<std::string> notes = result.notes;
   if (std::ranges::any_of(result.rows, [](const ForcesRow& row) { return row.ratio_to_bound > 1; }))
@@ -88,7 +88,7 @@ Json file_json(const char* suite, const Machine& machine, const Json& options, c
   return file;
 }
 
-// Wide enough for the longest text in a column.
+// Returns a width for the longest text in a column.
 template <class Row>
 std::size_t width_of(const std::vector<Row>& rows, std::string Row::*text) {
   std::size_t width = 8;

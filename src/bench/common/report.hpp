@@ -1,4 +1,4 @@
-// Results of the suites as text: tables for people, JSON for scripts.
+// Writes results of the suites as text: tables for people, JSON for scripts.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace pliant::bench {
 
-/// Two lines to stand above a table: the build, and the hardware.
+/// Returns two lines for the top of a table: the build, and the hardware.
 [[nodiscard]] std::string to_text(const Machine& machine);
 [[nodiscard]] std::string to_table(const ForcesResult& result);
 [[nodiscard]] std::string to_table(const StepsResult& result);
 [[nodiscard]] std::string to_table(const DrawResult& result);
-/// A sentence.
+/// Returns a sentence.
 [[nodiscard]] std::string to_text(const FamilyCrossover& crossover);
 
-/// {suite, options{...}, interrupted, machine{version, commit, cpu, gpu, driver, compiler, date}, rows[...], notes[...]}; for
-/// steps also {crossovers[...]}.
+/// Returns {suite, options{...}, interrupted, machine{version, commit, cpu, cpu_threads, gpu, driver, compiler, date}, rows[...],
+/// notes[...]}. The suite `steps` also has {crossovers[...]}.
 [[nodiscard]] std::string to_json(const Machine& machine, const ForcesOptions& options, const ForcesResult& result);
 [[nodiscard]] std::string to_json(const Machine& machine, const StepsOptions& options, const StepsResult& result);
 [[nodiscard]] std::string to_json(const Machine& machine, const DrawOptions& options, const DrawResult& result);

@@ -1,4 +1,4 @@
-// What the files of all suites have in common, for their reports alone.
+// Makes the parts that the files of all suites have in common. Only their reports use it.
 #pragma once
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace pliant::bench {
 
-/// What was asked for, not what came of it: threads 0 are one a processor.
+/// Returns the options as they were asked for. With 0 threads the CPU uses one a processor.
 [[nodiscard]] Json options_json(const Selection& devices, bool quick);
-/// {suite, options, interrupted, machine}, with which every file starts.
+/// Returns {suite, options, interrupted, machine}, with which every file starts.
 [[nodiscard]] Json suite_json(const char* suite, const Json& options, bool interrupted, const Machine& machine);
-/// Threads are the CPU's: null for the GPU.
+/// Returns the CPU's threads, or null for the GPU.
 [[nodiscard]] Json threads_json(const std::string& device, unsigned threads);
-/// As a file: a line for each member, and for each element of a list. Text that is no UTF-8 is replaced: a scene's name need not
-/// be any. Expects an object.
+/// Returns a file's text, with a line for each member and for each element of a list. Replaces bytes that are not UTF-8, because
+/// a scene's name may have any. Expects an object.
 [[nodiscard]] std::string text_of(const Json& object);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// Bodies of any density for measurements.
+// Makes bodies of any density for measurements.
 #pragma once
 #include <cstdint>
 
@@ -7,13 +7,13 @@
 
 namespace pliant::bench {
 
-/// Points spread evenly over the unit sphere along a spiral (a Fibonacci lattice), without triangles.
+/// Returns points spread evenly over the unit sphere along a spiral (a Fibonacci lattice), without triangles.
 [[nodiscard]] TriangleMesh spiral_sphere(std::uint32_t vertex_count);
 
-/// Every triangle split in four at its edges' middles, which stay where they are: the same surface with four times the triangles.
+/// Splits every triangle in four at the middles of its edges. The result is the same surface with four times the triangles.
 [[nodiscard]] TriangleMesh split_in_four(const TriangleMesh& mesh);
 
-/// One body at rest whose vertices are a few percent of its size off their rest positions, each by an amount of its own.
+/// Returns a body without velocity. Each vertex is off its rest position by its own amount, a few percent of the body's size.
 [[nodiscard]] ModelAndState deformed_body(TriangleMesh mesh);
 
 }  // namespace pliant::bench

@@ -15,12 +15,12 @@
 namespace pliant::bench {
 namespace {
 
-// Two bodies of a scene, moved together along x until they overlap by a tenth: so they touch in every step, at any density. They
-// approach by about a tenth of an edge a step.
+// Two bodies of a scene, moved together along x until they overlap by a tenth, so that they touch in every step at any density.
+// They approach by about a tenth of an edge a step.
 struct Family {
   const char* name;
   const char* scene;
-  std::string_view mesh;  // what the bodies' meshes begin with
+  std::string_view mesh;  // beginning of the bodies' mesh names
   double half_distance;   // of the bodies' positions along x [m]
   double time_step;       // at base_level [s]
   int base_level;
@@ -32,7 +32,7 @@ constexpr Family families[] = {
     {"two bunnies, split", "bunnies_undamped.toml", "", 0.9, 0.002, 0, 0, 2, -1},
 };
 
-// Why the scene does not serve the family; empty where it does.
+// Returns why the scene does not serve the family, or an empty text if it does.
 std::string misfit(const Family& family, const SceneDescription& scene) {
   if (scene.bodies.size() != 2) return fmt::format("\"{}\" has not two bodies", family.scene);
   const auto fits = [&](const BodyDescription& body) { return body.mesh.starts_with(family.mesh); };
@@ -92,7 +92,7 @@ std::set<std::filesystem::path> scene_files(const std::filesystem::path& folder)
   return files;
 }
 
-// The scene as it is, or a note why not.
+// Adds the scene as it is, or a note why not.
 void add_scene(StepCases& all, const std::filesystem::path& file) {
   const auto leave_out = [&](const std::string& reason) {
     all.notes.push_back(fmt::format("{}: left out, as {}", file.stem().string(), reason));
@@ -104,7 +104,7 @@ void add_scene(StepCases& all, const std::filesystem::path& file) {
   all.cases.push_back(std::move(made));
 }
 
-// The family's cases, or a note why there are none.
+// Adds the family's cases, or a note why there are none.
 void add_family(StepCases& all, const Family& family, const std::filesystem::path& folder, bool quick) {
   const auto leave_out = [&](const std::string& reason) {
     all.notes.push_back(fmt::format("{}: left out, as {}", family.name, reason));

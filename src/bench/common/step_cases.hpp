@@ -1,4 +1,4 @@
-// What the suite `steps` runs: the scenes of a folder, and bodies of growing density in contact.
+// Loads what the suite `steps` runs: the scenes of a folder, and bodies of growing density in contact.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -12,13 +12,13 @@ namespace pliant::bench {
 
 struct StepCase {
   std::string name;
-  std::string family;  // of cases that differ by their density alone; empty for a scene as it is
+  std::string family;  // name of cases that differ only by their density; empty for a scene as it is
   ModelAndState start;
   TimePlan plan;
   CollisionDescription collision;
-  OutputDescription output;        // how it is seen
-  std::uint64_t steps_before = 0;  // not measured: the first contacts
-  std::uint64_t steps = 0;         // measured, at least one
+  OutputDescription output;        // camera and size of its pictures
+  std::uint64_t steps_before = 0;  // steps to the first contacts, which are not measured
+  std::uint64_t steps = 0;         // measured steps, at least one
 };
 
 struct StepCases {
@@ -26,11 +26,11 @@ struct StepCases {
   std::vector<std::string> notes;  // what was left out, and why
 };
 
-/// Throws Error (command_line) where there is no such folder or it holds no scene.
+/// Throws Error (command_line) if there is no such folder, or it holds no scene.
 void expect_scenes(const std::filesystem::path& folder);
 
-/// Families come from two_spheres.toml and bunnies_undamped.toml where `folder` has them, with two bodies. `quick`: families of
-/// small bodies alone. Throws Error: as expect_scenes, or input for a scene that is wrong.
+/// Loads the scenes of a folder. Families come from its two_spheres.toml and bunnies_undamped.toml, if they have two bodies. With
+/// `quick` families have only small bodies. Throws Error: as expect_scenes, or input for a scene that is wrong.
 [[nodiscard]] StepCases load_step_cases(const std::filesystem::path& folder, bool quick);
 
 }  // namespace pliant::bench

@@ -8,7 +8,7 @@
 namespace pliant::bench {
 namespace {
 
-// So many repetitions that a batch is long enough.
+// Returns a number of repetitions that makes a batch long enough.
 std::uint64_t repetitions_of_batch(double batch_seconds, const BatchTimer& seconds_of_batch) {
   std::uint64_t repetitions = 1;
   for (;;) {

@@ -42,7 +42,7 @@ class Drawing {
 
 using PassTimes = std::vector<std::pair<std::string, double>>;
 
-// A frame's passes [ms], by a mark after each.
+// Returns the times of a frame's passes [ms], by a mark after each.
 PassTimes time_passes(Device& device, Drawing& drawing) {
   PassTimes passes;
   device.mark_time();
@@ -67,7 +67,7 @@ PassTimes median_passes(Device& device, Drawing& drawing, int frames) {
   return medians;
 }
 
-// Steps from the start, and a picture of the last or none, as somebody who watches has to wait for them [s].
+// Returns the wall time of steps from the start [s]. With `draws` it includes a picture of the last step.
 double seconds_of(Device& device, Drawing& drawing, std::uint64_t steps, bool draws) {
   drawing.restart();
   device.finish();

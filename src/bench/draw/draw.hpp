@@ -1,5 +1,5 @@
-// The suite `draw`: GPU time of a picture and of its passes, for every scene of a folder as it starts, drawn as the viewer would;
-// and what pictures cost a simulation that goes on.
+// The suite `draw` measures the GPU time of a picture and of its passes, for the start of every scene of a folder. It draws as
+// the viewer does. It also measures what pictures cost a simulation that goes on.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -15,29 +15,29 @@ namespace pliant::bench {
 
 struct DrawOptions {
   int gpu_index = 0;                        // of gl::list_adapters()
-  std::filesystem::path scenes = "scenes";  // folder
+  std::filesystem::path scenes = "scenes";  // folder of scenes
   glm::uvec2 size{1920, 1080};              // of the picture [pixels]
   bool quick = false;
 };
 
-/// The share of its steps per second that a scene loses to 60 pictures a second, if the same steps take so long with a picture
-/// and without [s].
+/// Returns the share of its steps per second that a scene loses to 60 pictures a second. The arguments are the times of the same
+/// steps with and without a picture [s].
 [[nodiscard]] double share_lost(double seconds_with_picture, double seconds_without);
 
-/// The members' names are the keys of the file; a pass `shadow` has the key `shadow_milliseconds`.
+/// The members' names are the keys of the file. A pass `shadow` has the key `shadow_milliseconds`.
 struct DrawRow {
   std::string scene;
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t triangles = 0;
   std::uint32_t bodies = 0;
-  std::string detail = "full";                // or "reduced", where software draws
+  std::string detail = "full";                // or "reduced" if software draws
   std::uint32_t width = 0, height = 0;        // [pixels]
   double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
   double fastest_milliseconds_per_frame = 0;  // the fastest batch
-  /// share_lost, from the start on; empty where a picture or a step alone takes longer than a sixtieth of a second, or
+  /// share_lost of steps from the start. It is empty if a picture or a step alone takes longer than a sixtieth of a second, or if
   /// steps became non-finite.
   std::optional<double> steps_lost;
-  std::vector<std::pair<std::string, double>> milliseconds;  // of each pass, medians of frames drawn with a mark after each
+  std::vector<std::pair<std::string, double>> milliseconds;  // median of each pass over frames with a mark after each pass
 };
 
 struct DrawResult {
@@ -46,7 +46,7 @@ struct DrawResult {
   bool interrupted = false;        // by Progress
 };
 
-/// Draws from the simulation's own buffers; nothing is read back. Throws Error.
+/// Draws from the simulation's own buffers and reads nothing back. Throws Error.
 [[nodiscard]] DrawResult bench_draw(const DrawOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

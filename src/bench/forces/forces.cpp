@@ -19,7 +19,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double longest_evaluation = 2;  // [s]
-constexpr double shortest_peak = 0.01;    // batch of multiply-adds [s]; shorter ones may fall into a bad moment as a whole
+constexpr double shortest_peak = 0.01;    // batch of multiply-adds [s]; a shorter one may be disturbed from begin to end
 
 std::vector<ModelAndState> bodies_of_all_sizes(bool quick) {
   std::vector<ModelAndState> bodies;
@@ -36,7 +36,7 @@ std::optional<cpu::Isa> isa_named(std::string_view name) {
 
 double pair_count(std::uint32_t vertices) { return static_cast<double>(vertices) * (static_cast<double>(vertices) - 1); }
 
-// The variants that one place is measured with, each over all sizes.
+// Measures the variants of one place, each over all sizes.
 class ForcesAt {
  public:
   ForcesAt(const Place& place, const ForcesOptions& options)
@@ -47,7 +47,7 @@ class ForcesAt {
     if (!options.quick) warm_up();
   }
 
-  // Variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
+  // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
   std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
     if (!on_cpu() && !all_variants_) return {device_->best_force_variant(vertices)};
     std::vector<std::size_t> chosen;
@@ -58,7 +58,7 @@ class ForcesAt {
 
   const std::string& name_of_variant(std::size_t variant) const { return device_->force_variants()[variant].name; }
 
-  // Of one evaluation; 0 before the variant's first row.
+  // Returns the expected time of one evaluation, or 0 before the variant's first row.
   double expected_seconds(std::uint32_t vertices, std::size_t variant) const {
     const auto known = seconds_per_pair_.find(variant);
     return known == seconds_per_pair_.end() ? 0 : known->second * pair_count(vertices);
@@ -82,7 +82,7 @@ class ForcesAt {
     variants_.push_back(variant);
   }
 
-  // All of them, with their bounds.
+  // Returns all rows with their bounds.
   std::vector<ForcesRow> rows() const {
     std::vector<ForcesRow> bounded = rows_;
     for (std::size_t k = 0; k < bounded.size(); ++k) set_bound(bounded[k], variants_[k]);
@@ -92,7 +92,7 @@ class ForcesAt {
  private:
   bool on_cpu() const { return place_.device == "cpu"; }
 
-  // Clocks rise under load.
+  // Raises the device's clocks by load.
   void warm_up() {
     static_cast<void>(multiply_adds_per_second(*device_, place_, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
   }
@@ -105,15 +105,15 @@ class ForcesAt {
     return seconds_each(*device_, effort_, [&] { device_->run({&pass, 1}); });
   }
 
-  // The CPU's variants but the plain one, which is compiled for every processor, are named after instruction sets.
+  // The CPU's variants are named after instruction sets, except the plain one, which is compiled for every processor.
   bool sums_in_tiles(std::size_t variant) const { return on_cpu() && isa_named(name_of_variant(variant)); }
 
-  // The GPU's peak stands under portable.
+  // peaks_ keeps the GPU's peak under `portable`.
   cpu::Isa isa_of(std::size_t variant) const {
     return sums_in_tiles(variant) ? *isa_named(name_of_variant(variant)) : cpu::Isa::portable;
   }
 
-  // Once for every row, as whatever else the machine does can only lower it.
+  // Measures the peak again for every row and keeps the highest, because other load on the machine can only lower it.
   void look_at_peak(cpu::Isa isa) {
     const Effort effort{.batch_seconds = std::max(effort_.batch_seconds, shortest_peak), .batches = 5};
     peaks_[isa] = std::max(peaks_[isa], multiply_adds_per_second(*device_, place_, isa, effort));
@@ -139,7 +139,7 @@ class ForcesAt {
   std::vector<std::size_t> variants_;               // of the rows
 };
 
-// Every variant of one size, or a note why not; false where `progress` says to end.
+// Measures every variant of one size, or notes why not. Returns false if `progress` says to end.
 bool measure_size(ForcesAt& here, const ModelAndState& body, const std::string& place, double done, const Progress& progress,
                   std::vector<std::string>& notes) {
   const std::uint32_t vertices = body.model.vertex_count();

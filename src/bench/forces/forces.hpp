@@ -1,5 +1,5 @@
-// The suite `forces`: spring forces of one body by its size, device, precision and variant, beside what the arithmetic units
-// allow.
+// The suite `forces`. It measures spring forces of one body by size, device, precision and variant, and compares them with what
+// the arithmetic units allow.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ namespace pliant::bench {
 struct ForcesOptions {
   Selection devices;
   bool quick = false;
-  bool all_variants = false;  // of the GPU too, instead of its best for each size
+  bool all_variants = false;  // every variant of a device, instead of the GPU's best for each size
 };
 
 /// The members' names are the keys of the file.
@@ -24,9 +24,9 @@ struct ForcesRow {
   std::string form;      // of the spring's formula
   std::string variant;
   std::uint32_t vertices = 0;
-  double seconds_per_evaluation = 0;  // of all forces: the median over the batches
+  double seconds_per_evaluation = 0;  // time to sum all forces: the median over the batches
   double fastest_seconds_per_evaluation = 0;
-  double pairs_per_second = 0;        // N (N - 1) for each evaluation, by the median
+  double pairs_per_second = 0;        // by the median; an evaluation has N (N - 1) pairs
   double bound_pairs_per_second = 0;  // see spring_cost.hpp
   double ratio_to_bound = 0;
   double multiply_adds_per_second = 0;  // measured in the same run
@@ -38,7 +38,7 @@ struct ForcesResult {
   bool interrupted = false;        // by Progress
 };
 
-/// Sizes that would take over 2 s an evaluation are left out, with a note. Throws Error (device).
+/// Leaves out sizes that would take over 2 s an evaluation, with a note. Throws Error (device).
 [[nodiscard]] ForcesResult bench_forces(const ForcesOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// The multiply-adds a second that a device does at best.
+// Measures the most multiply-adds a second of a device.
 #pragma once
 #include <optional>
 
@@ -8,8 +8,8 @@
 
 namespace pliant::bench {
 
-/// By the fastest batch. On the CPU with the place's threads and precision in the given instruction set; on the GPU in fp32.
-/// `device` is the place's, without work in hand. [1/s], counted lane by lane.
+/// Returns multiply-adds per second of the fastest batch [1/s], counted lane by lane. The CPU uses the place's threads and
+/// precision and the given instruction set. The GPU uses fp32. `device` must be the place's and must be idle.
 [[nodiscard]] double multiply_adds_per_second(Device& device, const Place& place, std::optional<cpu::Isa> isa,
                                               const Effort& effort);
 

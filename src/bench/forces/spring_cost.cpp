@@ -3,12 +3,12 @@
 namespace pliant::bench {
 namespace {
 
-// A spring in a tile. Of the 12 multiply-adds of a pair three are subtractions here (x - h, h = d / 2), one more is in the
+// Counts a spring in a tile. Three of a pair's 12 multiply-adds are subtractions here (x - h, h = d / 2). One more is in the
 // product, and three more accumulate.
 constexpr InstructionCount instructions_of_spring{.all = 27, .multiply_adds = 13};
 
-// Root and division are one instruction each, instead of the 3 for inverse square root, reciprocal and product, but the root
-// needs its absolute value. With AVX-512 it is estimated and refined: see quarter_strain in device/cpu/spring_sums_avx512.cpp.
+// Root and division are one instruction each, instead of the 3 for inverse square root, reciprocal and product. But the root
+// needs an absolute value. With AVX-512 it is estimated and refined: see quarter_strain in device/cpu/spring_sums_avx512.cpp.
 InstructionCount refinement(cpu::Isa isa, int precision) {
   if (isa != cpu::Isa::avx512) return {};
   return precision == 32 ? InstructionCount{.all = 2, .multiply_adds = 1} : InstructionCount{.all = 5, .multiply_adds = 4};

@@ -1,7 +1,7 @@
-// What a spring costs in instructions. With the multiply-adds a second measured, it bounds the springs a second.
+// Counts the instructions of a spring. With the measured multiply-adds per second, the count bounds the springs per second.
 //
-// One instruction is one arithmetic operation of a vector unit on all its lanes, for one multiply-add's share of its time.
-// Counted is what physics/forces/spring.glsl asks for, with differences before and accumulation behind:
+// One instruction is one arithmetic operation of a vector unit on all its lanes, and takes as long as a multiply-add. The table
+// counts what physics/forces/spring.glsl asks for, with the differences before it and the accumulation after it:
 //
 //   operation                                 all  multiply-adds among them
 //   differences: displacement d, position x     6      0
@@ -15,8 +15,8 @@
 //   accumulation                                3      3
 //   together                                   24     12
 //
-// Loads, loops, the maximum that keeps the root from zero, sums of partial sums and the longer time of roots and divisions are
-// left out, so no kernel reaches its bound.
+// The count leaves out loads, loops, the maximum that keeps the root from zero, sums of partial sums, and the longer time of
+// roots and divisions. So no kernel reaches its bound.
 #pragma once
 #include "device/cpu/spring_sums.hpp"
 
@@ -24,17 +24,18 @@ namespace pliant::bench {
 
 struct InstructionCount {
   double all = 0;
-  double multiply_adds = 0;  // among them
+  double multiply_adds = 0;  // included in `all`
 };
 
-/// Of one vertex with one other, where every vertex sums its own springs: GPU, and the CPU's plain form.
+/// The count for a pair if every vertex sums its own springs, as on the GPU and in the CPU's plain form.
 inline constexpr InstructionCount instructions_of_pair{.all = 24, .multiply_adds = 12};
 
-/// Where a spring is computed once and counts for both its vertices, which are two pairs (device/cpu/spring_tile.inc): 27 a
-/// spring, 3 of them to accumulate once more, and what an estimated root has to be refined with.
+/// Returns the count for a pair if a spring is computed once for both its vertices, which are two pairs
+/// (device/cpu/spring_tile.inc). A spring takes 27 instructions, 3 of them to accumulate a second time, and those that refine an
+/// estimated root.
 [[nodiscard]] InstructionCount instructions_of_pair_in_tiles(cpu::Isa isa, int precision);
 
-/// Pairs a second at most, where `multiply_adds_per_second` are possible. Without fused multiply-adds, one is two instructions.
+/// Returns the most pairs per second for these multiply-adds per second. Without fused multiply-adds, each is two instructions.
 [[nodiscard]] double bound_of_pairs_per_second(double multiply_adds_per_second, const InstructionCount& pair, bool fused);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// SUNDIALS ARKODE's explicit Runge-Kutta methods (ERKStep), with its own tables, and with pliant's coefficients of Vern8.
+// Runs SUNDIALS ARKODE's explicit Runge-Kutta methods (ERKStep) with its own tables, and with pliant's coefficients of Vern8.
 #include "bench/peers/peers.hpp"
 
 #ifdef PLIANT_SUNDIALS
@@ -21,7 +21,7 @@ namespace {
 using Table = ARKODE_ERKTableID;
 constexpr Table pliants_vern8 = ARKODE_ERK_NONE;
 
-// With the stages that reach the result; with an estimate, with all. The caller frees it.
+// Makes a table of the stages that reach the result, or of all stages with an estimate. The caller frees it.
 ARKodeButcherTable table_of(const Integrator& integrator, bool with_estimate) {
   const auto& method = std::get<RungeKutta>(integrator.method);
   const int stages = with_estimate ? method.stages : evaluations_per_step(integrator);
@@ -34,8 +34,8 @@ ARKodeButcherTable table_of(const Integrator& integrator, bool with_estimate) {
                                    with_estimate ? estimate.data() : nullptr);
 }
 
-// ARKODE 5.4 takes the last stage for the next step's first wherever its c is 1, though that holds only where its row of A is b:
-// other methods lose their order. Forces here do not depend on time, so that another c changes nothing else.
+// If the last stage's c is 1, ARKODE 5.4 takes that stage for the next step's first. That is right only if its row of A is b.
+// Other methods lose their order, so this function changes their c. Forces here do not depend on time, so c has no other effect.
 void mend(ARKodeButcherTable table) {
   const int last = table->stages - 1;
   bool is_end = true;
@@ -52,7 +52,7 @@ class Session {
     expect_success(ERKStepSetUserData(memory_, &system));
     expect_success(ERKStepSetErrHandlerFn(memory_, say_nothing, nullptr));
     expect_success(ERKStepSetMaxNumSteps(memory_, -1));       // no limit
-    expect_success(ERKStepSetInterpolantDegree(memory_, 1));  // nothing is interpolated; a higher degree evaluates forces for it
+    expect_success(ERKStepSetInterpolantDegree(memory_, 1));  // a higher degree evaluates more forces, and nothing interpolates
   }
   ~Session() { ERKStepFree(&memory_); }
   Session(const Session&) = delete;
@@ -70,7 +70,7 @@ class Session {
   void set_tolerance(double relative, double absolute) { expect_success(ERKStepSStolerances(memory_, relative, absolute)); }
   void end_at(double time) { expect_success(ERKStepSetStopTime(memory_, time)); }
 
-  /// False where it fails.
+  /// Returns false if it fails.
   bool evolve(double end) {
     double reached = 0;
     return ERKStepEvolve(memory_, end, state_.vector(), &reached, ARK_NORMAL) >= 0;

@@ -1,4 +1,4 @@
-// SUNDIALS CVODE's Adams methods of orders 1 to 12, with steps and orders by a tolerance and functional iteration.
+// Runs SUNDIALS CVODE's Adams methods of orders 1 to 12 with functional iteration. A tolerance governs steps and orders.
 #include "bench/peers/peers.hpp"
 
 #ifdef PLIANT_SUNDIALS
@@ -42,7 +42,7 @@ class Session {
 
   void end_at(double time) { expect_success(CVodeSetStopTime(memory_, time)); }
 
-  /// False where it fails.
+  /// Returns false if it fails.
   bool evolve(double end) {
     double reached = 0;
     return CVode(memory_, end, state_.vector(), &reached, CV_NORMAL) >= 0;

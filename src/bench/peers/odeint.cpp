@@ -1,4 +1,4 @@
-// Boost.odeint's methods: Runge-Kutta, also with pliant's coefficients of Vern8, extrapolation, Adams and a symplectic one.
+// Runs Boost.odeint's methods: Runge-Kutta, also with pliant's coefficients of Vern8, extrapolation, Adams and a symplectic one.
 #include "bench/peers/peers.hpp"
 
 #ifdef PLIANT_ODEINT
@@ -26,7 +26,7 @@ auto rates_of(PeerSystem& system) {
   return [&system](const Numbers& y, Numbers& rates, double) { system.rates(y.data(), rates.data()); };
 }
 
-// Stages that reach the result, and those that reach the estimate as well.
+// Numbers of stages that the result needs, and that the estimate needs.
 constexpr std::size_t vern8_stages = 12, vern8_estimate_stages = 13;
 using Vern8 = odeint::explicit_generic_rk<vern8_stages, 8, Numbers>;
 using Vern8WithEstimate = odeint::explicit_error_generic_rk<vern8_estimate_stages, 8, 8, 7, Numbers>;
@@ -41,7 +41,7 @@ boost::array<double, count> rounded(const std::vector<long double>& values, std:
   return result;
 }
 
-// Rows of A below its first, each as long as its number.
+// Returns the rows of A below its first. Each is as long as its number.
 template <class Method, std::size_t... row>
 typename Method::coef_a_type rows_of(const RungeKutta& method, std::index_sequence<row...>) {
   return typename Method::coef_a_type(rounded<row + 1>(method.a, (row + 1) * static_cast<std::size_t>(method.stages))...);
@@ -91,7 +91,7 @@ double extrapolate(PeerSystem& system, Numbers& state, double duration, double e
   return take_adaptive_steps(odeint::bulirsch_stoer<Numbers>(effort * size_of_numbers(state), effort), system, state, duration);
 }
 
-// Started by a method of its own order.
+// A Runge-Kutta method of its own order makes the first steps.
 double take_adams_steps(PeerSystem& system, Numbers& state, double duration, double effort) {
   constexpr std::size_t order = 8;
   const auto steps = static_cast<std::size_t>(std::llround(effort));

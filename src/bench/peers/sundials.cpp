@@ -13,7 +13,7 @@
 namespace pliant::bench {
 namespace {
 
-// result = change(x), number by number; the result may be x.
+// Sets result = change(x), number by number. `result` may be `x`.
 template <class Change>
 void transform(N_Vector x, N_Vector result, Change change) {
   const realtype* const from = N_VGetArrayPointer(x);
@@ -54,7 +54,7 @@ int combine(int count, realtype* factors, N_Vector* vectors, N_Vector result) {
     realtype sum[block] = {};
     for (int k = 0; k < count; ++k)
       for (sunindextype i = 0; i < length; ++i) sum[i] += factors[k] * terms[k][first + i];
-    std::copy_n(sum, length, to + first);  // after all terms, for the result may be one of them
+    std::copy_n(sum, length, to + first);  // after all terms, because the result may be one of them
   }
   return 0;
 }
@@ -67,7 +67,7 @@ realtype weighted_norm(N_Vector x, N_Vector weights) {
   return std::sqrt(sum / static_cast<realtype>(size));
 }
 
-// All that a step or an error estimate uses.
+// Replaces all operations that a step or an error estimate uses.
 void optimise(_generic_N_Vector_Ops& operations) {
   operations.nvlinearcombination = combine;
   operations.nvlinearsum = add_two;

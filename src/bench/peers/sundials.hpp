@@ -1,4 +1,4 @@
-// What runs of SUNDIALS's integrators have in common. Empty where the build did not find SUNDIALS.
+// The common parts of runs of SUNDIALS's integrators. The file is empty if the build did not find SUNDIALS.
 #pragma once
 #ifdef PLIANT_SUNDIALS
 #include <nvector/nvector_serial.h>
@@ -9,10 +9,11 @@
 
 namespace pliant::bench {
 
-/// A state for SUNDIALS, over numbers that must outlive it, with vector operations compiled here: Debian builds those of SUNDIALS
-/// without optimisation, and they would cost as much time as the forces of a small body. Vectors cloned of it take them over.
+/// A state for SUNDIALS with vector operations compiled here, which clones of its vector also use. Debian builds SUNDIALS's own
+/// operations without optimisation, and they would cost as much time as the forces of a small body.
 class SundialsState {
  public:
+  /// `numbers` must outlive it.
   explicit SundialsState(std::vector<double>& numbers);
   ~SundialsState();
   SundialsState(const SundialsState&) = delete;
@@ -26,11 +27,11 @@ class SundialsState {
   N_Vector vector_ = nullptr;
 };
 
-/// PeerSystem::rates of the system that `system` points to.
+/// Calls PeerSystem::rates of the system that `system` points to.
 int sundials_rates(realtype time, N_Vector y, N_Vector rates, void* system);
-/// For errors: a state that is not finite tells them.
+/// Ignores errors, because callers see them by a state that is not finite.
 void say_nothing(int code, const char* module, const char* function, char* message, void* data);
-/// A setting that SUNDIALS does not take is a bug here.
+/// Expects that SUNDIALS has taken a setting. If not, that is a bug here.
 void expect_success(int flag);
 
 }  // namespace pliant::bench

@@ -1,5 +1,5 @@
-// One body as a system of first order, y' = f(y), which is how other libraries integrate. Its springs are summed by pliant's own
-// vectors in fp64 on one thread, so that forces cost every integrator the same.
+// Turns one body into a system of first order, y' = f(y), which is what other libraries integrate. Pliant's own vectors sum its
+// springs in fp64 on one thread, so that forces cost every integrator the same.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,25 +13,26 @@
 
 namespace pliant::bench {
 
-/// Numbers of a state: all displacements u [m], then all velocities over omega [m], three a vertex, so that tolerances weigh both
-/// alike.
+/// A state has three numbers a vertex for all displacements u [m], and then as many for all velocities over omega [m]. So
+/// tolerances weigh both alike.
 class PeerSystem {
  public:
   /// Expects one body, without gravity, in a frame that is not turned. `model` must outlive the system.
   PeerSystem(const Model& model, DampingLaw law, double omega /* [rad/s] */);
 
   [[nodiscard]] std::vector<double> numbers_of(const State& state) const;
-  /// In the frame of the start.
+  /// Returns a state in the frame of `start`.
   [[nodiscard]] State state_of(const std::vector<double>& numbers, const State& start) const;
   [[nodiscard]] std::size_t size() const { return 6 * vertex_count_; }
   [[nodiscard]] double omega() const { return omega_; }
   [[nodiscard]] bool is_damped() const { return law_ != DampingLaw::none; }
 
-  /// f(y), of size() numbers each.
+  /// Computes f(y). Both arrays have size() numbers.
   void rates(const double* y, double* rates);
-  /// Accelerations over the square of omega [m] at displacements u, half as many numbers; expects no damping.
+  /// Computes accelerations over the square of omega [m] at displacements u. Both arrays have size() / 2 numbers. Expects no
+  /// damping.
   void accelerations(const double* u, double* scaled);
-  /// Of all forces, so far.
+  /// Returns how often all forces were evaluated so far.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
  private:

@@ -14,7 +14,7 @@
 namespace pliant::bench {
 namespace {
 
-constexpr glm::dvec3 squash{0.8, 1.05, 1.1};  // at the start
+constexpr glm::dvec3 squash{0.8, 1.05, 1.1};  // stretch at the start
 
 BodySetup sphere(int level) {
   BodySetup setup;
@@ -52,11 +52,11 @@ PrecisionCase undamped_sphere(int level, double phase) {
   return made;
 }
 
-// Strong enough to matter: amplitudes fall by the factor e in 20 rad, that is some three periods.
+// The damping is strong enough to matter: amplitudes fall by the factor e in 20 rad, which is some three periods.
 PrecisionCase damped_sphere(int level, double phase, DampingLaw law, double reference_step) {
   BodySetup setup = sphere(level);
   const double omega = omega_of(setup);
-  setup.description.damping = 0.1 * omega * (law == DampingLaw::adaptive ? 0.1 : 1);  // which goes up to ten times that
+  setup.description.damping = 0.1 * omega * (law == DampingLaw::adaptive ? 0.1 : 1);  // that law goes up to ten times as far
   const bool smooth = law == DampingLaw::constant;
   PrecisionCase made = make_case(smooth ? "constant damping" : "adaptive damping", {&setup, 1}, phase, reference_step);
   made.damping_law = law;

@@ -1,4 +1,4 @@
-// What the suite `precision` integrates, and how far from the truth an end is.
+// Makes the cases of the suite `precision`, and measures how far an end is from the truth.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -18,14 +18,14 @@ struct PrecisionCase {
   double duration = 0;                // [s]
   double omega = 0;                   // of the stiffest body's breathing, sqrt(N k / m) [rad/s]
   std::uint64_t reference_steps = 0;  // of the coarser reference
-  bool with_peers = true;             // one body without contacts
-  bool with_tolerances = true;        // without contacts
-  bool is_contest = false;            // smooth: where the suite's claim is judged
+  bool with_peers = true;             // other libraries take part: one body without contacts
+  bool with_tolerances = true;        // steps by a tolerance take part: no contacts
+  bool is_contest = false;            // a smooth case, which counts in the comparison with other libraries
 
   [[nodiscard]] TimePlan plan_steps(const Integrator& integrator, std::uint64_t steps) const;
-  /// As plan_time() has it for a scene, but that no frame holds a step back.
+  /// Returns the same plan as plan_time() for a scene, except that frames do not bound steps.
   [[nodiscard]] TimePlan plan_tolerance(const Integrator& integrator, double tolerance) const;
-  /// Up to which the method is stable; 1 / omega where nothing bounds it [s].
+  /// Returns the longest stable step [s], or 1 / omega if nothing bounds it.
   [[nodiscard]] double largest_step(const Integrator& integrator) const;
 };
 
@@ -34,7 +34,8 @@ struct PrecisionCases {
   std::vector<std::string> notes;  // what was left out, and why
 };
 
-/// `scenes`: folder for the bunny; without bunnies_undamped.toml there it is left out. `quick`: fewer vertices, shorter.
+/// Makes the cases. The bunny comes from bunnies_undamped.toml in the folder `scenes`, and is left out if that is missing. With
+/// `quick` the cases have fewer vertices and are shorter.
 [[nodiscard]] PrecisionCases make_precision_cases(const std::filesystem::path& scenes, bool quick);
 
 /// World positions [m] and velocities [m/s].
@@ -44,8 +45,8 @@ struct Ending {
 
 [[nodiscard]] Ending ending_of(const Model& model, const State& state);
 
-/// L2 norm of the difference over (x, v / omega), relative to that of the reference's own deformation: what its bodies'
-/// translation leaves. NaN where an ending is not finite.
+/// Returns the L2 norm of the difference over (x, v / omega), relative to the norm of the reference's deformation. The
+/// deformation is the reference without its bodies' translation. Returns NaN if an ending is not finite.
 [[nodiscard]] double relative_error(const PrecisionCase& what, const Ending& reference, const Ending& ending);
 
 }  // namespace pliant::bench

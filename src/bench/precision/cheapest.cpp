@@ -14,7 +14,7 @@ namespace {
 constexpr double level_margin = 0.05;
 constexpr int errors_a_decade = 10;
 
-// Between neighbours on both sides of the error.
+// Interpolates between neighbours on both sides of the error.
 double interpolate(double error, const ErrorCost& worse, const ErrorCost& better) {
   const double part = std::log(worse.error / error) / std::log(worse.error / better.error);
   return worse.cost * std::pow(better.cost / worse.cost, part);
@@ -38,14 +38,14 @@ bool is_asked_of_contest(double error) {
   return error <= 1.001 * largest_contest_error && error >= 0.999 * smallest_contest_error;
 }
 
-// A power of ten each, of every case that counts.
+// Counts a comparison for each power of ten in every case of the contest.
 std::size_t comparisons_asked(const PrecisionResult& result) {
   const auto cases = std::ranges::count_if(result.cases, [](const auto& info) { return info.is_contest && info.is_complete; });
   return static_cast<std::size_t>(cases * (1 + std::lround(std::log10(largest_contest_error / smallest_contest_error))));
 }
 
 using Cost = double (*)(const PrecisionRow&);
-// Whatever else the machine does can only slow a run down.
+// Takes the fastest run, because other load on the machine can only slow a run down.
 double seconds_of(const PrecisionRow& row) { return row.fastest_seconds; }
 double evaluations_of(const PrecisionRow& row) { return static_cast<double>(row.evaluations); }
 
@@ -57,7 +57,7 @@ std::vector<ErrorCost> points_of(const PrecisionResult& result, const std::strin
   return points;
 }
 
-// Every method's points at one place, with each cost.
+// The points of every method at one place, by both costs.
 struct PlacePoints {
   std::vector<std::vector<ErrorCost>> seconds, evaluations;
   double largest_error = 0, smallest_error = INFINITY;

@@ -1,4 +1,4 @@
-// Which method reaches an error at the least cost.
+// Finds the method that reaches an error at the least cost.
 #pragma once
 #include <array>
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace pliant::bench {
 
-/// Errors that tables ask for: 1e-2 to 1e-12.
+/// Returns the errors in the tables: 1e-2 to 1e-12.
 [[nodiscard]] std::span<const double> asked_errors();
-/// Those for which pliant shall be ahead of other libraries.
+/// The errors at which pliant should be ahead of other libraries.
 inline constexpr double largest_contest_error = 1e-3, smallest_contest_error = 1e-10;
 
 struct ErrorCost {
@@ -22,11 +22,12 @@ struct ErrorCost {
   double cost = 0;  // both above zero
 };
 
-/// The least cost that reaches `error`. Points are in the order of growing work; between neighbours logarithms are interpolated,
-/// and beyond them nothing is: where all points are better, the least cost of these. Empty where none is good enough.
+/// Returns the least cost that reaches `error`, or nothing if no point is good enough. Points must be in the order of growing
+/// work. Between neighbours it interpolates logarithms, but it never extrapolates. If all points are better, it is the least cost
+/// of these.
 [[nodiscard]] std::optional<double> cost_to_reach(double error, std::span<const ErrorCost> points);
 
-/// Where a row was measured.
+/// The library and the machine part of a row.
 struct PrecisionPlace {
   std::string library, device;
   int precision = 64;
@@ -35,7 +36,7 @@ struct PrecisionPlace {
   bool operator==(const PrecisionPlace&) const = default;
 };
 
-/// The method of some rows, and their place.
+/// A method at a place.
 struct Contender {
   PrecisionPlace place;
   std::string method;
@@ -45,13 +46,13 @@ struct Contender {
 };
 
 [[nodiscard]] Contender contender_of(const PrecisionRow& row);
-/// In the rows' order.
+/// Returns the contenders of a case in the order of the rows.
 [[nodiscard]] std::vector<Contender> contenders_of(const PrecisionResult& result, const std::string& case_name);
 [[nodiscard]] std::optional<double> seconds_to_reach(double error, const PrecisionResult& result, const std::string& case_name,
                                                      const Contender& contender);
-/// Such as "vern8", "verner_8_5_6 (adaptive)".
+/// Returns such as "vern8" or "verner_8_5_6 (adaptive)".
 [[nodiscard]] std::string name_of_method(const Contender& contender);
-/// Such as "cpu x 1, fp64", "gpu", "ARKODE".
+/// Returns such as "cpu x 1, fp64", "gpu" or "ARKODE".
 [[nodiscard]] std::string name_of_place(const PrecisionPlace& place);
 
 struct Winner {
@@ -60,31 +61,31 @@ struct Winner {
 };
 
 using Admission = std::function<bool(const Contender&)>;
-/// Empty where no admitted one reaches the error.
+/// Returns the fastest admitted contender, or nothing if none reaches the error.
 [[nodiscard]] std::optional<Winner> find_winner(double error, const PrecisionResult& result, const std::string& case_name,
                                                 const Admission& admits);
 
-/// The cheapest of all, and of one thread in fp64 by library: there all sum the same forces.
+/// The cheapest contender of all, and the cheapest of each library on one thread in fp64, where all sum the same forces.
 struct CheapestRow {
   std::string case_name;
   double error = 0;
   std::optional<Winner> any, pliant;
   std::array<std::optional<Winner>, peer_libraries.size()> peers;
 
-  /// Time of the fastest other library over pliant's; empty where one of both is missing.
+  /// Returns the time of the fastest other library over pliant's, or nothing if one of both is missing.
   [[nodiscard]] std::optional<double> lead() const;
 };
 
-/// For every case and asked error that some method reaches.
+/// Returns a row for every case and asked error that some method reaches.
 [[nodiscard]] std::vector<CheapestRow> find_cheapest(const PrecisionResult& result);
 
 enum class Standing { faster, level, slower };
 [[nodiscard]] const char* name_of(Standing standing);
-/// Times differ by some percent from run to run: leads within 5 % either way are level.
+/// Leads within 5 % either way are level, because times differ by some percent from run to run.
 [[nodiscard]] Standing standing_of(double lead);
 
-/// One entry of the comparison with other libraries: a contest's case that was not interrupted, at an error that pliant shall
-/// lead at and some other library reaches. Where pliant does not reach it, it is slower, with no lead.
+/// One entry of the comparison with other libraries. It is for a complete case of the contest, at an error of the contest that
+/// some other library reaches. If pliant does not reach it, there is no lead, and pliant is slower.
 struct ContestEntry {
   std::string case_name;
   double error = 0;
@@ -93,18 +94,18 @@ struct ContestEntry {
 };
 [[nodiscard]] std::vector<ContestEntry> contest_of(const PrecisionResult& result);
 
-/// What came of the contest, and how much of it could not be held: a sentence; empty without entries.
+/// Returns a sentence on the result of the contest, and on comparisons that could not be made. It is empty without entries.
 [[nodiscard]] std::string verdict_of(const PrecisionResult& result);
 
-/// Time of a run over its force evaluations, on one thread in fp64: the median over a library's rows [s].
+/// Fastest time of a row over its force evaluations, on one thread in fp64. `seconds` is the median over a library's rows [s].
 struct EvaluationCost {
   std::string case_name, library;
   double seconds = 0;
 };
-/// Of the contest's cases. What is beyond PrecisionCaseInfo::seconds_of_rates is the integrator's own.
+/// Returns the costs for the contest's cases. The part above PrecisionCaseInfo::seconds_of_rates is the integrator's own.
 [[nodiscard]] std::vector<EvaluationCost> evaluation_costs(const PrecisionResult& result);
 
-/// The least that an error costs at one place by any method, at ten errors a decade: what a picture draws.
+/// The least cost of errors at one place by any method, at ten errors a decade, for plots.
 struct CostCurve {
   std::string case_name;
   PrecisionPlace place;

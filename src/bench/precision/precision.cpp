@@ -50,7 +50,7 @@ class Suite {
   }
 
  private:
-  // Of quick measurements all run on one thread.
+  // Quick measurements all run on one thread.
   static std::vector<Place> choose_places(const PrecisionOptions& options) {
     constexpr int precisions[] = {64, 32};
     std::vector<Place> places = places_of(options.devices, precisions);

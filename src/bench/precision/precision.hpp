@@ -1,5 +1,6 @@
-// The suite `precision`: what an error costs. Every integrator runs at many step sizes on every device and in every precision,
-// those that "auto" takes for a tolerance also at many of these, and so do other libraries' integrators on the same forces.
+// The suite `precision` measures what an error costs. Every integrator runs at many step sizes on every device and in every
+// precision. Those that "auto" takes for a tolerance also run at many tolerances. Other libraries' integrators do the same on the
+// same forces.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -28,15 +29,15 @@ struct PrecisionRow {
   unsigned threads = 1;             // of the CPU; null in the file for the GPU
   double tolerance = 0;             // null in the file for fixed steps
   double step = 0;                  // omega times the fixed step [rad]; null in the file for adaptive steps
-  std::uint64_t evaluations = 0;    // of all forces of a body, those of rejected steps included
+  std::uint64_t evaluations = 0;    // of all forces of a body, including those of rejected steps
   std::uint64_t contact_steps = 0;  // steps with a contact
-  double seconds = 0;               // of integrating: the median over the runs
+  double seconds = 0;               // time to integrate: the median over the runs
   double fastest_seconds = 0;
   int runs = 0;
   double error = 0;  // at the end, see relative_error()
 };
 
-/// What rows of one name have in common.
+/// The values that all rows of a case have in common.
 struct PrecisionCaseInfo {
   std::string name;
   std::uint32_t vertices = 0, bodies = 0;
@@ -44,10 +45,10 @@ struct PrecisionCaseInfo {
   double duration = 0;          // [s]
   double omega = 0;             // [rad/s]
   double reference_step = 0;    // omega times the step of the reference, vern8 in fp64 [rad]
-  double reference_error = 0;   // its distance from one with steps twice as long: errors below this can't be told
-  bool is_contest = false;      // whether it belongs to the comparison with other libraries
-  bool is_complete = false;     // else it was interrupted, and nobody has won
-  double seconds_of_rates = 0;  // that other libraries' systems take for one evaluation; 0 where they take no part [s]
+  double reference_error = 0;   // distance to a reference with steps twice as long; smaller errors can't be measured
+  bool is_contest = false;      // it belongs to the comparison with other libraries
+  bool is_complete = false;     // false: it was interrupted, and nobody has won
+  double seconds_of_rates = 0;  // time of one evaluation by other libraries' systems [s]; 0: they take no part
 };
 
 struct PrecisionResult {
@@ -58,8 +59,9 @@ struct PrecisionResult {
   bool interrupted = false;  // by Progress
 };
 
-/// Steps are shortened from the longest stable ones on and tolerances sharpened from 1e-2 on, until an error stops falling,
-/// cannot be told any more, or would take too long. Ends with errors above 0.1 are no rows. Throws Error.
+/// Runs the suite. Steps become shorter, beginning with the longest stable ones, and tolerances smaller, beginning with 1e-2. A
+/// method ends when its error stops falling or can't be measured, or when the next run would take too long. Runs with errors
+/// above 0.1 give no row. Throws Error.
 [[nodiscard]] PrecisionResult bench_precision(const PrecisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

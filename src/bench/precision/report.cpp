@@ -13,7 +13,7 @@
 namespace pliant::bench {
 namespace {
 
-constexpr double unsteady_ratio = 1.2, unsteady_share = 0.1;  // of medians over the fastest runs, and of rows
+constexpr double unsteady_ratio = 1.2, unsteady_share = 0.1;  // median over fastest time of a row, and share of such rows
 
 Json row_json(const PrecisionRow& row) {
   return {{"case", row.case_name},
@@ -75,7 +75,7 @@ Json versions_json(const std::map<std::string, std::string>& versions) {
   return json;
 }
 
-// Four digits are more than a picture shows.
+// Rounds to four digits, which are more than a plot shows.
 std::vector<double> rounded(std::vector<double> values) {
   for (double& value : values) value = std::stod(fmt::format("{:.3e}", value));
   return values;
@@ -92,7 +92,7 @@ Json curve_json(const CostCurve& curve) {
           {"evaluations", rounded(curve.evaluations)}};
 }
 
-// What was left out, what came of the comparison, and how far to trust times.
+// Notes what was left out, the result of the comparison, and how far to trust times.
 std::vector<std::string> notes_of(const PrecisionResult& result) {
   std::vector<std::string> notes = result.notes;
   const auto unsteady = std::ranges::count_if(
@@ -148,7 +148,7 @@ std::string text_of(const ContestEntry& entry) {
   return entry.lead ? fmt::format("{:.2f} {}", *entry.lead, name_of(entry.standing)) : "not reached";
 }
 
-// A line for each error, a column for each case.
+// Returns a table with a line for each error and a column for each case.
 std::string table_of_contest(const PrecisionResult& result) {
   const std::vector<ContestEntry> contest = contest_of(result);
   if (contest.empty()) return {};

@@ -1,4 +1,4 @@
-// Results of the suite `precision` as text.
+// Writes results of the suite `precision` as text.
 #pragma once
 #include <string>
 
@@ -7,10 +7,11 @@
 
 namespace pliant::bench {
 
-/// A case each: milliseconds to every asked error by method on one thread in fp64, then the cheapest of all; then the contest.
+/// Returns a table for each case and then the contest. A case's table has the milliseconds to every asked error by method, on one
+/// thread in fp64, and then the cheapest of all.
 [[nodiscard]] std::string to_table(const PrecisionResult& result);
 
-/// {suite, options{...}, interrupted, machine{...}, versions{...}, cases[...], rows[...], cheapest[...], contest[...],
+/// Returns {suite, options{...}, interrupted, machine{...}, versions{...}, cases[...], rows[...], cheapest[...], contest[...],
 /// evaluation_costs[...], curves[...], notes[...]}.
 [[nodiscard]] std::string to_json(const Machine& machine, const PrecisionOptions& options, const PrecisionResult& result);
 

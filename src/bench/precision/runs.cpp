@@ -24,7 +24,7 @@ Run run_pliant(Device& device, const PrecisionCase& what, const TimePlan& plan, 
           .evaluations = (report.force_evaluations + report.forces_skipped) / what.start.model.bodies.size(),
           .contact_steps = report.contact_steps,
           .ending = ending_of(what.start.model, simulation.state())};
-  // Where no step meets the tolerance the state is finite, but of an earlier time.
+  // If no step meets the tolerance, the state is finite, but of an earlier time.
   if (report.non_finite) std::ranges::fill(run.ending.velocities, glm::dvec3(NAN));
   return run;
 }

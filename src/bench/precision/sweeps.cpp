@@ -15,10 +15,10 @@ namespace {
 
 constexpr double refinement = 2, contest_refinement = std::numbers::sqrt2;  // of fixed steps, from row to row
 constexpr double all_tolerances[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
-constexpr double tolerance_growth = 1.6;  // of the work, from one to the next: 10^(1/5), order 5 or more taken for granted
-constexpr double largest_error = 0.1;     // that says more than that a run failed
-constexpr double most_doubled = 8;        // times steps of 1 rad
-constexpr double falling = 0.8;           // an error above so much of the best before does not fall
+constexpr double tolerance_growth = 1.6;  // of the work from one tolerance to the next: 10^(1/5), for order 5 or more
+constexpr double largest_error = 0.1;     // a run with a larger error failed
+constexpr double most_doubled = 8;        // most steps tried by doubling, over the number of steps of 1 rad
+constexpr double falling = 0.8;           // an error falls if it is below this part of the best before
 
 bool is_of_contest(const Place& place) { return place.device == "cpu" && place.precision == 64 && place.threads == 1; }
 
@@ -125,7 +125,8 @@ bool Sweeps::may_go_on(const Trend& trend) const {
          trend.next_evaluations <= limits_.most_evaluations;
 }
 
-// With which a method is stable enough to end near the truth: from steps of 1 rad on by doubling and halving, then by bisection.
+// Returns the fewest steps with which a method is stable enough to end near the truth. Begins with steps of 1 rad, doubles or
+// halves their number, and then bisects.
 double Sweeps::fewest_steps(const RunAt& run) const {
   const auto serves = [&](double steps) { return relative_error(what_, reference_.ending, run(steps).ending) < largest_error; };
   const double first = std::ceil(what_.omega * what_.duration);
@@ -170,7 +171,7 @@ void Sweeps::measure(PrecisionRow row, double effort, const RunAt& run_at, doubl
   row.evaluations = run.evaluations;
   row.contact_steps = run.contact_steps;
   row.error = relative_error(what_, reference_.ending, run.ending);
-  const bool worked_more = run.evaluations > trend.evaluations;  // not where steps are as long as stability lets them be
+  const bool worked_more = run.evaluations > trend.evaluations;  // false if stability alone bounds the steps
   trend.evaluations = run.evaluations;
   trend.next_seconds = growth * run.seconds;
   trend.next_evaluations = growth * static_cast<double>(run.evaluations);
@@ -180,7 +181,7 @@ void Sweeps::measure(PrecisionRow row, double effort, const RunAt& run_at, doubl
   else if (worked_more)
     ++trend.without_progress;
   trend.best_error = std::min(trend.best_error, row.error);
-  if (row.error <= reference_.error) trend.without_progress = 2;  // less can't be told
+  if (row.error <= reference_.error) trend.without_progress = 2;  // a smaller error can't be measured
   measured_.push_back({std::move(row), run_at, effort, {run.seconds}});
 }
 

@@ -1,4 +1,4 @@
-// Sweeps of the suite `precision`: methods run with ever more effort, and each run that tells something is a row.
+// Makes the sweeps of the suite `precision`: methods run with ever more effort, and each run that did not fail gives a row.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -21,30 +21,29 @@ struct SweepLimits {
   int rounds = 1;
 };
 
-/// One case: sweeps over efforts, that is numbers of steps or tolerances, make rows. All are then run again in rounds, so that a
-/// bad moment of the machine meets one run of a row, not all.
+/// Measures one case. Sweeps over efforts, which are numbers of steps or tolerances, make rows. Then all rows run again in
+/// rounds, so that a slow moment of the machine affects one run of a row, not all.
 class Sweeps {
  public:
-  /// Hears what is measured next; the sweeps end early where it answers false.
+  /// Is called with what is measured next. If it returns false, the sweeps end.
   using GoOn = std::function<bool(std::string_view next)>;
 
   /// `what` must outlive the sweeps.
   Sweeps(const PrecisionCase& what, Reference reference, const SweepLimits& limits, GoOn go_on);
 
-  // Those that answer: false where the suite ends.
+  // The next four return false if the suite ends. `device` must outlive the sweeps.
 
-  /// Every method that meets the damping, from as few steps on as end near the truth. `device`, here and below, must outlive the
-  /// sweeps.
+  /// Sweeps every method that meets the damping. The first run has the fewest steps that end near the truth.
   bool steps(Device& device, const Place& place);
-  /// Those methods that integrator = "auto" takes for one of the tolerances, and dop853 beside; the tolerances, a factor of ten
-  /// apart, are those that the place's precision carries.
+  /// Sweeps dop853 and the methods that integrator = "auto" takes for one of the tolerances. The tolerances are a factor of ten
+  /// apart and are those that the method can meet in the place's precision.
   bool tolerances(Device& device, const Place& place);
-  /// Both, of other libraries. Expects one body without contacts.
+  /// Sweeps steps and tolerances of other libraries' methods. Expects one body without contacts.
   bool peers();
-  /// All rows again.
+  /// Runs all rows again.
   bool repeat();
 
-  /// That the peers' system takes for one evaluation [s]. Expects that they ran.
+  /// Returns the time of one evaluation by the peers' system [s]. Expects that peers() has run.
   [[nodiscard]] double seconds_of_rates();
   [[nodiscard]] std::vector<PrecisionRow> rows() const;
 
@@ -58,11 +57,11 @@ class Sweeps {
     std::vector<double> seconds;
   };
 
-  // Of one method; the next run is expected to take what the last one took, times the growth of work.
+  // The trend of one method. `next_...` is what the next run should take: what the last one took, times the growth of work.
   struct Trend {
     double next_seconds = 0, next_evaluations = 0, best_error = INFINITY;
-    std::uint64_t evaluations = 0;  // of the last one
-    int without_progress = 0;       // runs that took more of them
+    std::uint64_t evaluations = 0;  // of the last run
+    int without_progress = 0;       // runs with more evaluations but without a smaller error
   };
 
   [[nodiscard]] PrecisionRow row_like(const Integrator& integrator, const Place& place) const;

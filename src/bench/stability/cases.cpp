@@ -16,9 +16,9 @@
 namespace pliant::bench {
 namespace {
 
-constexpr double growth_limit = 1e-4;  // of amplitude, a step; as dynamics/stability.hpp has it
-constexpr double growth_in_all = 1e4;  // of energy; undamped splittings swing by 200 a quarter of a percent below their limit
-constexpr double still = 0.01;         // of the start's energy: what is left of a body at rest
+constexpr double growth_limit = 1e-4;  // of amplitude in a step, as in dynamics/stability.hpp
+constexpr double growth_in_all = 1e4;  // of energy; an undamped splitting swings 200-fold 0.25 % below its limit
+constexpr double still = 0.01;         // a body with less than this part of the start's energy is at rest
 constexpr std::uint64_t judged_stride = 4;
 constexpr std::uint64_t window = 1000;
 constexpr int growth_samples = 64;
@@ -43,7 +43,7 @@ class Experiment {
   StepReport report() { return simulation_.report(); }
   Measurement measured() { return measure(model_, simulation_.state(), glm::dvec3(0.0), pool_); }
 
-  // The largest energy of `samples`; NaN where it is not finite.
+  // Returns the largest energy of `samples`, or NaN or infinity if one is not finite.
   double largest_energy(int samples, std::uint64_t stride) {
     double largest = 0;
     for (int k = 0; k < samples; ++k) {
@@ -55,7 +55,7 @@ class Experiment {
     return is_finite() ? largest : std::numeric_limits<double>::quiet_NaN();
   }
 
-  // Over `window` steps, weighted by a sine squared.
+  // Returns the mean energy over `window` steps, weighted by a sine squared.
   double smooth_energy() {
     double sum = 0;
     for (std::uint64_t k = 1; k <= window; ++k) {
@@ -77,7 +77,7 @@ double energy_of(const ModelAndState& start) {
   return measure(start.model, start.state, glm::dvec3(0.0), alone).energy();
 }
 
-// The next step to try after `part`, both over the predicted limit. srkn11b's first instability is 0.03 % wide.
+// Returns the next step to try after `part`. Both are parts of the predicted limit. srkn11b's first instability is 0.03 % wide.
 double next_probe(double part) {
   if (part < 0.97) return part * 1.03;
   if (part < 1) return 1;
@@ -154,7 +154,7 @@ Verdict judge(Device& device, const ModelAndState& start, const TimePlan& plan, 
   PLIANT_EXPECT(steps >= 4 * judged_stride);
   const double before = energy_of(start);
   Experiment experiment(device, start, plan);
-  Measurement last_quarter;  // the largest of each
+  Measurement last_quarter;  // largest kinetic and elastic energy in it
   double largest = 0, last = 0;
   for (std::uint64_t done = 0; done < steps; done += judged_stride) {
     experiment.advance(judged_stride);

@@ -1,4 +1,5 @@
-// The suite `stability`: how far fp32 strays from fp64, far from the world's origin, in fast rotation, at any amplitude and size.
+// The suite `stability`: measures how far fp32 strays from fp64. Bodies are far from the world's origin, rotate fast, or have
+// different amplitudes and sizes.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double errors_omega_step = 0.5;  // step times the stiffest mode's frequency
 
-// The reference comes first, asked for or not.
+// Returns the places with the reference first, even if it was not asked for.
 std::vector<Place> places_of_errors(const StabilityTasks& tasks) {
   std::vector<Place> places = tasks.places();
   std::erase_if(places, [](const Place& place) { return place.precision == 64; });
@@ -36,7 +37,7 @@ ErrorRow with_findings(ErrorRow row, const Place& place, const LongRun& found, s
   return row;
 }
 
-// `row` has all but what is measured. The reference runs once for all places.
+// `row` has all values except the measured ones. The reference runs once for all places.
 void add_rows(StabilityTasks& tasks, ErrorRow row, const Integrator& integrator, const Sphere& body) {
   const auto start = std::make_shared<const ModelAndState>(body.build());
   const TimePlan plan = plan_of(integrator, DampingLaw::none, errors_omega_step / body.omega());
@@ -73,7 +74,7 @@ void add_sizes(StabilityTasks& tasks) {
     add_rows(tasks, {.family = "size", .steps = 400}, find_integrator("verlet"), {.level = level, .squash = 0.2});
 }
 
-// As fast as a body bears: centrifugal forces make it 4 % larger.
+// The body turns about as fast as it bears: centrifugal forces make it 4 % larger.
 void add_tumble(StabilityTasks& tasks, int level, double turns) {
   constexpr double omega_spin = 0.2;
   Sphere body{.level = level, .squash = 0.02};

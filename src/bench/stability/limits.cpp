@@ -1,4 +1,4 @@
-// The suite `stability`: how long a step may be, and what long runs do to the energy.
+// The suite `stability`: measures how long a step may be, and what long runs do to the energy.
 #include "bench/stability/tasks.hpp"
 #include "dynamics/stability.hpp"
 #include "model/deform.hpp"
@@ -37,7 +37,7 @@ void add_small_limits(StabilityTasks& tasks) {
       for (const Sphere& body : bodies) add_limit(tasks, integrator, place, body, 0);
   const Sphere body{1, 40};
   for (const char* name : {"verlet", "cv8", "dop853", "dprkn8", "dprkn12"})
-    for (const double rate : {0.5, 2.0, 8.0})  // over omega
+    for (const double rate : {0.5, 2.0, 8.0})  // damping rate over omega
       add_limit(tasks, find_integrator(name), tasks.places().front(), body, rate * body.omega());
 }
 
@@ -61,7 +61,7 @@ void add_large_limit(StabilityTasks& tasks, const Integrator& integrator, const 
             });
 }
 
-// Large motion is not linear: the longer a step is against a period, the more of its bound that costs.
+// Large motion is not linear. A method with longer steps loses a larger part of its bound to that.
 void add_large_limits(StabilityTasks& tasks) {
   const std::vector<double> amplitudes = tasks.is_quick() ? std::vector{0.5} : std::vector{0.1, 0.2, 0.5};
   for (const Integrator& integrator : integrators())

@@ -1,4 +1,4 @@
-// The suite `stability`: how motions end, by step and damping.
+// The suite `stability`: finds how motions end, by step and damping.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ void add_cell(StabilityTasks& tasks, const Integrator& integrator, const Sphere&
   body.squash = 0.2;
   body.velocity = {1, 0, 0};
   constexpr std::uint64_t steps = 400;
-  const Place place = tasks.places()[tasks.places().size() > 1 ? 1 : 0];  // fp32 on the CPU, where it is asked for
+  const Place place = tasks.places()[tasks.places().size() > 1 ? 1 : 0];  // fp32 on the CPU, if the CPU is asked for
   tasks.add("map", integrator, place, body.vertex_count(), steps, [=, &integrator](Device& device) {
     const double undamped = step_bound(integrator, body.body(), DampingLaw::none);
     const Verdict verdict = judge(device, body.build(), plan_of(integrator, law, part * undamped), steps);
@@ -35,7 +35,8 @@ void add_cell(StabilityTasks& tasks, const Integrator& integrator, const Sphere&
   });
 }
 
-// The middles of `count` intervals from 0.1 to 4 of the undamped bound; with a multiple of 8 it lies between two of them.
+// Returns the middles of `count` intervals from 0.1 to 4 of the undamped bound. If `count` is a multiple of 8, the bound lies
+// between two of them.
 std::vector<double> parts(int count) {
   std::vector<double> all;
   for (int i = 0; i < count; ++i) all.push_back(0.1 * std::pow(40.0, (i + 0.5) / count));
@@ -56,7 +57,7 @@ void add_dampings(StabilityTasks& tasks) {
   }
 }
 
-// Bodies of other sizes and stiffness.
+// Adds bodies of other sizes and stiffness.
 void add_shapes(StabilityTasks& tasks) {
   for (const char* name : {"verlet", "cv8"})
     for (const int level : {0, 2})

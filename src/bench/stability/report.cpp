@@ -45,7 +45,7 @@ std::string lines_of(const StabilityResult& result, const std::string& header) {
 
 char letter(const MapRow& row) { return "o.~#"[static_cast<std::size_t>(row.outcome)]; }
 
-// A line for each damping, a letter for each step, and a bar where the predicted bound lies.
+// Returns maps with a line for each damping, a letter for each step, and a bar at the predicted bound.
 std::string maps(const StabilityResult& result) {
   std::string text;
   std::string title_before;

@@ -1,4 +1,4 @@
-// Results of the suite `stability` as text.
+// Writes results of the suite `stability` as text.
 #pragma once
 #include <string>
 
@@ -7,10 +7,11 @@
 
 namespace pliant::bench {
 
-/// Limits, maps of one letter a cell, drifts, errors, notes.
+/// Returns limits, maps with one letter a cell, drifts, errors and notes.
 [[nodiscard]] std::string to_table(const StabilityResult& result);
 
-/// {suite, options{...}, interrupted, machine{...}, rows[{kind, ...}], notes[...]}; kinds are limit, map, drift and error.
+/// Returns {suite, options{...}, interrupted, machine{...}, rows[{kind, ...}], notes[...]}. Kinds are limit, map, drift and
+/// error.
 [[nodiscard]] std::string to_json(const Machine& machine, const StabilityOptions& options, const StabilityResult& result);
 
 }  // namespace pliant::bench

@@ -10,7 +10,7 @@
 namespace pliant::bench {
 namespace {
 
-constexpr double agreement = 0.02;  // of measured limits with predicted ones
+constexpr double agreement = 0.02;  // relative distance of a measured limit to its prediction, up to which they agree
 
 template <class Row>
 std::vector<Row> rows_of(const StabilityResult& result) {

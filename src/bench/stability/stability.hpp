@@ -1,5 +1,7 @@
-// The suite `stability`: at which steps methods blow up, against the limits that are predicted; what energy does over 100,000
-// steps; and how far fp32 strays from fp64 over long runs, far from the world's origin, in fast rotation, and at any size.
+// The suite `stability` measures
+// - at which steps methods blow up, compared with predicted limits
+// - what energy does over 100,000 steps
+// - how far fp32 strays from fp64 over long runs: far from the world's origin, in fast rotation, and at any size
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -19,8 +21,9 @@ struct StabilityOptions {
 
 // Members' names are the keys of the file. Every body is an icosphere of radius 1 m with m = 1 kg.
 
-/// The longest stable step of a body in breathing motion of small amplitude, with constant damping or none. Where amplitude is
-/// not small: the shortest step at which a squashed body blows up, undamped. What is predicted knows small amplitudes alone.
+/// The longest stable step of a body in breathing motion of small amplitude, with constant damping or none. With larger
+/// amplitudes it is the shortest step at which an undamped squashed body blows up. The prediction holds for small amplitudes
+/// only.
 struct LimitRow {
   std::string integrator, device;
   int precision = 64;
@@ -28,12 +31,12 @@ struct LimitRow {
   double stiffness = 0;                 // k [N/m]
   double damping = 0;                   // c [kg/s]; 0: undamped
   double amplitude = 0;                 // of the breathing, or how much the body is squashed
-  std::uint64_t steps = 0;              // that each length was tried for
+  std::uint64_t steps = 0;              // of each tried length
   double predicted_step = 0;            // [s]
-  std::optional<double> measured_step;  // [s]; null: stable as far as was tried
+  std::optional<double> measured_step;  // [s]; null: all tried lengths were stable
 };
 
-/// One cell of the map: a squashed body that also drifts, after some hundred steps.
+/// One cell of the map: how a squashed body that also drifts ends after some hundred steps.
 struct MapRow {
   std::string integrator, device;
   int precision = 32;
@@ -46,10 +49,10 @@ struct MapRow {
   double predicted_bound = 0;  // with damping [s]
   std::uint64_t steps = 0;
   Outcome outcome = Outcome::stable;
-  double energy_ratio = 0;  // end over start; null in the file where a vertex is not finite
+  double energy_ratio = 0;  // end over start; null in the file if a vertex is not finite
 };
 
-/// Energy of an undamped breathing body: the mean over the last thousand steps against that over the first.
+/// Energy of an undamped breathing body. Compares the mean over the last thousand steps with that over the first.
 struct DriftRow {
   std::string integrator, device;
   int precision = 32;
@@ -57,7 +60,7 @@ struct DriftRow {
   double omega_step = 0;  // step times the stiffest mode's frequency
   std::uint64_t steps = 0;
   double energy_drift = 0;     // relative
-  double predicted_drift = 0;  // of exact arithmetic: what the method itself loses
+  double predicted_drift = 0;  // in exact arithmetic: what the method itself loses
 };
 
 /// One run, undamped, and how far it strays from the same run in fp64 on the CPU.
@@ -70,9 +73,11 @@ struct ErrorRow {
   double distance = 0;   // from the world's origin [m]
   double turns = 0;
   std::uint64_t steps = 0;
-  /// Root mean square of the distances between positions at the end, over amplitude times radius; when tumbling, over the radius
-  /// alone. Null in the file for the fp64 run itself; but when tumbling that of an fp64 run from the nudged() start, since the
-  /// body's own vibrations are chaotic: after a thousand turns they leave no digit of where it points.
+  /// Root mean square of the distances between positions at the end, over amplitude times radius. For a tumbling body it is over
+  /// the radius alone. Null in the file for the fp64 run itself.
+  ///
+  /// For a tumbling body the fp64 row has the error of an fp64 run from the nudged() start instead. The body's own vibrations are
+  /// chaotic, and after a thousand turns they leave no digit of where it points.
   std::optional<double> error = {};
   double energy_change = 0;            // relative
   double angular_momentum_change = 0;  // relative; 0 for bodies that do not tumble
@@ -83,11 +88,11 @@ using StabilityRow = std::variant<LimitRow, MapRow, DriftRow, ErrorRow>;
 
 struct StabilityResult {
   std::vector<StabilityRow> rows;
-  std::vector<std::string> notes;  // what the rows come to
+  std::vector<std::string> notes;  // a summary of the rows
   bool interrupted = false;        // by Progress
 };
 
-/// Throws Error (device).
+/// Runs the suite. Throws Error (device).
 [[nodiscard]] StabilityResult bench_stability(const StabilityOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

@@ -1,4 +1,4 @@
-// What the suite `stability` does: a list of tasks, each of which measures one row.
+// Lists the tasks of the suite `stability`. Each task measures one row.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -12,15 +12,15 @@
 
 namespace pliant::bench {
 
-inline constexpr double small_amplitude = 1e-3;  // of breathing motion, where limits are those of linear theory
+inline constexpr double small_amplitude = 1e-3;  // of breathing motion; limits are those of linear theory
 
-/// One for each device and precision, opened when first needed. Small bodies are fastest on one thread of the CPU.
+/// Opens one device for each place when it is first needed. Small bodies get one thread of the CPU, which is fastest for them.
 class StabilityDevices {
  public:
   explicit StabilityDevices(const Selection& selection) : selection_(selection) {}
 
   [[nodiscard]] Device& at(const Place& place, std::uint32_t vertices);
-  /// fp64 and fp32 on the CPU, then the GPU.
+  /// Returns fp64 and fp32 on the CPU, and then the GPU, as far as they are selected.
   [[nodiscard]] std::vector<Place> all() const;
 
  private:
@@ -30,7 +30,7 @@ class StabilityDevices {
 
 struct StabilityTask {
   std::string name;
-  double cost = 0;  // in units that all tasks share
+  double cost = 0;  // in a unit that all tasks share
   std::function<StabilityRow()> measure;
 };
 
@@ -39,7 +39,7 @@ class StabilityTasks {
   /// `devices` must outlive the tasks.
   StabilityTasks(bool is_quick, StabilityDevices& devices) : is_quick_(is_quick), devices_(devices) {}
 
-  /// `steps`: about as many as `measure` takes.
+  /// Adds a task. `steps` is about the number of steps that `measure` makes.
   void add(const std::string& what, const Integrator& integrator, const Place& place, std::uint32_t vertices, double steps,
            std::function<StabilityRow(Device&)> measure);
 
@@ -53,13 +53,13 @@ class StabilityTasks {
   std::vector<StabilityTask> tasks_;
 };
 
-/// How long a step may be: rows of kind limit.
+/// Adds rows of kind limit: how long a step may be.
 void add_limits(StabilityTasks& tasks);
-/// How motions end, by step and damping: rows of kind map.
+/// Adds rows of kind map: how motions end, by step and damping.
 void add_maps(StabilityTasks& tasks);
-/// What 100,000 steps do to the energy: rows of kind drift.
+/// Adds rows of kind drift: what 100,000 steps do to the energy.
 void add_drifts(StabilityTasks& tasks);
-/// How far fp32 strays from fp64: rows of kind error.
+/// Adds rows of kind error: how far fp32 strays from fp64.
 void add_errors(StabilityTasks& tasks);
 
 }  // namespace pliant::bench

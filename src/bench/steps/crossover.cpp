@@ -7,7 +7,7 @@
 namespace pliant::bench {
 namespace {
 
-// By the logarithm of vertices: that of the GPU's time over the CPU's.
+// Returns the logarithm of the GPU's time over the CPU's, by the logarithm of vertices.
 std::map<double, double> log_ratios(std::span<const SizedTime> cpu, std::span<const SizedTime> gpu) {
   std::map<double, double> ratios;
   for (const SizedTime& c : cpu)
@@ -21,7 +21,7 @@ std::map<double, double> log_ratios(std::span<const SizedTime> cpu, std::span<co
 Crossover find_crossover(std::span<const SizedTime> cpu, std::span<const SizedTime> gpu) {
   const std::map<double, double> ratios = log_ratios(cpu, gpu);
   if (ratios.empty()) return {};
-  if (ratios.rbegin()->second >= 0) return {Lead::cpu_everywhere, {}};  // at least at the largest size
+  if (ratios.rbegin()->second >= 0) return {Lead::cpu_everywhere, {}};  // the CPU leads at the largest size
   for (auto above = ratios.rbegin(), below = std::next(above); below != ratios.rend(); ++above, ++below)
     if (below->second >= 0) {
       const double part = below->second / (below->second - above->second);

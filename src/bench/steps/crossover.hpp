@@ -1,4 +1,4 @@
-// From which size on the GPU is faster than the CPU.
+// Finds the size from which on the GPU is faster than the CPU.
 #pragma once
 #include <optional>
 #include <span>
@@ -14,10 +14,11 @@ enum class Lead { none_measured, cpu_everywhere, gpu_everywhere, crosses };
 
 struct Crossover {
   Lead lead = Lead::none_measured;
-  std::optional<double> vertices;  // where it crosses; with several crossings the last one, from where on the GPU stays ahead
+  std::optional<double> vertices;  // where it crosses, or crosses last: the GPU stays ahead from there on
 };
 
-/// Compares at the sizes that both have, and interpolates the logarithm of the ratio of times over that of vertices in between.
+/// Compares times at the sizes that both have. In between it interpolates the logarithm of the ratio of times over the logarithm
+/// of vertices.
 [[nodiscard]] Crossover find_crossover(std::span<const SizedTime> cpu, std::span<const SizedTime> gpu);
 
 }  // namespace pliant::bench

@@ -17,19 +17,19 @@ namespace {
 
 constexpr double longest_run = 60;       // [s]
 constexpr double warming_time = 0.3;     // [s]; clocks rise under load
-constexpr double enough_time = 1.5;      // for the runs of a case [s]; the last may go beyond
-constexpr double quick_time = 0.3;       // likewise, with `quick`
+constexpr double enough_time = 1.5;      // for the runs of a case [s]; the last run may go beyond
+constexpr double quick_time = 0.3;       // the same with `quick` [s]
 constexpr double longest_quick_run = 1;  // [s]
-constexpr double telling_step = 1e-3;    // steps at least as long are springs for the most part, not overhead [s]
+constexpr double telling_step = 1e-3;    // springs take most of a step as long as this, and not overhead [s]
 constexpr int most_runs = 5;
-constexpr int most_warming_runs = 30;  // of a scene so short that building its simulations would take far longer
+constexpr int most_warming_runs = 30;  // bounds the time to build simulations of a scene with very short runs
 
 struct Run {
   double seconds = 0;  // of the measured steps
   std::uint64_t contact_steps = 0, pair_interactions = 0;
 };
 
-// Nothing is read back while steps are measured.
+// Reads nothing back while it measures steps.
 Run run_once(Device& device, const StepCase& what) {
   Simulation simulation(device, what.start.model, what.start.state, what.plan, what.collision);
   simulation.advance(what.steps_before);
@@ -53,12 +53,12 @@ class StepsAt {
  public:
   explicit StepsAt(const Place& place) : place_(place), device_(open(place)) {}
 
-  // Of one run, as long as no force is skipped; 0 while no case here has had steps long enough to tell.
+  // Returns the expected time of one run without skipped forces [s], or 0 if no case so far had steps of telling_step or more.
   double expected_seconds(const StepCase& what) const {
     return seconds_per_pair_ * pair_interactions_of_step(what) * static_cast<double>(what.steps_before + what.steps);
   }
 
-  // Makes the case's steps, cold, for a second at most: whether they are few enough for `quick`.
+  // Returns whether a cold run of the case takes a second at most, as `quick` needs. Stops after that second.
   bool is_short(const StepCase& what) {
     build_kernels(what);
     Simulation simulation(*device_, what.start.model, what.start.state, what.plan, what.collision);
@@ -96,13 +96,13 @@ class StepsAt {
     for (int k = 0; k < most_warming_runs && warmed_ < warming_time; ++k) warmed_ += run_once(*device_, what).seconds;
   }
 
-  // By a step, so that no measured one waits for them.
+  // Makes a step, so that no measured one waits for kernels.
   void build_kernels(const StepCase& what) {
     Simulation(*device_, what.start.model, what.start.state, what.plan, what.collision).advance(1);
     device_->finish();
   }
 
-  // Takes the least time of a pair: overhead only adds to it.
+  // Takes the least time of a pair, because overhead only adds to it.
   void learn(double seconds, double steps, double pairs) {
     if (pairs == 0 || seconds < telling_step * steps) return;
     seconds_per_pair_ = seconds_per_pair_ == 0 ? seconds / pairs : std::min(seconds_per_pair_, seconds / pairs);
@@ -127,11 +127,11 @@ class StepsAt {
 
   Place place_;
   std::unique_ptr<Device> device_;
-  double warmed_ = 0;            // [s]
+  double warmed_ = 0;            // time of warming runs so far [s]
   double seconds_per_pair_ = 0;  // 0: unknown
 };
 
-// Where `quick` has only small bodies the last crossing may be beyond them.
+// With `quick` it drops the crossovers, because the last one may be beyond the small bodies.
 StepsResult with_crossovers(StepsResult result, bool quick) {
   result.crossovers = find_crossovers(result.rows);
   if (!quick || result.crossovers.empty()) return result;

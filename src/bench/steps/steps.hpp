@@ -1,4 +1,5 @@
-// The suite `steps`: what a step of whole scenes costs, on the CPU and on the GPU, and from which size on the GPU is ahead.
+// The suite `steps` measures what a step of whole scenes costs on the CPU and on the GPU. It also finds the size from which on
+// the GPU is ahead.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -12,14 +13,14 @@ namespace pliant::bench {
 
 struct StepsOptions {
   Selection devices;
-  std::filesystem::path scenes = "scenes";  // folder
+  std::filesystem::path scenes = "scenes";  // folder of scenes
   bool quick = false;
 };
 
 /// The members' names are the keys of the file.
 struct StepsRow {
   std::string scene;
-  std::string family;  // of scenes that differ by their density alone; empty for a scene as it is
+  std::string family;  // name of cases that differ only by their density; empty for a scene as it is
   std::string device;
   int precision = 32;
   unsigned threads = 1;        // of the CPU; null in the file for the GPU
@@ -28,12 +29,12 @@ struct StepsRow {
   double milliseconds_per_step = 0;  // the median over the runs, which follow a step that builds the kernels
   double fastest_milliseconds_per_step = 0;
   double steps_per_second = 0;      // by the median
-  std::uint64_t steps = 0;          // measured, of each run
-  std::uint64_t contact_steps = 0;  // among them, with a contact
+  std::uint64_t steps = 0;          // measured steps of each run
+  std::uint64_t contact_steps = 0;  // measured steps with a contact
   int runs = 0;                     // up to five within 1.5 s (0.3 s with `quick`), at least one
 };
 
-/// Of one family: the GPU against the CPU on so many threads.
+/// Compares the GPU with the CPU on so many threads in one family.
 struct FamilyCrossover {
   std::string family;
   unsigned threads = 1;
@@ -47,11 +48,11 @@ struct StepsResult {
   bool interrupted = false;        // by Progress
 };
 
-/// A run that would take over a minute is left out, with a note. `quick` makes the same steps, warm as well; it leaves out what
-/// takes over a second, and crossovers. Throws Error.
+/// Runs the suite. It leaves out a run that would take over a minute, with a note. With `quick` it makes the same warm steps, but
+/// leaves out runs that take over a second, and crossovers. Throws Error.
 [[nodiscard]] StepsResult bench_steps(const StepsOptions& options, const Progress& progress);
 
-/// For every family, and every number of threads of the CPU in it; empty without rows of the GPU.
+/// Returns a crossover for every family and every number of threads of the CPU in it. Without rows of the GPU there is none.
 [[nodiscard]] std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows);
 
 }  // namespace pliant::bench
