@@ -42,7 +42,7 @@ struct AdaptiveReport {
 
 /// What the simulation did since its start.
 struct StepReport {
-  std::uint64_t steps = 0;  // completed steps, including a non-finite one; rejected steps do not count
+  std::uint64_t steps = 0;  // completed steps, including a non-finite one, without rejected ones
   double time = 0;          // of the state [s]
   std::optional<AdaptiveReport> adaptive;
   std::optional<NonFinite> non_finite;
@@ -68,7 +68,7 @@ struct Intersections {
 
 class Simulation {
  public:
-  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports; it bounds how long a caller waits
+  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports, so that no caller waits long
 
   /// `device` and `model` must outlive the simulation.
   Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, const CollisionDescription& collision);

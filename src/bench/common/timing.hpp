@@ -18,7 +18,7 @@ struct Effort {
 /// Times of one repetition [s].
 struct Timing {
   double median = 0;   // over the batches
-  double fastest = 0;  // of all batches; other load on the machine can only slow a batch down
+  double fastest = 0;  // of all batches, because other load can only slow a batch down
 };
 
 /// The effort of `--quick`, which gives figures of the right size in a fraction of a second.

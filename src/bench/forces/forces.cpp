@@ -19,7 +19,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double longest_evaluation = 2;  // [s]
-constexpr double shortest_peak = 0.01;    // batch of multiply-adds [s]; a shorter one may be disturbed from begin to end
+constexpr double shortest_peak = 0.01;    // batch of multiply-adds [s], so that no disturbance lasts all of it
 
 std::vector<ModelAndState> bodies_of_all_sizes(bool quick) {
   std::vector<ModelAndState> bodies;

@@ -15,8 +15,8 @@
 //   accumulation                                3      3
 //   together                                   24     12
 //
-// The count leaves out loads, loops, the maximum that keeps the root from zero, sums of partial sums, and the longer time of
-// roots and divisions. So no kernel reaches its bound.
+// No kernel reaches its bound, because the count leaves out loads, loops, the maximum that keeps the root from zero, and sums of
+// partial sums. It also leaves out the longer time of roots and divisions.
 #pragma once
 #include "device/cpu/spring_sums.hpp"
 

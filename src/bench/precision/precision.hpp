@@ -45,7 +45,7 @@ struct PrecisionCaseInfo {
   double duration = 0;          // [s]
   double omega = 0;             // [rad/s]
   double reference_step = 0;    // omega times the step of the reference, vern8 in fp64 [rad]
-  double reference_error = 0;   // distance to a reference with steps twice as long; smaller errors can't be measured
+  double reference_error = 0;   // distance to a reference with steps twice as long (smaller errors can't be measured)
   bool is_contest = false;      // it belongs to the comparison with other libraries
   bool is_complete = false;     // false: it was interrupted, and nobody has won
   double seconds_of_rates = 0;  // time of one evaluation by other libraries' systems [s]; 0: they take no part

@@ -17,7 +17,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double growth_limit = 1e-4;  // of amplitude in a step, as in dynamics/stability.hpp
-constexpr double growth_in_all = 1e4;  // of energy; an undamped splitting swings 200-fold 0.25 % below its limit
+constexpr double growth_in_all = 1e4;  // of energy (an undamped splitting swings 200-fold 0.25 % below its limit)
 constexpr double still = 0.01;         // a body with less than this part of the start's energy is at rest
 constexpr std::uint64_t judged_stride = 4;
 constexpr std::uint64_t window = 1000;

@@ -63,7 +63,7 @@ struct DriftRow {
   double predicted_drift = 0;  // in exact arithmetic: what the method itself loses
 };
 
-/// One run, undamped, and how far it strays from the same run in fp64 on the CPU.
+/// One undamped run. `error` says how far it strays from the same run in fp64 on the CPU.
 struct ErrorRow {
   std::string family;  // "far", "amplitude", "size" or "tumble"
   std::string integrator = {}, device = {};
