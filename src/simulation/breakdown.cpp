@@ -14,7 +14,7 @@ std::string remedy(const TimePlan& plan) {
 std::string reason(const NonFinite& where, const TimePlan& plan) {
   if (where.failed_step == 0) return "the simulation became non-finite";
   if (where.takes_too_many)
-    return fmt::format("the tolerance of {:g} makes steps as short as {:.3g} s, and more than the 3e8 of a run are left,",
+    return fmt::format("the run would exceed 3e8 steps, because the tolerance of {:g} needs steps as short as {:.3g} s,",
                        *plan.tolerance, where.failed_step);
   return fmt::format("no step down to {:.3g} s meets the tolerance of {:g}", where.failed_step, *plan.tolerance);
 }

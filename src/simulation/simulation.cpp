@@ -166,7 +166,7 @@ void Simulation::restore(std::string_view saved) {
   known_control_.reset();
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
-  if (!from.at_end()) throw Error(ErrorKind::input, "", "its state holds more than its scene has use for", "");
+  if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();
 }
 

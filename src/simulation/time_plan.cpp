@@ -62,7 +62,7 @@ std::string names_that_bear_tolerance(DampingLaw law) {
 
 void expect_method_estimates(const TimePlan& plan, const Origin& where) {
   if (!plan.tolerance || bears_tolerance(*plan.integrator, plan.damping_law)) return;
-  const char* why = estimates_error(*plan.integrator) ? "meets damping at steps of one length alone, and a tolerance varies them"
+  const char* why = estimates_error(*plan.integrator) ? "meets damping only with steps of one length, and a tolerance varies them"
                                                       : "does not estimate its error, which a tolerance needs";
   throw Error(where, fmt::format("{} {}", plan.integrator->name, why),
               fmt::format("take \"auto\" (--integrator auto), or one of {}; or give a time_step instead of the tolerance",
@@ -75,8 +75,10 @@ void expect_method_damps(const TimePlan& plan, const Origin& where) {
   throw Error(
       where,
       is_nystrom
-          ? fmt::format("{} bears no adaptive damping: its stages have no velocities that it could act on", plan.integrator->name)
-          : fmt::format("{} is for bodies without damping: it makes kicks back in time unstable", plan.integrator->name),
+          ? fmt::format("{} can't meet adaptive damping, which needs velocities that its stages do not have",
+                        plan.integrator->name)
+          : fmt::format("{} is for bodies without damping: its steps have kicks back in time, which damping makes unstable",
+                        plan.integrator->name),
       fmt::format("set simulation.damping_law = \"{}\" or choose another integrator, such as verlet",
                   is_nystrom ? "constant" : "none"));
 }
@@ -102,10 +104,11 @@ void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDe
   const Origin& where = is_option ? simulation.time_step_where : simulation.integrator.where;
   throw Error(
       where,
-      fmt::format("{} resolves the scene's damping by steps of at most {:.4g} s, not {:.4g} s: bodies would stop short of where "
-                  "drag lets them",
-                  plan.integrator->name, bound, plan.time_step),
-      "shorten the time step, or choose verlet, which takes any");
+      fmt::format(
+          "{} needs steps of at most {:.4g} s to resolve the scene's damping, not {:.4g} s: with longer ones bodies stop short "
+          "of where drag lets them go",
+          plan.integrator->name, bound, plan.time_step),
+      "shorten the time step, or choose verlet, which takes steps of any length");
 }
 
 // Returns the shortest bound of all bodies. Bodies with the same stiffest frequency and damping rate have the same bound, so one
@@ -163,7 +166,8 @@ std::optional<double> TimePlan::time_of_frame(std::uint64_t frame) const {
 TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps) {
   const SimulationDescription& simulation = scene.simulation;
   if (steps && simulation.tolerance)
-    throw Error(ErrorKind::command_line, "--steps", "with a tolerance steps have no fixed length", "give --duration instead");
+    throw Error(ErrorKind::command_line, "--steps", "steps have no fixed length if a tolerance governs them",
+                "give --duration instead");
   TimePlan plan{.frame_rate = scene.output.frame_rate,
                 .damping_law = effective_law(simulation.damping_law, model),
                 .tolerance = simulation.tolerance,
@@ -192,7 +196,7 @@ void expect_carried(const SceneDescription& scene, const TimePlan& plan, int pre
   if (!plan.tolerance || *plan.tolerance >= smallest_tolerance(*plan.integrator, precision)) return;
   const Origin& where = scene.simulation.tolerance_where;
   throw Error(
-      where, fmt::format("a tolerance of {} is below what forces in fp32 carry with {}", *plan.tolerance, plan.integrator->name),
+      where, fmt::format("a tolerance of {} is too small for forces in fp32 with {}", *plan.tolerance, plan.integrator->name),
       fmt::format("write {} or more, or run with --device cpu --precision 64", smallest_tolerance(*plan.integrator, precision)));
 }
 
