@@ -29,7 +29,7 @@ bool is_empty_file(int file) {
 }
 
 Error in_the_way(const std::filesystem::path& lock) {
-  return {ErrorKind::command_line, lock.string(), "is no lock of pliant's, which would stand there",
+  return {ErrorKind::command_line, lock.string(), "is not a lock file of pliant, and pliant needs one there",
           "move it, or name another place"};
 }
 

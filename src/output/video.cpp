@@ -12,19 +12,20 @@ namespace pliant {
 namespace {
 
 Error failed(const std::filesystem::path& path, const ProgramPipe::End& end) {
-  return {ErrorKind::command_line, path.string(), "ffmpeg failed: " + end.account, "mend that, or write --frames png"};
+  return {ErrorKind::command_line, path.string(), "ffmpeg failed: " + end.account, "fix that, or use --frames png instead"};
 }
 
 // Other containers that ffmpeg knows can't hold H.264, or not well. ffmpeg says so only after it has begun the file.
 void expect_container(const std::filesystem::path& path) {
   for (const char* known : {".mp4", ".mkv", ".mov"})
     if (extension_of(path) == known) return;
-  throw Error(ErrorKind::command_line, path.string(), "is no place for H.264 by its ending", "name it .mp4, .mkv or .mov");
+  throw Error(ErrorKind::command_line, path.string(), "has an ending that stands for no container of H.264 video",
+              "name it .mp4, .mkv or .mov");
 }
 
 std::filesystem::path encoder() {
   if (const auto program = find_program("ffmpeg")) return *program;
-  throw Error(ErrorKind::command_line, "--video", "there is no ffmpeg on PATH", "install it, or write --frames png");
+  throw Error(ErrorKind::command_line, "--video", "there is no ffmpeg on PATH", "install it, or use --frames png instead");
 }
 
 // Every player knows yuv420p, which needs even sizes. The colours are labelled as sRGB, because players otherwise guess them from

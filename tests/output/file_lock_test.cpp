@@ -80,7 +80,7 @@ TEST_CASE("what is no empty file in a lock's place is left as it is, and there i
     for (const auto use : {FileLock::For::writing, FileLock::For::reading}) {
       const Error error = error_of([&] { FileLock(path, use); });
       CHECK(error.kind() == ErrorKind::command_line);
-      check_says(error, {"file.lock", "no lock of pliant's"});
+      check_says(error, {"file.lock", "not a lock file of pliant"});
     }
     CHECK(std::filesystem::symlink_status(lock).type() == before);
     if (before == std::filesystem::file_type::regular) CHECK(read_text(lock) == "precious");

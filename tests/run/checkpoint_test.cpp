@@ -373,7 +373,7 @@ TEST_CASE("what stands where a checkpoint's lock would be exits with 2, and is l
                                            " --checkpoint " + checkpoint.string());
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.output, Catch::Contains("c.lock: is no lock of pliant's"));
+  CHECK_THAT(result.output, Catch::Contains("c.lock: is not a lock file of pliant"));
   CHECK(read_text(lock) == before);
   CHECK_FALSE(std::filesystem::exists(checkpoint));
   CHECK_FALSE(std::filesystem::exists(out));
