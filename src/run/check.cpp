@@ -57,7 +57,7 @@ std::string length_of_steps(const TimePlan& plan) {
 }
 
 std::string count_of_steps(const TimePlan& plan, const Estimate& estimate) {
-  if (std::isnan(estimate.steps)) return "unknown: no step of the trial stood, or it went non-finite";
+  if (std::isnan(estimate.steps)) return "unknown: the trial rejected every step, or became non-finite";
   return fmt::format("{}{:.0f}", estimate.is_least ? "at least " : plan.tolerance ? "about " : "", estimate.steps);
 }
 

@@ -57,7 +57,7 @@ bool names_device(const RunOptions& given) { return given.device.kind || given.d
 void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
   const std::vector<std::uint64_t>&before = checkpoint.mesh_checksums, &now = run.mesh_checksums;
   if (before.size() != now.size())
-    throw Error(ErrorKind::input, "", "its scene has other bodies than the run was begun with", "take the pliant that wrote it");
+    throw Error(ErrorKind::input, "", "its scene has other bodies than when the run began", "use the pliant that wrote it");
   for (std::size_t body = 0; body < now.size(); ++body)
     if (before[body] != now[body])
       throw Error(ErrorKind::input, "", fmt::format("the mesh of body \"{}\" has changed since", run.scene.bodies[body].name),
@@ -74,7 +74,7 @@ void expect_device(const RunOptions& given, const Checkpoint& before, const Prep
   if (device_of(before) == device_of(now) || names_device(given)) return;
   throw Error(ErrorKind::device, "",
               fmt::format("the run was on {}, and this is {}: its bits would differ", device_of(before), device_of(now)),
-              "take the device of before, or ask for this one by --device or --precision");
+              "use the same device as before, or ask for this one with --device or --precision");
 }
 
 bool is_over(const PreparedRun& run) {
@@ -88,12 +88,13 @@ void add_warnings(const Checkpoint& before, PreparedRun& run) {
   if (is_over(run)) return;  // no more steps are made, so no bits can differ
   const std::uint64_t step = run.simulation->report().steps;
   if (device_of(before) != device_of(run))
-    run.warnings.push_back(fmt::format("up to step {} the run was on {}, and goes on on {}: its bits differ from there on", step,
-                                       device_of(before), device_of(run)));
+    run.warnings.push_back(
+        fmt::format("up to step {} the run was on {}, and from there on it is on {}: its bits differ from there on", step,
+                    device_of(before), device_of(run)));
   if (before.version != full_version())
     run.warnings.push_back(
-        fmt::format("up to step {} the run was by pliant {}, and goes on by {}: its bits may differ from there on", step,
-                    before.version, full_version()));
+        fmt::format("up to step {} the run was by pliant {}, and from there on it is by {}: its bits may differ from there on",
+                    step, before.version, full_version()));
 }
 
 Checkpoint load_checkpoint(const std::filesystem::path& file) {

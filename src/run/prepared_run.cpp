@@ -17,8 +17,8 @@ namespace {
 void expect_one_of(const std::string& option, const std::string& key, const RunOptions& options) {
   for (const std::string& override : options.overrides)
     if (override.substr(0, override.find_first_of("= ")) == key)
-      throw Error(ErrorKind::command_line, option, fmt::format("--set {} is given, too, and steps follow one of them", override),
-                  "give one of them");
+      throw Error(ErrorKind::command_line, option,
+                  fmt::format("--set {} is given, too, but only one of them can govern the steps", override), "give one of them");
 }
 
 SceneDescription describe_scene(const std::string& text, const RunOptions& options) {
@@ -63,8 +63,9 @@ void warn_of_step(PreparedRun& run) {
 
 void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
   if (!run.plan.tolerance && run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
-    run.warnings.push_back(fmt::format("no step is made: one of {:.6g} s is longer than twice the duration, {:.6g} s; shorten it",
-                                       run.plan.time_step, run.scene.simulation.duration));
+    run.warnings.push_back(
+        fmt::format("no step is made: a step of {:.6g} s is longer than twice the duration of {:.6g} s; shorten the time step",
+                    run.plan.time_step, run.scene.simulation.duration));
 }
 
 void warn_of_overlap(PreparedRun& run) {

@@ -139,9 +139,9 @@ void show_end(const RunStatus& status) {
              run.device->info().name);
   const double beside = times.measuring.seconds() + times.writing.seconds() + times.saving.seconds();
   if (beside > 0.1 && 9 * beside > times.stepping.seconds())  // over a tenth of the whole
-    fmt::print("beside these, {:.2f} s of measuring the state and {:.2f} s of frames{}\n", times.measuring.seconds(),
+    fmt::print("besides stepping: {:.2f} s for measuring the state and {:.2f} s for frames{}\n", times.measuring.seconds(),
                times.writing.seconds(),
-               !options.checkpoint.empty() ? fmt::format(" and {:.2f} s of checkpoints", times.saving.seconds()) : "");
+               !options.checkpoint.empty() ? fmt::format(" and {:.2f} s for checkpoints", times.saving.seconds()) : "");
   fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report.contact_steps, report.contact_pairs_max);
   if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
