@@ -74,8 +74,8 @@ void print_integrators() {
     fmt::print("{:<12} {:>5} {:>12} {:>9}  {:<8} {:<10} {}\n", row.name, row.order, evaluations_per_step(row), row.strained_bound,
                damping_of(row), estimates_error(row) ? "yes" : "no", row.description);
   fmt::print(
-      "squashed: the part of the step bound that spheres squashed to a half were measured to bear; automatic steps take 0.9 of "
-      "it.\n");
+      "squashed: the part of the step bound that was measured to be stable for spheres squashed to a half. Automatic steps take "
+      "0.9 of it.\n");
   fmt::print("With a tolerance, integrator \"auto\" chooses among those that can meet one.\n");
 }
 

@@ -42,7 +42,7 @@ CLI::Validator number(double lowest, double highest) {
   return {complaint, fmt::format("{} to {}", lowest, highest)};
 }
 
-// For transform(). It reads a decimal number and rewrites it without leading zeros, because CLI11 takes those for octal.
+// Serves transform(): reads a decimal number and rewrites it without leading zeros, because CLI11 takes those for octal.
 CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
   const auto complaint = [lowest, highest](std::string& text) {
     std::int64_t value = 0;
@@ -77,7 +77,7 @@ void add_device(CLI::App& command, DeviceChoice& choice) {
   add_choice<std::optional<DeviceKind>>(command, "--device", choice.kind,
                                         {{"auto", DeviceKind::automatic}, {"cpu", DeviceKind::cpu}, {"gpu", DeviceKind::gpu}},
                                         "Where to simulate (default auto: a hardware GPU, else the CPU)");
-  command.add_option("--precision", choice.precision, "Bits of the forces; 64 on the CPU alone")->check(CLI::IsMember({32, 64}));
+  command.add_option("--precision", choice.precision, "Bits of the forces; 64 needs the CPU")->check(CLI::IsMember({32, 64}));
   command.add_option("--threads", choice.threads, "Threads of the CPU (default: one a processor)")
       ->transform(whole_number(1, 4096));
 }
@@ -93,11 +93,12 @@ void add_length(CLI::App& run, RunOptions& options) {
                            ->transform(whole_number(0, 300'000'000));
   run.add_option("--duration", options.duration, "Simulated time [s]")->check(number(0, 1e30))->excludes(steps);
   CLI::Option* time_step = run.add_option("--time-step", options.time_step, "Length of a step [s]")->check(number(1e-30, 1e30));
-  run.add_option("--tolerance", options.tolerance, "Largest error of a step, by which steps then find their length")
+  run.add_option("--tolerance", options.tolerance, "Largest error of a step; each step then gets a length that meets it")
       ->check(number(1e-14, 0.1))
       ->excludes(time_step)
       ->excludes(steps);
-  run.add_option("--integrator", options.integrator, "Method; `pliant info --integrators` lists them, auto is for a tolerance");
+  run.add_option("--integrator", options.integrator,
+                 "Integrator; `pliant info --integrators` lists them, and auto chooses one for a tolerance");
 }
 
 void add_outputs(CLI::App& run, RunOptions& options) {
@@ -117,7 +118,7 @@ void add_outputs(CLI::App& run, RunOptions& options) {
 
 void add_checkpoints(CLI::App& run, RunOptions& options) {
   CLI::Option* checkpoint =
-      run.add_option("--checkpoint", options.checkpoint, "File to write, now and then, from which --resume goes on")
+      run.add_option("--checkpoint", options.checkpoint, "File to save the run to now and then, for --resume")
           ->check(not_empty());
   checkpoint->excludes(run.get_option("--video"));
   run.add_option("--checkpoint-every", options.checkpoint_interval,
@@ -125,7 +126,7 @@ void add_checkpoints(CLI::App& run, RunOptions& options) {
       ->check(number(0, 1e9));
   run.add_option(
          "--resume", options.resume,
-         "Checkpoint to go on from, instead of a scene: the run is the one that was begun, to the bit, and goes on writing "
+         "Checkpoint to go on from, instead of a scene. The run goes on as if it had not stopped, to the bit, and keeps writing "
          "checkpoints there")
       ->check(not_empty());
 }
@@ -187,9 +188,10 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite
   suite->callback([&options, which] { options.suite = which; });
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
-  suite->add_flag("--quick", options.quick,
-                  "A short measurement: rough, in seconds for forces and draw and in one to three minutes for precision and "
-                  "stability; of steps only what takes under a second");
+  suite->add_flag(
+      "--quick", options.quick,
+      "Measure roughly: seconds for forces and draw, one to three minutes for precision and stability. The suite steps leaves "
+      "out what takes over a second");
   return suite;
 }
 
@@ -202,7 +204,9 @@ CLI::App* add_device_suite(CLI::App& bench, app::BenchOptions& options, app::Ben
                                  {"gpu", app::BenchDevices::gpu},
                                  {"all", app::BenchDevices::all}},
                                 "What to measure on (default auto: the CPU, and a hardware GPU if there is one)");
-  suite->add_option("--threads", options.threads, "Most threads of the CPU, beside one (default: one a processor)")
+  suite
+      ->add_option("--threads", options.threads,
+                   "Most threads of the CPU; one thread is measured, too (default: one a processor)")
       ->transform(whole_number(1, 4096));
   return suite;
 }

@@ -210,8 +210,9 @@ std::string verdict_of(const PrecisionResult& result) {
                   contest.size(), faster, contest.size() - faster - slower.size());
   verdict += slower.empty() ? ", slower in none" : fmt::format(", SLOWER in {}: {}", slower.size(), fmt::join(slower, ", "));
   if (const std::size_t unmet = comparisons_asked(result) - contest.size(); unmet > 0)
-    verdict += fmt::format("; {} of {} could not be made, no other library getting there within the limits of the suite", unmet,
-                           comparisons_asked(result));
+    verdict +=
+        fmt::format("; {} of {} could not be made, because no other library reached the error within the limits of the suite",
+                    unmet, comparisons_asked(result));
   return verdict;
 }
 
