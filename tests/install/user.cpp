@@ -1,4 +1,4 @@
-// README's example of the library, and one thing of other modules, so that their headers and the libraries behind them must be
+// The example of docs/library.md, and one thing of other modules, so that their headers and the libraries behind them must be
 // there. Takes a scene file.
 #include <cstdio>
 #include <vector>
