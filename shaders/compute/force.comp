@@ -1,18 +1,19 @@
-// The frame around a force kernel: one work group a share, of TEAMS teams. LANES threads of a team share VERTICES vertices: each
-// takes every LANES-th other vertex of the body and tries it on all of its own, so that what is loaded once serves VERTICES pairs.
-// Lanes' sums meet in shared memory. Beside them keepers, one a coordinate, load meanwhile what else is needed, and then finish the
-// vertices. With LANES = 1, for devices without parallel lanes, a thread serves its own vertices alone.
+// The frame around a force kernel. One work group of TEAMS teams serves one share. A team has VERTICES vertices and LANES threads, its
+// lanes. One lane takes every LANES-th vertex of the body and adds its springs to all vertices of the team. What it loads once thus
+// serves VERTICES pairs. The lanes' sums meet in shared memory. Other threads of the group are keepers, one for each coordinate.
+// Meanwhile they load what else is needed, and then they finish the vertices.
+// With LANES = 1, for devices without parallel lanes, one thread serves its own vertices alone.
 //
-// With TILE the kernel runs all stages of a step in one dispatch. Groups of a body wait for each other between two stages, for a third
-// of what a dispatch costs; all of them must run at once. A group's own caches do not see what others write meanwhile, so that it
-// fetches the body's vertices into shared memory, TILE at a time.
+// With TILE the kernel runs all stages of a step in one dispatch. Between two stages the groups of a body wait for each other, which
+// costs a third of a dispatch. All of them must run at once. A group's own caches do not see what others write meanwhile. The group
+// therefore fetches the body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
-// Threads that serve several vertices have no registers for it, and the bodies for which they are best are large: it averages out.
+// Threads that serve several vertices have no registers left for this. They serve large bodies best, where rounding averages out.
 #define CANCELS_ROUNDING (VERTICES == 1 || LANES == 1)
 #include "@kernel"
 
-// Copies for each of a thread's vertices. Arrays would end up in memory: compilers index them before they unroll.
+// Repeats f for each of a thread's vertices. Arrays would end up in memory, because compilers index them before they unroll.
 #if VERTICES == 1
 #define EACH(f) f(0)
 #elif VERTICES == 2
@@ -38,12 +39,12 @@ layout(local_size_x = LANES * TEAMS + KEEPERS) in;
 shared vec4 seen[TILE];         // x, and u.x
 shared vec2 seen_beside[TILE];  // u.y, u.z
 #endif
-shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // by axis, vertex and lane; later by run, and runs' rests
+shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // [axis][vertex][lane], later runs' totals and rests as sum_run() leaves them
 #endif
 PARAMETER(uint, item_count)  // shares
 
-// `rest` is what rounding takes from the total. Kahan's summation, or Knuth's, which is exact but takes registers that threads with
-// several vertices do not have.
+// Adds `sum` to `total`. `rest` collects what rounding takes from the total. Knuth's summation finds that exactly, but needs registers
+// that threads with several vertices do not have. Those use Kahan's summation.
 #if VERTICES > 1 && LANES > 1
 void add(inout vec3 total, inout vec3 rest, vec3 sum) {
   EXACT vec3 added = sum + rest;
@@ -70,7 +71,7 @@ void add_spring(inout vec3 sum, vec3 x, vec3 d, float weight) {
 uint placed_from() { return position_at(placement_slot(), vertex_count, 0u); }
 uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.vertex_count - 1u); }
 
-// Teams of one thread take neighbours together, so that their loads are neighbours too.
+// If a team is one thread, neighbouring threads serve neighbouring vertices, so that their loads are neighbours too.
 #if LANES == 1
 #define PLACE(k) (team + uint(k) * TEAMS)
 #else
@@ -89,7 +90,7 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #define SEE(j) vec3 other_x = placed[j].xyz, other_u = placed[(j) + vertex_count].xyz;
 #endif
 
-// The spring to vertex j, if there is one before `stop`.
+// WHOLE adds the springs to vertex j + q LANES. PART does so only if that vertex stands before `stop`.
 #define WHOLE(q)                                      \
   {                                                   \
     const float weight = 1.0;                         \
@@ -113,12 +114,12 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #error UNROLL is 2, 3 or 4
 #endif
 
-// Adds springs to every LANES-th vertex from `lane` on between `first` and `end`: PLAINLY springs plainly, those sums exactly.
-// UNROLL springs at a time, so that their loads overlap; the last ones too, if need be with some left out.
+// Adds springs to every LANES-th vertex between `first` and `end`, from `lane` on. PLAINLY springs are added plainly, and those sums
+// exactly. Springs come UNROLL at a time, so that their loads overlap. So do the last ones, if need be with some left out.
 //
-// Two vertices get the very same bits from their spring, with opposite signs. What sums do not add up to zero over a body is thus
-// rounding of sums alone, and it is what counts: nothing holds a body back from drifting and turning, so that a trajectory's error
-// grows with the power 3/2 of the steps. One lane alone therefore closes its sums early; many lanes' roundings cancel.
+// Two vertices get the very same bits from their spring, with opposite signs. If the forces on a body do not add up to zero, the
+// rounding of sums alone is to blame. It is what counts, because nothing holds a body back from drifting and turning. A trajectory's
+// error grows with the number of steps to the power 3/2. A single lane therefore closes its sums early. Many lanes' roundings cancel.
 #if PLAINLY % UNROLL != 0
 #error PLAINLY is a multiple of UNROLL
 #endif
@@ -198,7 +199,7 @@ void sum_lanes(Share s, bool sums) {
 }
 #endif
 
-// Of a run of lanes, runs_of_lanes apart; its first two places keep the total and the rest.
+// Sums a run of lanes: lane `first` and those that follow it runs_of_lanes apart. The run's first two places keep the total and the rest.
 void sum_run(uint first) {
   vec3 total = vec3(0), rest = vec3(0);
   for (uint lane = 0u; lane < LANES; lane += runs_of_lanes) add(total, rest, load_partial(first + lane));
@@ -239,8 +240,8 @@ void serve(Share s, bool sums) {
 #endif
 
 #ifdef TILE
-// Until every group of the body has come here so often. All of them run, so none waits in vain; the limit is for the case that a
-// driver holds some of them back. Then the body halts, and nobody waits any more.
+// Waits until every group of the body has come here `often` times. All of them run at once, so none waits in vain. If a driver holds
+// some of them back all the same, the body halts after most_polls, and nobody waits any more.
 void wait_for_others(Share s, uint often) {
   const uint share_size = VERTICES * TEAMS;
   uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
@@ -258,7 +259,7 @@ void wait_for_others(Share s, uint often) {
   barrier();
 }
 
-shared bool group_sums;  // asked for once, so that all threads of the group go the same way
+shared bool group_sums;  // one thread asks for it, so that all threads of the group go the same way
 
 void serve_stages(Share s) {
   if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);

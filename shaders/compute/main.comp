@@ -1,4 +1,5 @@
-// The frame around every kernel: the file itself comes in by name, and its function is called once for each item.
+// The frame around every kernel but the force kernels, which have force.comp. It includes the kernel's file by name. One thread calls
+// the kernel's function for one item.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"

@@ -1,5 +1,5 @@
-// Independent chains of multiply-adds, sixteen a thread: what the GPU's vector units do at best. Sums of springs are measured
-// against it.
+// One thread runs sixteen independent chains of multiply-adds, the best that the GPU's vector units can do. Sums of springs are
+// measured against it.
 #version 450
 layout(local_size_x = 256) in;
 layout(std430, binding = 0) writeonly buffer Results { float result[]; };  // so that nothing is left out

@@ -1,4 +1,4 @@
-// The strain of one spring a thread, by whatever roots and quotients this GPU has: strain_bias.cpp compares it with fp64.
+// One thread computes the strain of one spring, by whatever roots and quotients this GPU has. strain_bias.cpp compares it with fp64.
 #version 450
 #include "physics/language.glsl"
 #include "physics/forces/spring.glsl"

@@ -1,7 +1,10 @@
-// The one list of arrays. Kernels name them in READ, WRITE and SHARED_WRITE, and get slots by those names.
+// This is the one list of arrays. Kernels name them in READ, WRITE and SHARED_WRITE, and get slots by those names.
 //
-// ARRAY(name, element, per, life, layout). One run has one `run`. Life: `fixed`, made from scene and meshes; `carried`, outlasts a step
-// and belongs to a saved state; `step`, written in a step before it is read there. Layouts are in docs/conventions.md, too.
+// A line is ARRAY(name, element, per, life, layout). An array per `run` belongs to the run as a whole. An array has one of these lives:
+// - `fixed`: it is made from scene and meshes
+// - `carried`: it outlasts a step and belongs to a saved state
+// - `step`: it is written in a step before it is read there
+// docs/conventions.md repeats the layouts.
 
 // bodies
 ARRAY(rest_position, vec4, vertex, fixed, "x, y, z in the body's frame, about its centroid [m]; w: the body's index")

@@ -1,13 +1,13 @@
-// What a thread knows of a body: `Body` and `Share` never change while a simulation runs; the other structs are split by who reads them.
-// Scalars and arrays of scalars only, so that std430 and C++ lay the structs out alike.
+// What a thread knows of a body. `Body` and `Share` never change while a simulation runs. The other structs are split by who reads them.
+// Members are built from scalars and arrays of scalars only, so that std430 and C++ lay the structs out alike.
 #ifndef BODY_GLSL
 #define BODY_GLSL
 #include "language.glsl"
 SHARED_BEGIN
 
 struct Body {
-  double inverse_unit;  // [1/m]; forces are summed with lengths in a unit of the body's own, a power of two near its radius
-  double unit_force;    // of a spring that is one unit too long: k times the unit, less Device::strain_bias [N]
+  double inverse_unit;  // [1/m] Forces are summed with lengths in the body's own unit, a power of two near its radius.
+  double unit_force;    // force of a spring that is one unit too long: k times the unit, less Device::strain_bias [N]
   double inverse_mass;  // of a vertex [1/kg]
   double damping;       // c [kg/s]
   uint first_vertex;
@@ -20,21 +20,21 @@ struct Share {
   uint body_index;
   uint first_vertex;  // of the share
   uint vertex_count;
-  uint tableau_row;   // where among the tableaus begins the one that the body steps by
+  uint tableau_row;   // where the body's own tableau begins among the tableaus
 };
 
-// The body's moving frame. A vertex stands at world position = origin + R (X + u): X the rest position, u the displacement in the
-// frame. Its velocity is R w.
+// The body's moving frame. A vertex's world position is origin + R (X + u): X is its rest position, u its displacement in the frame.
+// Its velocity in the world is R w, with w its velocity in the frame.
 struct Pose {
   double origin[3];           // [m]
   double quaternion[4];       // of R: x, y, z, w
   double rotation[9];         // R, row by row
   double gravity[3];          // the scene's gravity in this frame [m/s^2]
-  double reference[3];        // the displacement that those at the next step's start are relative to [m]
-  double start_reference[3];  // ... at this step's start, where steps can be undone [m]
+  double reference[3];        // placements at the next step's start are relative to this displacement [m]
+  double start_reference[3];  // those at this step's start are relative to this one, if steps can be undone [m]
 };
 
-// How the frame has followed the body at the end of this step, for all that is stated in it.
+// How the frame has followed the body at the end of this step. All that is stated in the frame has to follow, too.
 struct FrameChange {
   double turn[9];   // R_old = R_new turn, row by row
   double shift[3];  // what is subtracted from every turned position [m]
@@ -47,7 +47,7 @@ struct BoxBits { uint lower[3]; uint upper[3]; };
 
 struct Status {
   uint activity;           // whether the body moves: see below
-  uint non_finite_vertex;  // the body's first one at the step's end, or no_vertex
+  uint non_finite_vertex;  // the body's first vertex that is not finite at the step's end, or no_vertex
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
 };
@@ -61,10 +61,10 @@ struct Tally {
 
 // Values of Status.activity.
 const uint moving = 0u;
-const uint halted_for_good = 1u;  // a step went non-finite; nothing moves any more
-const uint halted_for_now = 2u;   // until the next step: this one is none, or was undone
-const uint halted_waiting = 3u;   // for good: its work groups do not run at once, though they should
-const uint most_polls = 1u << 22;  // before that is said; some seconds
+const uint halted_for_good = 1u;  // a step went non-finite, and nothing moves any more
+const uint halted_for_now = 2u;   // until the next step, because this one is empty or was undone
+const uint halted_waiting = 3u;   // for good, because its work groups do not run at once, though they should
+const uint most_polls = 1u << 22;  // a body is halted_waiting after so many polls, which take some seconds
 
 const uint no_vertex = 0xffffffffu;
 
@@ -74,19 +74,21 @@ FN double row_times(double x, double y, double z, IN(dvec3) p) {
   return sum;
 }
 
+// Turns a vector p of the frame into the world: R p.
 FN dvec3 rotate(IN(Pose) pose, dvec3 p) {
   return dvec3(row_times(pose.rotation[0], pose.rotation[1], pose.rotation[2], p),
                row_times(pose.rotation[3], pose.rotation[4], pose.rotation[5], p),
                row_times(pose.rotation[6], pose.rotation[7], pose.rotation[8], p));
 }
 
-// R transposed times p.
+// Turns a vector p of the world into the frame: R transposed times p.
 FN dvec3 rotate_back(IN(Pose) pose, dvec3 p) {
   return dvec3(row_times(pose.rotation[0], pose.rotation[3], pose.rotation[6], p),
                row_times(pose.rotation[1], pose.rotation[4], pose.rotation[7], p),
                row_times(pose.rotation[2], pose.rotation[5], pose.rotation[8], p));
 }
 
+// Where a point p of the frame [m] stands in the world [m].
 FN dvec3 to_world(IN(Pose) pose, dvec3 p) {
   EXACT dvec3 q = rotate(pose, p) + LOAD3(pose.origin, 0u);
   return q;

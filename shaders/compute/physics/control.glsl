@@ -4,36 +4,36 @@
 #include "language.glsl"
 SHARED_BEGIN
 
-// Values of the parameter `triangle_test`, as the scene's TriangleTest has them.
+// Values of the parameter `triangle_test`. The scene's TriangleTest has the same ones.
 const uint certified_test = 0u;
 const uint moller_test = 1u;
 
 const uint group_size = 64u;  // threads in a work group of every kernel
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
 const uint threads_per_leaf_pair = 16u;  // in test_pairs
-const uint no_node = 0xffffffffu;  // parent of a root; root of a body without triangles
+const uint no_node = 0xffffffffu;  // parent of a root, or root of a body without triangles
 
 // What is counted in each step and summed over the run.
 const uint nodes_refitted = 0u;
-const uint node_tests = 1u;  // of two nodes' boxes, or without trees two triangles'
+const uint node_tests = 1u;  // tests of two nodes' boxes, or without trees of two triangles' boxes
 const uint triangle_tests = 2u;
 const uint contact_pairs = 3u;
 const uint reverted_vertices = 4u;
 const uint body_pairs_near = 5u;
-const uint body_pairs_skipped = 6u;  // root boxes apart: no tree work
+const uint body_pairs_skipped = 6u;  // the bodies' boxes are apart, so the pair needs no further work
 const uint trees_refitted = 7u;      // a body without a partner keeps its old boxes
-const uint pairs_beyond_capacity = 8u;  // tested by the thread that found them, for want of room
+const uint pairs_beyond_capacity = 8u;  // the list of leaf pairs was full, so the thread that found them tested them
 const uint counter_count = 9u;
 
 struct Control {
-  double time_step;        // of the step being made [s]; 0: there is none
+  double time_step;        // of the step being made [s], 0 if the step is empty
   uint step;               // the step being made, from 1
   uint non_finite_step;    // 0: none so far
   uint non_finite_vertex;  // the first one, or no_vertex
   uint contact_steps;      // steps with a contact
   uint contact_pairs_max;  // most triangle pairs in one step
   uint near_pair_count;    // body pairs whose boxes overlap, this step
-  uint leaf_pair_count;    // pairs of leaves whose boxes overlap, this step; may pass the list's capacity
+  uint leaf_pair_count;    // pairs of leaves whose boxes overlap, this step (can exceed the list's capacity)
   uint count[counter_count];       // this step's, by the names above
   uint total_low[counter_count];   // of all steps before: 64 bits in two halves
   uint total_high[counter_count];

@@ -1,4 +1,4 @@
-// The paper's damping, F_D = -g m v with the rate g [1/s], and its exact action on a kick.
+// The paper's damping is F_D = -g m v, with the rate g [1/s]. decay() is its exact action on a kick.
 #ifndef DAMPING_GLSL
 #define DAMPING_GLSL
 #include "language.glsl"
@@ -8,23 +8,25 @@ const uint damping_none = 0u;
 const uint damping_constant = 1u;  // the paper's equation 2
 const uint damping_adaptive = 2u;  // the paper's equation 3
 
-// g = 0, c/m, or min(|F_s| / 10, 10) c/m, with the square of the net spring force F_s [N^2].
+// Returns the rate g [1/s]: 0, c/m, or min(|F_s| / 10, 10) c/m. `damping` is c [kg/s], `inverse_mass` is 1/m [1/kg], and
+// `force_squared` is the square of the net spring force F_s [N^2].
 FN double damping_rate(uint law, double damping, double inverse_mass, double force_squared) {
   if (law == damping_none) return double(0);
   if (law == damping_constant) return damping * inverse_mass;
-  // GLSL reads literals as fp32. Square roots and divisions are slow on GPUs: these two are folded away.
+  // GLSL reads literals as fp32. Square roots and divisions are slow on GPUs, but compilers fold these two constants.
   const double tiny = double(1e-30) * double(1e-30), tenth = double(1) / double(10);
   double force = force_squared * inversesqrt(max(force_squared, tiny));
   return min(tenth * force, double(10)) * damping * inverse_mass;
 }
 
-// What a kick of duration t leaves of the velocity, e^-z, and its effect per acceleration and time, (1 - e^-z) / z, with z = g t.
-// A Taylor series near zero, then doublings: e^-2z = (e^-z)^2 and phi(2z) = phi(z) (1 + e^-z) / 2. GLSL has no exp of double.
+// What a kick of duration t does, with z = g t. `keep` = e^-z is what it leaves of the velocity. `gain` = phi(z) = (1 - e^-z) / z is
+// its effect per acceleration and time. GLSL has no exp of double. A Taylor series serves near zero. Doublings do the rest:
+// e^-2z = (e^-z)^2 and phi(2z) = phi(z) (1 + e^-z) / 2.
 struct Decay { double keep; double gain; };
 
 FN Decay decay(double z) {
   Decay result;
-  if (z == double(0)) {  // the series comes to the same, by a dozen divisions
+  if (z == double(0)) {  // the series gives the same, but takes a dozen divisions
     result.keep = double(1);
     result.gain = double(1);
     return result;

@@ -1,5 +1,5 @@
-// The shared dialect: what a file needs to be GLSL 4.50 and C++20 at once. `real` is the precision of the forces: float in
-// shaders, float or double on the CPU (REAL_BITS). Everything else says float or double itself and means it.
+// This dialect lets a file be GLSL 4.50 and C++20 at once. `real` is the precision of the forces: float in shaders, float or double
+// on the CPU (REAL_BITS). Everything else says float or double itself.
 #ifndef LANGUAGE_GLSL
 #define LANGUAGE_GLSL
 #ifdef __cplusplus
@@ -30,7 +30,7 @@
   #define IN_ARRAY(T, name, n) const T (&name)[n]
   #define EXACT
   #define FUSED(a, b, c) ((a) * (b) + (c))
-  // A kernel's declarations, as members of its struct. On a GPU the loader writes them out (kernel_source.hpp).
+  // On the CPU a kernel's declarations are members of its struct. On a GPU the loader writes them out (kernel_source.hpp).
   #define READ(name) READ_AS(name, array::name::element, name)
   #define WRITE(name) WRITE_AS(name, array::name::element, name)
   #define SHARED_WRITE(name) WRITE(name)
@@ -59,7 +59,7 @@
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
 #endif
 
-// Flat arrays of doubles hold three numbers a vector: std430 and C++ disagree on arrays of dvec3.
+// Flat arrays of doubles hold three numbers a vector, because std430 and C++ disagree on arrays of dvec3.
 #define LOAD3(array, first) dvec3((array)[(first)], (array)[(first) + 1u], (array)[(first) + 2u])
 #define STORE3(array, first, value)          \
   {                                          \
@@ -95,6 +95,7 @@ FN int bitCount(uint bits) { return std::popcount(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 #endif
+// The dot and the cross product. Every device rounds them in the order written.
 FN float ordered_dot(vec3 a, vec3 b) {
   EXACT float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
   return sum;

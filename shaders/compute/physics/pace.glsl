@@ -1,5 +1,6 @@
-// How long steps are where a tolerance governs them. A proportional-integral controller: Gustafsson, ACM Trans. Math. Softw. 17
-// (1991) 533-554; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4 and II.5 (dop853's estimate).
+// How long steps are if a tolerance governs them. The controller is proportional-integral. Sources:
+// - Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554
+// - Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4 and II.5 (dop853's estimate)
 #ifndef PACE_GLSL
 #define PACE_GLSL
 #include "collision/box.glsl"
@@ -8,60 +9,61 @@ SHARED_BEGIN
 using std::pow, glm::clamp;
 #endif
 
-// What became of a step.
+// Values of Pace.verdict: what became of a step.
 const uint step_accepted = 0u;
-const uint step_rejected = 1u;  // its error was too large, or its contacts too deep: it is undone
-const uint step_empty = 2u;     // none was made, the target being reached
-const uint run_over = 3u;       // none will be made any more
+const uint step_rejected = 1u;  // it is undone, because its error was too large or its contacts were too deep
+const uint step_empty = 2u;     // no step was made, because the target was reached
+const uint run_over = 3u;       // no step is made any more
 
-// Why a step ends the run.
+// Values of Pace.failure: why a step ends the run.
 const uint no_failure = 0u;
 const uint no_length_meets = 1u;  // its error is too large, and shorter steps do not help
-const uint too_many_steps = 2u;   // steps of the length that errors have come to would be more than a run may have
+const uint too_many_steps = 2u;   // at the length that errors demand, the run would have more steps than it may
 
 struct Pace {
-  double time;            // that the state stands at [s]
-  double target;          // where a step is to end exactly [s]
+  double time;            // of the state [s]
+  double target;          // a step has to end exactly here [s]
   double end;             // of the run [s]
   double allowed;         // length of the next step, before it is fitted to the target [s]
   double tolerance;       // of a step's error
-  double first_step;      // at the start, and the longest after a contact [s]
+  double first_step;      // length of the first step, and the longest one after a contact [s]
   double largest_step;    // [s]
-  // Of the latest step accepted, in units of the tolerance; but not of one cut short with an error of at most a half.
+  // Error of the latest accepted step, in units of the tolerance. Steps that were cut short do not count if it is at most a half.
   double error_before;
   double largest_motion;  // how long the diagonal of the box of touching vertices' ways in a step may be [m]
-  double contact_step;    // in which it would be nearly as long, from the latest contact [s]
-  double contact_until;   // the time up to which no step is longer than that: where one that met a contact was to end [s]
-  double failed_step;     // with which the run ends [s]; 0: there is none
-  double lowest_step;     // of the steps rejected in a row, for their errors: the one whose error was lowest [s]; 0: there is none
-  double window_start;    // the time where the latest `pace_window` of steps began [s]
-  double smallest_taken;  // of the steps that were accepted [s]
-  double largest_taken;   // likewise [s]
-  uint error;             // this step's, the largest over all vertices; bits of a float
-  // The box of the ways that touching vertices went in this step, as ordered bits. No array: NVIDIA's driver 580 keeps a struct with
-  // one in memory when functions pass it on, and its doubles as floats there.
+  double contact_step;    // in a step of this length touching vertices go nearly largest_motion, by the latest contact [s]
+  double contact_until;   // before this time no step is longer than contact_step: a step with too deep contacts was to end then [s]
+  double failed_step;     // length of the step that ends the run [s], 0 if there is none
+  double lowest_step;     // length of the step whose error was lowest, of those rejected in a row for their errors [s], or 0
+  double window_start;    // time at which the latest `pace_window` of steps began [s]
+  double smallest_taken;  // length of the shortest accepted step [s]
+  double largest_taken;   // length of the longest accepted step [s]
+  uint error;             // this step's, the largest over all vertices, as bits of a float
+  // The box of the ways that touching vertices went in this step, as ordered bits. It is no array: NVIDIA's driver 580 keeps structs
+  // with arrays in memory when functions pass them on, and stores their doubles as floats there.
   uint least_x, least_y, least_z, most_x, most_y, most_z;
   uint estimate_order;    // the error grows with this power of the step
   uint verdict;           // on the latest step
-  uint accepted;          // steps, so far
-  uint rejected;          // likewise
-  uint rejected_in_contact;  // of them, not for their error but for the way that touching vertices went
-  uint rejected_before;   // 1: the step before was, for its error
-  uint lowest_error;      // in lowest_step; bits of a float
-  uint failure;           // of failed_step
+  uint accepted;          // number of accepted steps
+  uint rejected;          // number of rejected steps
+  uint rejected_in_contact;  // those of them that were rejected for the way that touching vertices went, not for their error
+  uint rejected_before;   // 1: a step was rejected for its error after the latest accepted one
+  uint lowest_error;      // error of lowest_step, as bits of a float
+  uint failure;           // why failed_step ends the run
   uint is_too_slow;       // 1: at the pace of the window before, more steps are left than a run may have
 };
 
-// What a run may have: counts of forces have 32 bits.
+// A run may have this many steps, because counts of forces have 32 bits.
 FN double most_steps() { return double(3e8); }
 
-// So many steps, rejected ones included, tell a pace that lasts from short steps on the way past a kink or through a contact.
+// Steps of a window, with the rejected ones. So many tell a pace that lasts from short steps past a kink or through a contact.
 const uint pace_window = 1000u;
 
-// Shorter than this no step is tried again: its end would be lost in the time's rounding, or nothing helps.
+// No step shorter than this [s] is tried again. Its end would be lost in the time's rounding, or no shorter step helps.
 FN double shortest_step(IN(Pace) pace) { return double(1e-14) * max(pace.time, pace.first_step); }
 
-// A step of the allowed length, or one that ends at the target; what is left over is shared by two, so that no sliver remains.
+// Returns the length of the next step [s]: the allowed one, or what is left up to the target. If less than two allowed steps are left,
+// two equal steps share that, so that no sliver remains. Returns 0 at the target.
 FN double fitted_step(double allowed, double left) {
   if (!(left > double(0))) return double(0);
   if (left <= allowed) return left;
@@ -70,8 +72,8 @@ FN double fitted_step(double allowed, double left) {
 
 FN double next_step(IN(Pace) pace) { return fitted_step(pace.allowed, pace.target - pace.time); }
 
-// Steps are meant to have this error, in units of the tolerance: so far below it that few are rejected. Measured at equal true error:
-// against 0.4, with exponents 0.7 and 0.4, forces are summed 10 to 16 % less often where damping is kinked and no more often elsewhere.
+// Steps aim at this error, in units of the tolerance. It is so far below 1 that few steps are rejected. It was measured at equal true
+// error against 0.4 with exponents 0.7 and 0.4. Forces are summed 10 to 16 % less often if damping is kinked, and no more often elsewhere.
 FN double aimed_error() { return double(1) / double(10); }
 
 // No step is longer than the one before by more than this factor.
@@ -83,17 +85,17 @@ FN void forget_step(INOUT(Pace) pace) {
   pace.most_x = pace.most_y = pace.most_z = 0u;
 }
 
-const uint infinite_error = 0x7f800000u;  // as bits; those of NaN are above
+const uint infinite_error = 0x7f800000u;  // bits of infinity, those of NaN are above
 
-// A vertex's error from the method's two estimates e and f, all as bits of floats: e^2 / sqrt(e^2 + f^2 / 100), as in dop853. NaN
-// counts as infinite; by bits, because shader compilers turn comparisons round as if there were no NaN.
+// Returns a vertex's error from the method's two estimates e and f: e^2 / sqrt(e^2 + f^2 / 100), as in dop853. All three are bits of
+// floats. NaN counts as infinite. Bits are compared, because shader compilers turn comparisons of floats round as if there were no NaN.
 FN uint joined_error(uint e_bits, uint f_bits) {
   if (max(e_bits, f_bits) >= infinite_error) return infinite_error;
   double e = double(uintBitsToFloat(e_bits)), f = double(uintBitsToFloat(f_bits));
   return e_bits == 0u ? 0u : floatBitsToUint(float(e * e / sqrt(e * e + f * f / double(100))));
 }
 
-// In units of the tolerance.
+// Returns an error, given as bits of a float, in units of the tolerance.
 FN double judged_error(uint error_bits, double tolerance) {
   return error_bits >= infinite_error ? double(1e30) : double(uintBitsToFloat(error_bits)) / tolerance;
 }
@@ -102,15 +104,16 @@ FN bool touches(IN(Pace) pace) { return pace.least_x <= pace.most_x; }
 
 FN double extent(uint least, uint most) { return double(from_ordered_bits(most)) - double(from_ordered_bits(least)); }
 
-// The diagonal of the box of the ways that touching vertices went, in units of what it may be: no two of them went further against
-// each other. It grows with the step, and a common motion adds nothing; motion along surfaces and pairs far apart do.
+// Returns the diagonal of the box of the ways that touching vertices went, in units of what it may be. No two of these vertices went
+// further against each other. The diagonal grows with the step. A common motion adds nothing. Motion along surfaces and pairs far
+// apart add to it.
 FN double judged_motion(IN(Pace) pace) {
   if (!touches(pace)) return double(0);
   double x = extent(pace.least_x, pace.most_x), y = extent(pace.least_y, pace.most_y), z = extent(pace.least_z, pace.most_z);
   return sqrt(x * x + y * y + z * z) / pace.largest_motion;
 }
 
-// By what factor the next step may be longer than one with this error. GLSL has powers of floats alone.
+// Returns the factor by which the next step may be longer than one with this error. GLSL has powers of floats alone.
 FN double power_of_error(double error, float exponent) {
   double relative = max(error, double(1e-10)) / aimed_error();
   return double(pow(float(relative), exponent));
@@ -126,19 +129,19 @@ FN double after_rejection(IN(Pace) pace, double error) {
   return max(power_of_error(error, -1.0f / float(pace.estimate_order)), double(1) / double(3));
 }
 
-// After a step that was cut short for the target. Its small error is no reason for short steps, and says how long a free one may be;
-// right after a rejection that is not tried.
+// Returns how long the next step may be after one of the length `taken` that was cut short for the target [s]. The small error of such
+// a step is no reason for short steps: it says how long a free step may be. Right after a rejection no longer step is tried.
 FN double after_cut(IN(Pace) pace, double taken, double error) {
   double free_step = taken * min(power_of_error(error, -1.0f / float(pace.estimate_order)), largest_growth());
   return pace.rejected_before != 0u ? pace.allowed : max(free_step, pace.allowed);
 }
 
-// Three halvings have not lowered the error. One that is infinite tells nothing: it is never the lowest.
+// Whether three halvings have not lowered the error. An infinite error tells nothing: it is never the lowest.
 FN bool is_stalled(IN(Pace) pace, double taken, uint error_bits) {
   return error_bits >= pace.lowest_error && double(8) * taken <= pace.lowest_step;
 }
 
-// Whether a step with this error ends the run: if a vertex's does, so does the largest.
+// Whether and why a step of the length `taken` [s] with this error ends the run. If one vertex's error does, so does the largest.
 FN uint failure_of(IN(Pace) pace, double taken, uint error_bits) {
   double error = judged_error(error_bits, pace.tolerance);
   if (error > double(1) && (taken <= shortest_step(pace) || is_stalled(pace, taken, error_bits))) return no_length_meets;
@@ -148,7 +151,7 @@ FN uint failure_of(IN(Pace) pace, double taken, uint error_bits) {
 FN void accept_step(INOUT(Pace) pace, double taken, double error) {
   double allowed = taken * after_acceptance(pace, error);
   if (pace.rejected_before != 0u) allowed = min(allowed, taken);
-  if (taken < pace.allowed && error <= double(1) / double(2))  // with more the next one as long might be rejected
+  if (taken < pace.allowed && error <= double(1) / double(2))  // with a larger error the next step of that length might be rejected
     allowed = after_cut(pace, taken, error);
   else
     pace.error_before = max(error, double(1) / double(10000));
@@ -173,7 +176,7 @@ FN void reject_step(INOUT(Pace) pace, double taken, double error) {
   pace.verdict = step_rejected;
 }
 
-// Bodies would go too deep into each other to part again. Where they would have met, steps stay short.
+// Undoes a step in which bodies went too deep into each other to part again. Steps stay short up to where it was to end.
 FN void reject_contact(INOUT(Pace) pace, double taken) {
   pace.contact_until = max(pace.contact_until, pace.time + taken);
   pace.lowest_step = double(0);
@@ -182,7 +185,7 @@ FN void reject_contact(INOUT(Pace) pace, double taken) {
   pace.verdict = step_rejected;
 }
 
-// Errors from before a contact say nothing of a motion that it has broken off.
+// Shortens steps after a contact. Errors from before it say nothing of a motion that it has broken off.
 FN void follow_contact(INOUT(Pace) pace, double taken, double motion) {
   const double aimed_motion = double(4) / double(5);
   pace.contact_step = max(min(pace.first_step, taken * aimed_motion / max(motion, double(1e-6))), shortest_step(pace));
@@ -190,7 +193,7 @@ FN void follow_contact(INOUT(Pace) pace, double taken, double motion) {
   pace.error_before = aimed_error();
 }
 
-// At the end of each window.
+// Compares the pace with what a run may have, at the end of each window.
 FN void watch_pace(INOUT(Pace) pace) {
   if ((pace.accepted + pace.rejected) % pace_window != 0u) return;
   bool is_too_slow = (pace.end - pace.time) * double(pace_window) > most_steps() * (pace.time - pace.window_start);
@@ -198,8 +201,8 @@ FN void watch_pace(INOUT(Pace) pace) {
   pace.window_start = pace.time;
 }
 
-// Decides on a step of the length `taken`, and how long the next may be. One that ends the run stands, whatever its error. The
-// shortest one stands, whatever its contacts.
+// Decides on a step of the length `taken` [s], and how long the next may be. A step that ends the run stands, whatever its error. The
+// shortest step stands, whatever its contacts.
 FN void judge(INOUT(Pace) pace, double taken) {
   double error = judged_error(pace.error, pace.tolerance), motion = judged_motion(pace);
   uint failure = failure_of(pace, taken, pace.error);

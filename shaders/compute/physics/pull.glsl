@@ -1,15 +1,15 @@
-// Pulling a body at a part of its surface, between steps: what the threads of a pull know.
+// What the threads know that pull a body at a part of its surface, between steps.
 #ifndef PULL_GLSL
 #define PULL_GLSL
 #include "language.glsl"
 SHARED_BEGIN
 
 struct Aim {
-  double target[3];       // where the grip is to be [m]
-  double approach;        // of the way there, how much it should make in a second [1/s]
-  double largest_speed;   // with which it should [m/s]
-  double largest_change;  // of a velocity by this pull [m/s]
-  double change[3];       // of a velocity at full weight, in the body's frame [m/s]: what aim_pull finds
+  double target[3];       // where the grip has to go [m]
+  double approach;        // part of the way there that it goes in a second [1/s]
+  double largest_speed;   // it goes there no faster [m/s]
+  double largest_change;  // this pull changes a velocity by no more [m/s]
+  double change[3];       // aim_pull writes the change of velocity at full weight here, in the body's frame [m/s]
   uint body;
   uint grip_count;        // vertices
 };

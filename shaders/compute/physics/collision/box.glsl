@@ -1,4 +1,4 @@
-// Axis-aligned boxes. Minimum and maximum are exact, so every device computes the same ones, in any order.
+// Axis-aligned boxes. Minimum and maximum are exact, so every device computes the same boxes, in any order.
 #ifndef BOX_GLSL
 #define BOX_GLSL
 #include "../language.glsl"

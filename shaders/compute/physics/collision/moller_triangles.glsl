@@ -1,12 +1,12 @@
-// T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 2(2), 1997, as published: fp32 and one
-// absolute epsilon. Kept for comparison with earlier work: it misses contacts of small triangles and reports others that are
-// not there. certified_triangles.glsl has the test to use.
+// The test by T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 2(2), 1997. It is as published, in
+// fp32 with one absolute epsilon. It is kept for comparison with earlier work: it misses contacts of small triangles and reports others
+// that are not there. certified_triangles.glsl has the test to use.
 #ifndef MOLLER_TRIANGLES_GLSL
 #define MOLLER_TRIANGLES_GLSL
 #include "../language.glsl"
 SHARED_BEGIN
 
-// Signed distances of the points to a triangle's plane, times the length of its normal; small ones count as zero.
+// Returns the signed distances of the points to a triangle's plane, times the length of its normal. Small ones count as zero.
 FN vec3 moller_plane_distances(IN(vec3) normal, IN(vec3) corner, IN_ARRAY(vec3, points, 3)) {
   float offset = -ordered_dot(normal, corner);
   EXACT vec3 distance = vec3(ordered_dot(normal, points[0]) + offset, ordered_dot(normal, points[1]) + offset,
@@ -28,7 +28,7 @@ FN int moller_lone_corner(IN(vec3) distance) {
   return distance.z != 0.0f ? 2 : 3;
 }
 
-// Where the planes' common line crosses the triangle: from x to y. `position` holds the corners' coordinates along the line.
+// Returns where the planes' common line crosses the triangle, from x to y. `position` holds the corners' coordinates along the line.
 FN vec2 moller_interval(IN(vec3) position, IN(vec3) distance, int lone) {
   int left = lone == 0 ? 1 : 0;
   int right = lone == 2 ? 1 : 2;
@@ -67,7 +67,8 @@ FN int moller_longest(IN(vec3) v) {
   return size.y >= size.z ? 1 : 2;
 }
 
-// Triangles in one plane: drop the coordinate in which the normal is longest, then edges against edges, corners against areas.
+// Whether triangles in one plane touch. Drops the coordinate in which the normal is longest. Then tests edges against edges, and
+// corners against areas.
 FN bool moller_coplanar(IN(vec3) normal, IN_ARRAY(vec3, a, 3), IN_ARRAY(vec3, b, 3)) {
   int dropped = moller_longest(normal);
   int x = dropped == 0 ? 1 : 0;
@@ -85,6 +86,7 @@ FN bool moller_coplanar(IN(vec3) normal, IN_ARRAY(vec3, a, 3), IN_ARRAY(vec3, b,
   return moller_inside(p[0], q) || moller_inside(q[0], p);
 }
 
+// Whether triangles a and b touch [m, because of the absolute epsilon].
 FN bool triangles_intersect_moller(IN_ARRAY(vec3, a, 3), IN_ARRAY(vec3, b, 3)) {
   vec3 normal_a = ordered_cross(a[1] - a[0], a[2] - a[0]);
   vec3 distance_b = moller_plane_distances(normal_a, a[0], b);
