@@ -1,5 +1,6 @@
-// One thread in all, between steps: by how much the grip's velocity has to change so that the grip comes to the target. Drawing the
-// mean velocity of some of its vertices towards a bounded one, by no more than it lacks, takes energy from all other motion.
+// One thread in all finds how much the grip's velocity has to change so that the grip comes to the target. It runs between steps.
+// It draws the mean velocity of some of the grip's vertices towards a bounded one, by no more than it lacks. This takes energy from
+// all other motion.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/pull.glsl"

@@ -1,4 +1,5 @@
-// One thread a body, first in a step whose length is not fixed: how long it is. With the target reached the body rests.
+// One thread prepares one body, first in a step whose length is not fixed. The first thread sets the step's length. If the target is
+// reached, the body rests.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/pace.glsl"

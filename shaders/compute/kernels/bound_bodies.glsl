@@ -1,4 +1,4 @@
-// One thread a vertex: each body's box as the world positions stand. (A step bounds its bodies as it ends.)
+// One thread extends its body's box by one vertex at its world position. Steps do without: they bound their bodies as they end.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 WRITE(body_box)

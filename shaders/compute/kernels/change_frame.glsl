@@ -1,5 +1,5 @@
-// One thread a vertex, where a body's frame has turned: restates both halves' motions, the kept force and the placement in the new
-// frame. World positions stay as stored.
+// One thread serves one vertex. If the body's frame has turned, it restates the motion of both halves, the kept force and the placement
+// in the new frame. World positions stay as stored.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 READ(body)

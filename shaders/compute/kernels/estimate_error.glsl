@@ -1,5 +1,5 @@
-// One thread a vertex, after the last stage: how far the step's end is from those of the embedded methods. The largest such
-// distance is exact in any order: bits of floats that are not negative order as the floats do, and NaN above infinity.
+// One thread finds the error of one vertex after the last stage: how far the step's end is from those of the embedded methods. The
+// largest error is exact in any order, because bits of floats that are not negative order as the floats do. NaN is above infinity.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -34,6 +34,6 @@ void estimate_error(uint i) {
   uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
   uint error = joined_error(first, second);
   atomicMax(pace[0].error, error);
-  // The run ends by this vertex, if by none before it. The mark of a step that is undone goes with it.
+  // If the error ends the run, the first such vertex is noted. If the step is undone, so is the note.
   if (failure_of(pace[0], h, error) != no_failure) atomicMin(status[b].non_finite_vertex, i);
 }

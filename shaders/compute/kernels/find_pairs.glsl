@@ -1,5 +1,5 @@
-// Many threads for each pair of bodies that are near: each takes a subtree of either tree and descends both together, down to
-// pairs of leaves whose boxes overlap. They are listed for test_pairs; where the list is full, tested here.
+// One thread takes one subtree of either tree of two near bodies. It descends both together, down to pairs of leaves whose boxes
+// overlap. It lists these pairs for test_pairs. If the list is full, it tests them itself. Many threads serve one pair of bodies.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -38,7 +38,7 @@ void list_pair(uvec2 leaves) {
   }
 }
 
-// The wider node opens first; a leaf never does.
+// The wider node opens first. A leaf never opens.
 bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
   if (b.x == 0u) return true;
   if (a.x == 0u) return false;
@@ -49,7 +49,7 @@ bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
 
 // Returns how many pairs of nodes it tested.
 uint descend(uvec2 start) {
-  uvec2 stack[130];  // a descent opens one node at a time and pushes two: at most the depths of both trees, 64 each, and one
+  uvec2 stack[130];  // a descent opens one node and pushes two, so it needs at most the depths of both trees, 64 each, and one
   int top = 0;
   stack[0] = start;
   uint tests = 0u;

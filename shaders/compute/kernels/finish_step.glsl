@@ -1,4 +1,4 @@
-// One thread a counter: adds this step's count to the run's. The first one moves the clock.
+// One thread adds this step's count of one counter to the run's. The first thread moves the clock, too.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 WRITE(control)

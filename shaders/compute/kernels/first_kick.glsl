@@ -1,4 +1,4 @@
-// One thread a vertex, first in a step of a splitting method: kick by the kept force, then drift.
+// One thread kicks one vertex by the kept force and then drifts it, first in a step of a splitting method.
 #include "../physics/body.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/layout.glsl"
@@ -22,7 +22,7 @@ PARAMETER(double, drift_time)  // [s]
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
   if (status[b].activity != moving) return;
-  if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has seen to it
+  if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has summed the springs again
   dvec3 spring_force = LOAD3(kept_force, force_of(i));
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   uint first = in_half(from_half, vertex_count, body[b].first_vertex);

@@ -1,5 +1,5 @@
-// One thread a body, at the step's end: stops the run at a number that is not finite, and decides whether the body's frame
-// follows its rotation.
+// One thread serves one body at the step's end. It stops the run at a number that is not finite. It also decides whether the body's
+// frame follows the body's rotation.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -18,14 +18,14 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
 
-// Sixteen vertices, evenly spaced in the body's list, stand for it: any rotation near the body's own is good enough.
+// Sixteen vertices, evenly spaced in the body's list, stand for the body. Any rotation near the body's own is good enough.
 const uint sample_count = 16u;
 
 // The samples' rest positions and where they are in the frame, relative to a point that moves with the body.
 struct Samples {
   dvec3 rest_mean;
   dvec3 moved_mean;
-  dvec3 correlation_x;  // sum of (moved - moved_mean) (rest - rest_mean).x; likewise y, z
+  dvec3 correlation_x;  // sum of (moved - moved_mean) (rest - rest_mean).x, in the next two with .y and .z
   dvec3 correlation_y;
   dvec3 correlation_z;
 };
@@ -36,7 +36,7 @@ dvec3 sample_displacement(uint b, uint k) {
   return LOAD3(motion, displacement_of(in_half(other_half(from_half), vertex_count, sample_vertex(b, k))));
 }
 
-// Adds a sample. `moved` is relative to a point that moves with the body. Means come later.
+// Adds a sample. `moved` is relative to a point that moves with the body. take_samples() subtracts the means.
 void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
   s.rest_mean += rest;
   s.moved_mean += moved;
@@ -45,7 +45,7 @@ void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
   s.correlation_z += rest.z * moved;
 }
 
-// Four from k on. No loop, so that loads overlap.
+// Adds four samples, from k on. There is no loop, so that loads overlap.
 void add_samples(INOUT(Samples) s, uint b, uint k, dvec3 origin) {
   dvec3 r0 = sample_rest(b, k), r1 = sample_rest(b, k + 1u), r2 = sample_rest(b, k + 2u), r3 = sample_rest(b, k + 3u);
   dvec3 u0 = sample_displacement(b, k), u1 = sample_displacement(b, k + 1u), u2 = sample_displacement(b, k + 2u),
@@ -71,8 +71,8 @@ Samples take_samples(uint b, dvec3 origin) {
   return s;
 }
 
-// Mueller and others (2016), "A robust method to extract the rotational part of deformations": the turn that reduces the
-// samples' misfit to the rest shape turned by q.
+// Returns the turn [rad] that reduces the samples' misfit to the rest shape turned by q. The method is from Mueller and others (2016),
+// "A robust method to extract the rotational part of deformations".
 dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
   dvec3 x = rotate_by(q, dvec3(1, 0, 0)), y = rotate_by(q, dvec3(0, 1, 0)), z = rotate_by(q, dvec3(0, 0, 1));
   dvec3 torque = cross(x, s.correlation_x) + cross(y, s.correlation_y) + cross(z, s.correlation_z);
@@ -127,7 +127,7 @@ void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
   change_frame_of(b, q, samples.rest_mean, samples.moved_mean + origin);
 }
 
-// The search has been through the boxes, and all groups have met.
+// Empties what the next step adds to. The search has been through the boxes, and all groups have met.
 void prepare_next_step(uint b) {
   for (uint k = 0u; k < 3u; ++k) {
     body_box[b].lower[k] = 0xffffffffu;

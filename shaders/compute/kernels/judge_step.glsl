@@ -1,4 +1,5 @@
-// One thread, when a step's error and its contacts are known: does it stand? If so the time moves on, else its contacts do not count.
+// One thread in all decides whether the step stands, when its error and its contacts are known. If it stands, the time moves on.
+// Otherwise its contacts do not count.
 #include "../physics/control.glsl"
 #include "../physics/pace.glsl"
 WRITE(pace)

@@ -1,4 +1,4 @@
-// One thread a vertex, where a tolerance governs steps: extends the box of the ways that touching vertices went in this step.
+// One thread serves one vertex, if a tolerance governs steps. It extends the box of the ways that touching vertices went in this step.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

@@ -1,4 +1,4 @@
-// One thread for each two bodies: lists the pairs whose boxes overlap. All later collision work is for these alone.
+// One thread compares the boxes of two bodies, and lists the pair if they overlap. All later collision work is for listed pairs alone.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"

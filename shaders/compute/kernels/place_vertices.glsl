@@ -1,5 +1,5 @@
-// One thread a vertex, before the first step: its placement, the very one that the end of a step would have left, and whether the
-// body is deformed at all. There are no kept forces yet.
+// One thread places one vertex before the first step, exactly as the end of a step would have. It also finds out whether the body is
+// deformed at all. There are no kept forces yet.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 READ(body)

@@ -1,4 +1,4 @@
-// One thread a vertex, before a stage and after sum_volume: the force of the pressure inside its body.
+// One thread adds the force of the pressure inside a body to one vertex. It runs before a stage and after sum_volume.
 #include "../physics/body.glsl"
 #include "../physics/forces/pressure.glsl"
 #include "../physics/layout.glsl"
@@ -17,13 +17,14 @@ PARAMETER(uint, is_first)
 
 dvec3 place_of(uint i) { return dvec3(real3(placed[position_at(slot, vertex_count, i)])); }
 
-// Every vertex of a body sums its parts in the same order.
+// Returns the body's volume [m^3]. Every vertex of a body sums its parts in the same order.
 double volume_of(uint b) {
   double volume = double(0);
   for (uint k = 0u; k < pressure[b].part_count; ++k) volume += volume_part[pressure[b].first_part + k];
   return volume;
 }
 
+// Returns the volume's derivative by the vertex's position [body's unit squared].
 dvec3 gradient_at(uint i) {
   dvec3 place = place_of(i), gradient = dvec3(0);
   for (uint k = fan_begin[i]; k < fan_begin[i + 1u]; ++k)

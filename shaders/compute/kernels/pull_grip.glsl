@@ -1,4 +1,4 @@
-// One thread a vertex of a grip, after aim_pull: changes its velocity.
+// One thread changes the velocity of one vertex of a grip, after aim_pull.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/pull.glsl"

@@ -1,5 +1,5 @@
-// One thread a leaf: its box from its triangles, then up its subtree. Of two siblings the one that arrives second goes on to the
-// parent, so no thread ever waits and one dispatch refits every tree.
+// One thread fits one leaf's box to its triangles, then goes up the leaf's subtree. The second of two siblings to arrive goes on to
+// the parent. So no thread ever waits, and one dispatch refits every tree.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

@@ -1,5 +1,5 @@
-// One thread a vertex: a vertex in contact goes back to where the step began, bit for bit, and its velocity is reversed and
-// scaled (the paper's response).
+// One thread serves one vertex. A vertex in contact goes back to where the step began, bit for bit. Its velocity is reversed and
+// scaled. This is the paper's response.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

@@ -1,4 +1,4 @@
-// A force kernel: sums the spring forces again where a contact has moved vertices since they were kept.
+// A force kernel that sums the spring forces again if a contact has moved vertices since they were kept.
 #include "../physics/body.glsl"
 #include "../physics/forces/spring.glsl"
 #include "../physics/layout.glsl"

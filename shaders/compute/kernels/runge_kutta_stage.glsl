@@ -1,6 +1,6 @@
-// A force kernel of stages: the acceleration at this stage, then the placement for the next stage, or the step's end.
-// Second-order form: with abar = A A and bbar = b A, x_s = x + c_s h v + h^2 sum abar_sj a_j, so only accelerations are kept.
-// A Nystrom method's tableau has the damping in its weights, a body's own; the law is then none.
+// A force kernel of stages. It finds the acceleration at this stage. Then it writes the placement for the next stage, or the step's end.
+// The second-order form keeps accelerations alone: x_s = x + c_s h v + h^2 sum abar_sj a_j. Here abar is A A, for the step's end b A.
+// The tableau of a Nystrom method has a body's own damping in its weights. The law is then none.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
@@ -32,32 +32,32 @@ uint placement_slot() { return slot_of_stage(stage_index); }
 // What a body's vertices have in common on one axis.
 struct Course {
   double gravity;
-  double reference;        // that the next placement is relative to
+  double reference;        // the next placement is relative to this displacement [m]
   double time_step;        // [s]
-  double elapsed;          // from the step's start to the next stage, as far as the first velocity carries [s]
+  double elapsed;          // weight of the first velocity in the next stage's position: without drag the time since the start [s]
   double keep;             // what is left of that velocity
   double position_weight;  // of this stage's acceleration [s^2]
   double velocity_weight;  // [s]
 };
 
-// What rounding placements does to forces would add up over stages and steps like a random walk. Within a step it is made to cancel:
-// what the stages so far have rounded, each by its weight in the velocity at the end, is taken off the next placement. The step's
-// first stage is left out, and what the last one rounds remains: their weights are small. Kept where a fourth slot would be, if the
-// frame around says CANCELS_ROUNDING.
+// What rounding placements does to forces would add up over stages and steps like a random walk. Within a step it is made to cancel.
+// What the stages so far have rounded is taken off the next placement. A stage counts by its weight in the velocity at the end.
+// The step's first stage is left out, and what the last one rounds remains, because their weights are small. The sums stand in
+// `rounding_slot`, if the frame around says CANCELS_ROUNDING.
 struct Rounding {
   real of_position;
   real of_displacement;
 };
 
-// All that a coordinate needs beside its force. What this stage's acceleration a is to add is missing from the sums.
+// All that a coordinate needs beside its force. The sums lack what this stage's acceleration a adds.
 struct Pending {
   Course course;
   Rounding rounding;      // so far
   double rest;
   double added;           // force beside the springs [N]
   double stage_velocity;  // at this stage
-  double displacement;    // for the next stage, or at the end; position_weight a is missing
-  double velocity;        // likewise
+  double displacement;    // for the next stage, or at the end, without position_weight a [m]
+  double velocity;        // for the next stage, or at the end, without velocity_weight a [m/s]
 };
 
 // Where the tableau's row for the next stage begins, or for the end.
@@ -101,7 +101,8 @@ Rounding rounding_so_far(uint i, uint k) {
   return rounding;
 }
 
-// Rounds a coordinate for the next stage, and notes what that has done.
+// Rounds a coordinate for the next stage, and notes what that has done. `weight` holds the next stage's weight in the velocity at the
+// end, and its reciprocal.
 void place_against(real so_far, dvec2 weight, double exact, uint at, uint noted_at) {
   real rounded = real(FUSED(-double(so_far), weight.y, exact));
   placement[at] = rounded;

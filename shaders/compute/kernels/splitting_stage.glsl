@@ -1,4 +1,5 @@
-// A force kernel of stages, one a force of a splitting method: kick by the sum of the springs, then drift on, or end the step.
+// A force kernel of stages. A splitting method has one stage for each force. A stage kicks by the sum of the springs, then drifts on or
+// ends the step.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/damping.glsl"
@@ -26,17 +27,17 @@ PARAMETER(uint, damping_law)
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return slot_of_force(stage_index); }
 
-// The tableau's two rows a stage.
+// These read the tableau's two rows for this stage.
 double kick_time() { return tableau[splitting_row_size * stage_index].x; }    // [s]
-double drift_time() { return tableau[splitting_row_size * stage_index].y; }   // that follows; zero at the end [s]
-double elapsed() { return tableau[splitting_row_size * stage_index + 1u].x; }  // time of the step that the drifts so far and that one cover [s]
+double drift_time() { return tableau[splitting_row_size * stage_index].y; }   // of the drift that follows, zero at the end [s]
+double elapsed() { return tableau[splitting_row_size * stage_index + 1u].x; }  // all drifts of the step up to that one [s]
 
 struct Pending {
   double rest;
   double gravity;
   double displacement;  // after the drifts so far
   double velocity;
-  double reference;  // that the next placement is relative to
+  double reference;  // the next placement is relative to this displacement [m]
   double added;      // force beside the springs [N]
 };
 

@@ -1,4 +1,4 @@
-// One thread for some triangles of a closed body, before a stage: what they add to its volume.
+// One thread sums what some triangles of a closed body add to its volume. It runs before a stage.
 #include "../physics/body.glsl"
 #include "../physics/forces/pressure.glsl"
 #include "../physics/layout.glsl"

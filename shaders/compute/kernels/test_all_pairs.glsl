@@ -1,5 +1,5 @@
-// The search without trees, for comparison: one thread for each triangle of the first body of a near pair and
-// every triangle of the second, boxes first, as the trees' leaves do.
+// One thread tests one triangle of the first body of a near pair against every triangle of the second. Boxes come first, as in the
+// trees' leaves. This is the search without trees, for comparison.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

@@ -1,4 +1,4 @@
-// Which triangles of two leaves touch? Sixteen threads for each pair of leaves, all threads sharing the list in strides.
+// One thread tests a sixteenth of the pairs of triangles of two leaves. All threads share the list of leaf pairs in strides.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

@@ -1,5 +1,5 @@
-// One thread a vertex, after a step that does not stand or was none: the state from before is the state after, bit for bit, and
-// until the next step the body rests.
+// One thread serves one vertex, after a step that is rejected or empty. It makes the state from before the state after, bit for bit.
+// The body rests until the next step.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/pace.glsl"

@@ -1,5 +1,5 @@
-// Extends the body's box by a vertex's coordinate; notes a vertex with a number that is not finite.
-// By bits, because shader compilers turn comparisons round as if there were no NaN.
+// bound() extends the box of body b by coordinate k of vertex i [m]. If the number is not finite, it notes the vertex instead.
+// is_finite() compares bits, because shader compilers turn comparisons of floats round as if there were no NaN.
 bool is_finite(float number) { return (floatBitsToUint(number) & 0x7fffffffu) <= floatBitsToUint(3.0e38f); }
 
 void bound(uint i, uint b, uint k, float coordinate) {

@@ -5,7 +5,7 @@ Box box_of_triangle(uint t) {
                       vec3(world_position[first_position + triangle[corner_of(t, 2u)]]));
 }
 
-// Of four from t on, so that their loads overlap; from the last one on the same.
+// The boxes of four triangles from t on, so that their loads overlap. Beyond the last triangle before `end`, its box repeats.
 struct FourBoxes { Box first; Box second; Box third; Box fourth; };
 
 FourBoxes four_boxes(uint t, uint end) {

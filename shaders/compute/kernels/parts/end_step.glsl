@@ -1,4 +1,5 @@
-// The step's end, axis k: writes displacement and velocity in the body's frame, and what the next placement is relative to.
+// Ends the step of vertex i on axis k. Writes its displacement [m] and velocity [m/s] in the body's frame. `reference` is the
+// displacement that the next placement is relative to [m].
 #include "bound.glsl"
 void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity, double reference) {
   uint after = in_half(other_half(from_half), vertex_count, i);
@@ -8,7 +9,7 @@ void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity,
   if (i == s.body.first_vertex) pose[s.body_index].reference[k] = reference;
 }
 
-// ... and the world position, rounded once, of a vertex that stands at `position` in the body's frame.
+// Writes the world position on axis k, rounded once, of a vertex that stands at `position` in the body's frame [m].
 void end_in_world(uint i, uint k, uint b, dvec3 position) {
   double turned =
       row_times(pose[b].rotation[3u * k], pose[b].rotation[3u * k + 1u], pose[b].rotation[3u * k + 2u], position);

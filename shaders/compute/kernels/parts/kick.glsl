@@ -1,4 +1,5 @@
-// A velocity component after a kick of the given time under a constant force, exact in the damping: v' = a - g v.
+// Returns a velocity component [m/s] after a kick of the given time [s] under a constant force [N] and gravity [m/s^2]. The kick is
+// exact in the damping: v' = a - g v.
 double kicked(IN(Body) material, double gravity, double force, double spring_force_squared, double velocity, double time) {
   double a = force * material.inverse_mass + gravity;
   Decay d = decay(damping_rate(damping_law, material.damping, material.inverse_mass, spring_force_squared) * time);

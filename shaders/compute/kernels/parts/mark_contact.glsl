@@ -1,4 +1,4 @@
-// Tests one pair of triangles, given by their places in leaf order; marks the six vertices if they touch.
+// Tests one pair of triangles, given by their places in leaf order. Marks the six vertices if the triangles touch.
 bool triangles_touch(IN_ARRAY(vec3, p, 3), IN_ARRAY(vec3, q, 3)) {
   return triangle_test == certified_test ? triangles_may_touch(p, q) : triangles_intersect_moller(p, q);
 }

@@ -1,5 +1,5 @@
 // What force kernels with several stages a step declare alike. A dispatch runs the stage that the parameter names. With TILE it runs
-// all of them: the frame around counts, and placements are read past caches, because other groups write them meanwhile.
+// all of them, and the frame around counts. Placements are then read past caches, because other groups write them meanwhile.
 #ifdef TILE
 uint stage_index;
 SHARED_WRITE_AS(placement, real4, placed)
@@ -7,7 +7,7 @@ SHARED_WRITE(placement)
 WRITE(meeting)
 #else
 PARAMETER(uint, stage_index)
-READ_AS(placement, real4, placed)  // the slots that are read: readable only, which GPUs cache better
+READ_AS(placement, real4, placed)  // for reading only, which GPUs cache better
 WRITE(placement)
 #endif
 PARAMETER(uint, stage_count)

@@ -1,4 +1,4 @@
-// Tests the triangles of two leaves, those whose boxes overlap: of either leaf every `stride`-th, from `first` on.
+// Tests those triangles of two leaves whose boxes overlap. It takes every `stride`-th triangle of either leaf, from `first` on.
 #include "box_of_triangle.glsl"
 #include "mark_contact.glsl"
 

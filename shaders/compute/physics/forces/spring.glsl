@@ -1,5 +1,5 @@
 // The spring between two vertices obeys Hooke's law: F = -k (|x| - L) x / |x|. x runs from one vertex to the other, and L = |x| at rest.
-// d is the change of x since rest. Written with d nothing cancels, so that small strains keep all digits in fp32:
+// d is the change of x since rest. With d nothing cancels, so that small strains keep all digits in fp32.
 //   |x|^2 - L^2 = d.(2 x - d)   and   (|x| - L) / |x| = (|x|^2 - L^2) / (|x|^2 + |x| L).
 #ifndef SPRING_GLSL
 #define SPRING_GLSL
