@@ -1,5 +1,5 @@
 #version 450
-// Coverage, and how far below the ceiling the lowest surface lies; blended by maximum. Both average under mipmaps: the mean
+// Draws coverage (x), and how far below the ceiling the lowest surface lies (y), blended by maximum. Mipmaps average both: the mean
 // depth of what covers is 1 - y / x.
 layout(location = 0) out vec2 footprint;
 

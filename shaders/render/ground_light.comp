@@ -1,6 +1,6 @@
 #version 450
-// Light that reaches each place of the ground: x the key light's share, y the sky's (the solid angle that the bodies above leave
-// open).
+// One thread finds the light that reaches one place of the ground: x is the key light's share, y the sky's. The sky's share is the
+// solid angle that the bodies above leave open.
 #include "studio.glsl"
 #include "key_light.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -24,7 +24,7 @@ float sky_light(vec2 at, vec2 start) {
     hidden += above.x * h * h * area / (pi * squared * squared);
     side = golden_turn * side;
   }
-  return exp(-hidden);  // bodies over each other count twice, and light comes back from their undersides
+  return exp(-hidden);  // because bodies over each other count twice, and light comes back from their undersides
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// How much of the key light reaches a place: percentage-closer soft shadows (Fernando, 2005) from one shadow map. The light has a
+// How much of the key light reaches a place. One shadow map gives percentage-closer soft shadows (Fernando, 2005). The light has a
 // width, so a shadow is as soft as its caster is far away.
 #include "taps.glsl"
 layout(binding = 0) uniform sampler2D shadow_map;  // depth seen from the light, in a slice as in seen.glsl
@@ -13,7 +13,7 @@ struct Search {
   int blocker_taps, taps;  // each of four texels
 };
 
-/// How many of four texels around a tap are before the receiver's own plane there, 0 to 1 each, and their depths.
+/// Which of four texels around a tap are before the receiver's own plane there (1, else 0), and their depths.
 struct Tap {
   vec4 blocks, depths;
 };
@@ -23,14 +23,14 @@ Tap tap_at(vec3 place, vec2 slope, vec2 offset) {
   return Tap(vec4(lessThan(depths, vec4(min(place.z + dot(slope, offset), 0.99999)))), depths);
 }
 
-/// Bilinear between the four, in textureGather's order. GPUs choose texels by 8 bits of fraction, hence half a step more.
+/// Interpolates between the four texels, in textureGather's order. GPUs choose texels by 8 bits of fraction, hence half a step more.
 float share_blocked(Tap tap, vec2 at) {
   vec2 part = fract(at * vec2(textureSize(shadow_map, 0)) - 0.5 + 1.0 / 512.0);
   vec2 rows = mix(tap.blocks.wx, tap.blocks.zy, part.x);
   return mix(rows.x, rows.y, part.y);
 }
 
-/// How wide the shadow's rim is at a place, as a share of the map; 0 where nothing is between it and the light.
+/// How wide the shadow's rim is at a place, as a share of the map. It is 0 if nothing is between the place and the light.
 float penumbra_at(vec3 place, vec2 slope, float texel, Search how) {
   const float widening = key_softness * depth_per_width;
   float reach = clamp(place.z * widening, 2.0 * texel, how.widest);
@@ -43,8 +43,8 @@ float penumbra_at(vec3 place, vec2 slope, float texel, Search how) {
   return sum.y > 0.0 ? clamp((place.z - sum.x / sum.y) * widening, 2.0 * texel, how.widest) : 0.0;
 }
 
-/// 0 to 1. `normal` is the receiver's; 0 where it is turned away. Loops of no turns are what a renderer in software skips, too;
-/// branches it takes both ways.
+/// The share of the key light that reaches `where` [m], 0 to 1. `normal` is the receiver's. If it is turned away, the share is 0.
+/// A renderer in software takes both ways of a branch, but it skips loops without turns.
 float key_visibility(vec3 where, vec3 normal, Search how) {
   bool facing = dot(normal, key_direction.xyz) > 0.0;
   float texel = 1.0 / float(textureSize(shadow_map, 0).x), blocked = 0.0;

@@ -1,5 +1,5 @@
 #version 450
-// A line's end in the world, with its colour.
+// Draws one end of a line in the world, with its colour.
 layout(location = 0) uniform mat4 view_projection;
 layout(std430, binding = 0) readonly buffer Ends { vec4 ends[]; };  // [end][2]: place [m], colour
 out vec4 line_color;

@@ -1,4 +1,4 @@
-// The studio: colours of lights and backdrop, and the way from linear light to the picture. Linear RGB throughout.
+// The studio: colours of lights and backdrop, and the way from linear light to the picture. All colours are linear RGB.
 const vec3 key_color = vec3(1.0, 0.965, 0.91) * 2.3;
 const vec3 sky_color = vec3(0.62, 0.70, 0.82) * 0.95;
 const vec3 fill_color = vec3(0.55, 0.65, 0.85) * 0.35;
@@ -9,7 +9,7 @@ const vec3 pool_color = vec3(0.80, 0.81, 0.82);  // the ground under the lights
 #include "taps.glsl"
 layout(binding = 1) uniform sampler2D ground_light;  // x: key, y: sky
 
-/// Light on the ground at a place, 0 to 1: key, sky. All of it beyond the map.
+/// Light on the ground at a place, 0 to 1: x of the key light, y of the sky. Beyond the map all light arrives.
 vec2 light_on_ground(vec2 xz) {
   if (ground.w <= 0.0) return vec2(1.0);
   vec2 at = (xz - ground.xz) / ground.w;
@@ -32,7 +32,7 @@ vec3 ground_color(vec3 hit) {
   return mix(shade, shade * horizon_color / pool_color, smoothstep(0.5, 6.0, distance_to_centre));
 }
 
-/// A studio without edges: the ground, bright under the lights, runs into a gradient.
+/// What the eye sees in a direction without bodies. The studio has no edges: the ground, bright under the lights, runs into a gradient.
 vec3 surroundings(vec3 direction) {
   vec3 result = backdrop(direction);
   float t = (ground.y - eye.y) / min(direction.y, -1e-4);
@@ -42,7 +42,7 @@ vec3 surroundings(vec3 direction) {
   return mix(ground_color(hit), result, haze);
 }
 
-/// Khronos' neutral curve: keeps hues, and bends only what is brighter than 0.76 towards 1.
+/// Khronos' neutral curve keeps hues, and bends only what is brighter than 0.76 towards 1.
 vec3 tone_map(vec3 color) {
   const float start = 0.76;
   float least = min(color.r, min(color.g, color.b));

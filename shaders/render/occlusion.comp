@@ -1,12 +1,12 @@
 #version 450
-// How open the bodies' surfaces are to light from all around, by what stands before them in the picture (McGuire and others,
-// "Scalable ambient obscurance", 2012). For every second pixel and row.
+// How open the bodies' surfaces are to light from all around, by what stands before them in the picture. One thread serves one pixel,
+// every second one of every second row. The method is from McGuire and others, "Scalable ambient obscurance", 2012.
 #include "studio.glsl"
 #include "surface.glsl"
 #include "seen.glsl"
 #include "taps.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rg16) writeonly uniform image2D occlusion;  // x: openness times y; y: 1 where there is a body
+layout(binding = 0, rg16) writeonly uniform image2D occlusion;  // x: openness times y, y: 1 where there is a body
 
 const int taps = 10;
 const float reach = 0.22;  // in radii of the scene

@@ -1,6 +1,6 @@
 #version 450
-// The picture: what each pixel's samples see, shaded once for each triangle among them, and averaged. A body has a surface of soft
-// plastic under a key light with soft shadows, a fill light, the sky, and light from the ground.
+// One thread draws one pixel of the picture. It shades what the pixel's samples see, once for each triangle among them, and averages.
+// A body has a surface of soft plastic. It gets light from a key light with soft shadows, a fill light, the sky and the ground.
 #include "studio.glsl"
 #include "surface.glsl"
 #include "seen.glsl"
@@ -8,7 +8,7 @@
 #include "look.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 3) readonly buffer BodyColors { vec4 body_colors[]; };
-layout(std430, binding = 4) readonly buffer Smooth { vec4 smooth_surface[]; };  // xyz: normal; w: strain
+layout(std430, binding = 4) readonly buffer Smooth { vec4 smooth_surface[]; };  // xyz: normal, w: strain
 layout(binding = 3) uniform sampler2D occlusion;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
 layout(location = 1) uniform bool shows_strain;
@@ -18,7 +18,7 @@ const float roughness = 0.42;
 
 // BLOCKER_TAPS, SHADOW_TAPS and INNER_OUTLINES come from Detail (frame_renderer.hpp).
 
-/// Viridis (van der Walt and Smith), as Matt Zucker's polynomial of degree six, to linear RGB.
+/// The colour map viridis (van der Walt and Smith), as Matt Zucker's polynomial of degree six, in linear RGB. `t` is 0 to 1.
 vec3 viridis(float t) {
   vec3 c = vec3(0.2777273272, 0.0054073445, 0.3340998053) +
            t * (vec3(0.1050930431, 1.4046135299, 1.3845901628) +
@@ -78,7 +78,7 @@ vec3 shade(Hit hit, vec3 view, float open) {
 
 float openness_at(vec2 place) {
   vec2 mean = mean_at(occlusion, place);
-  return mean.y > 0.0 ? mean.x / mean.y : 1.0;  // of bodies alone
+  return mean.y > 0.0 ? mean.x / mean.y : 1.0;  // the mean over bodies alone
 }
 
 vec3 color_of(uint seen, vec3 ray, vec2 place) {
@@ -87,7 +87,7 @@ vec3 color_of(uint seen, vec3 ray, vec2 place) {
   return shade(hit_of(seen, ray), -direction, openness_at(place));
 }
 
-/// Whether samples that see these are shaded together: of one triangle, or of bodies at all.
+/// Whether samples that see triangles a and b are shaded together. They see the same one, or without inner outlines any body.
 bool are_alike(uint a, uint b) { return a == b || (!INNER_OUTLINES && a != 0u && b != 0u); }
 
 /// Which of the pixel's samples are like one that sees this triangle, a bit each.
@@ -97,7 +97,7 @@ int samples_like(uint seen, ivec2 pixel) {
   return samples;
 }
 
-/// Averaged as they will be shown.
+/// The mean of the samples' colours, as they will be shown.
 vec3 average_color(ivec2 pixel, vec3 ray, vec2 place) {
   vec3 sum = vec3(0.0);
   int left = (1 << sample_count) - 1;
@@ -115,5 +115,5 @@ void main() {
   if (any(greaterThanEqual(pixel, size))) return;
   vec2 place = (vec2(pixel) + 0.5) / vec2(size);
   vec3 color = to_srgb(average_color(pixel, ray_through(place), place));
-  imageStore(picture, pixel, vec4(color + (noise_at(vec2(pixel)) - 0.5) / 255.0, 1.0));  // gradients have no bands
+  imageStore(picture, pixel, vec4(color + (noise_at(vec2(pixel)) - 0.5) / 255.0, 1.0));  // with noise gradients have no bands
 }

@@ -1,5 +1,5 @@
 #version 450
-// Puts a body's vertex where a camera or a light sees it. One that is nowhere takes its triangles out of the picture.
+// Puts a body's vertex where a camera or a light sees it. A vertex that cannot be drawn takes its triangles out of the picture.
 #include "drawable.glsl"
 #include "studio.glsl"
 layout(location = 0) uniform mat4 to_clip;

@@ -1,13 +1,13 @@
-// What the samples of the picture see: which triangle, how deep. And where a pixel's ray meets that triangle.
-// Neither is cleared for each picture: depths lie in a slice of their own, before those of the pictures before it.
-layout(binding = 2) uniform usampler2DMS triangles_seen;  // counted from 1; what is deeper than the slice is from earlier pictures
+// What the samples of the picture see: which triangle, and how deep. Also where a pixel's ray meets that triangle.
+// Neither map is cleared for each picture. A picture's depths lie in a slice of their own, before those of earlier pictures.
+layout(binding = 2) uniform usampler2DMS triangles_seen;  // counted from 1, but from earlier pictures if deeper than the slice
 layout(binding = 4) uniform sampler2DMS depths;
 layout(location = 2) uniform vec2 depth_slice;  // where it begins, and its width
 
-/// From 0 to 1, where nothing is seen.
+/// How deep sample i sees: from 0 to 1 in the slice, 1 if it sees nothing.
 float depth_at(ivec2 pixel, int i) { return min((texelFetch(depths, pixel, i).x - depth_slice.x) / depth_slice.y, 1.0); }
 
-/// Counted from 1; 0: none.
+/// The triangle that sample i sees, counted from 1, or 0 for none.
 uint triangle_at(ivec2 pixel, int i) { return depth_at(pixel, i) < 1.0 ? texelFetch(triangles_seen, pixel, i).x : 0u; }
 
 layout(std430, binding = 5) readonly buffer Triangles { uint corners[]; };  // three each
@@ -23,13 +23,13 @@ Corners corners_of(uint seen) {
   return Corners(vertices, place_of(vertices[0]), place_of(vertices[1]), place_of(vertices[2]));
 }
 
-/// By the winding, not of unit length.
+/// The side follows from the winding. The normal is not of unit length.
 vec3 face_normal(Corners at) { return cross(at.b - at.a, at.c - at.a); }
 
-/// -1 where the eye sees the triangle's back, else 1: both sides of an open surface show.
+/// -1 if the eye sees the triangle's back, else 1, because both sides of an open surface show.
 float side_seen(Corners at) { return dot(face_normal(at), eye.xyz - at.a) < 0.0 ? -1.0 : 1.0; }
 
-/// From the eye through a place of the picture (0 to 1 from the bottom left), not of unit length.
+/// The ray from the eye through a place of the picture (0 to 1 from the bottom left). It is not of unit length.
 vec3 ray_through(vec2 place) {
   vec4 far = from_clip * vec4(place * 2.0 - 1.0, 1.0, 1.0);
   return far.xyz / far.w - eye.xyz;

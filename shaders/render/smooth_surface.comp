@@ -1,5 +1,6 @@
 #version 450
-// A vertex's smooth normal, the sum over its triangles weighted by area, and its local strain, or its speed in place of that.
+// One thread finds one vertex's smooth normal and its local strain, or its speed in place of strain. The normal is the sum of the
+// normals of the vertex's triangles, weighted by area.
 #include "drawable.glsl"
 #include "studio.glsl"
 #include "surface.glsl"
@@ -7,12 +8,12 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 2) readonly buffer FirstIncident { uint first_incident[]; };  // vertices + 1
 layout(std430, binding = 3) readonly buffer Incident { uvec2 incident[]; };  // a triangle's other two corners, in winding order
 layout(std430, binding = 4) writeonly buffer Smooth {
-  vec4 smooth_surface[];  // xyz: normal; w: strain, the mean of |length / rest length - 1| over the edges of the triangles
+  vec4 smooth_surface[];  // xyz: normal, w: strain, the mean of |length / rest length - 1| over the edges of the triangles
 };
 layout(std430, binding = 5) readonly buffer Motions { double motion[]; };  // 6 a vertex: displacement, velocity [m/s]
 layout(location = 1) uniform uint vertex_count;
 layout(location = 2) uniform uint first_motion;         // of vertex 0
-layout(location = 3) uniform float strain_of_speed;     // what a speed is shown as in place of strain [s/m]; 0: motions are not read
+layout(location = 3) uniform float strain_of_speed;     // shows a speed of 1 m/s like this strain [s/m], 0: shows strains, reads no motions
 
 float edge_strain(uint a, uint b) {
   float rest_length = distance(rest_positions[a].xyz, rest_positions[b].xyz);

@@ -1,6 +1,6 @@
-// What all drawing shaders share of one frame: camera, key light and ground. GLSL and C++ read the same declaration;
-// matrices and vec4 alone, which std140 and glm lay out alike. Places are relative to the scene's centre, so that a scene far from
-// the origin is drawn as finely as any.
+// What all drawing shaders share of one picture: camera, key light and ground. GLSL and C++ read the same declaration. It has matrices
+// and vec4 alone, because std140 and glm lay these out alike. Places are relative to the scene's centre, so that a scene far from the
+// origin is drawn as finely as any.
 #ifndef STUDIO_GLSL
 #define STUDIO_GLSL
 #ifdef __cplusplus
@@ -16,10 +16,10 @@ layout(std140, binding = 0) uniform Studio {
   mat4 from_clip;         // and back
   mat4 key_projection;    // to the clip space of the key light's shadow map
   mat4 above_projection;  // to the footprint: the map of the ground from above, depth 0 at the ground, 1 at the ceiling
-  vec4 eye;               // xyz [m]; w: pixels of the picture's height for a slope of 1
+  vec4 eye;               // xyz [m], w: pixels of the picture's height for a slope of 1
   vec4 key_direction;     // xyz: unit vector towards the light
-  vec4 centre;            // xyz: of the scene, in the world [m]; w: its radius [m]
-  vec4 ground;            // x, z: centre of the ground's maps; y: height; w: half the maps' side [m], 0: no ground
+  vec4 centre;            // xyz: of the scene, in the world [m], w: its radius [m]
+  vec4 ground;            // x, z: centre of the ground's maps [m], y: height [m], w: half the maps' side [m], 0 without ground
 };
 const int sample_count = 4;          // of a pixel
 const float depth_per_width = 1.5f;  // of the box that the shadow map covers
