@@ -1,4 +1,4 @@
-# Script: installs the build BUILD_DIR below WORK_DIR, then configures, builds and runs the project beside this file.
+# This script installs the build BUILD_DIR below WORK_DIR. Then it configures, builds and runs the project beside this file.
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()

@@ -1,4 +1,5 @@
-// A force of the tests' own. One thread a vertex: springs to the vertices before and after it in its body's list, beside those of the body.
+// A force of the tests' own. One thread adds springs from one vertex to those before and after it in its body's list. They act beside
+// the body's own springs.
 #include "physics/body.glsl"
 #include "physics/forces/spring.glsl"
 #include "physics/layout.glsl"

@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-/// Bodies of 162 and 42 vertices that meet within a few steps of 0.01 s; the left one spins.
+/// Bodies of 162 and 42 vertices that meet within a few steps of 0.01 s. The left one spins.
 inline std::vector<BodySetup> colliding_spheres() {
   BodySetup left = sphere(2), right = sphere(1);
   left.description.name = "left";

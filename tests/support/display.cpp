@@ -19,7 +19,7 @@
 namespace pliant::test {
 namespace {
 
-constexpr int patience = 60000;  // with a child that says nothing [ms]
+constexpr int patience = 60000;  // how long a child may say nothing [ms]
 
 [[noreturn]] void become(std::vector<std::string>& command) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -88,7 +88,7 @@ Child::~Child() {
   close(output_);
 }
 
-// False at the end.
+// Returns false at the end.
 bool Child::read_more() {
   pollfd readable{output_, POLLIN, 0};
   if (poll(&readable, 1, patience) != 1) throw std::runtime_error("a child has said nothing for a minute; unread: " + unread_);

@@ -12,7 +12,7 @@
 
 namespace pliant::test {
 
-/// A child whose standard output is read line by line. It is ended at the latest with this, or with the tests.
+/// A child whose standard output is read line by line. It ends with this object or with the tests at the latest.
 class Child {
  public:
   /// `command` is a program with its arguments, looked for in PATH. Standard error is the tests' own.
@@ -22,7 +22,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Waits for it. Throws where there is none any more, or none for a minute.
+  /// Waits for a line. Throws if no more lines come, or none for a minute.
   std::string read_line();
   /// Reads until the end, for a minute at most, and gives the exit code.
   int wait_for_end();
@@ -38,16 +38,16 @@ class Child {
 /// Xvfb with openbox, on a number that nobody else has.
 class VirtualDisplay {
  public:
-  /// What a test needs and this machine lacks; empty where all is there.
+  /// What a test needs and this machine lacks. Empty if all is there.
   static std::string missing();
   VirtualDisplay();
 
   [[nodiscard]] const std::string& name() const { return name_; }  // such as ":1"
-  /// Runs a shell command in it, such as xdotool, and gives its output. Throws where it fails.
+  /// Runs a shell command in the display, such as xdotool, and returns its output. Throws if the command fails.
   [[nodiscard]] std::string run(const std::string& command) const;
   /// Drops a file on a window, as a file manager would.
   void drop(const std::filesystem::path& file, const std::string& window) const;
-  /// Says to programs from here on that there are twice as many dots per inch as usual.
+  /// Tells programs that start later that there are twice as many dots per inch as usual.
   void make_dense() const;
   /// What a window shows.
   [[nodiscard]] render::Image picture_of(const std::string& window) const;

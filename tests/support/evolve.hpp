@@ -52,7 +52,7 @@ inline TimePlan plan_of(const Method& method) {
 struct Adaptive {
   std::string_view integrator = "dop853";
   double tolerance = 1e-6;
-  std::optional<double> first_step = {};  // [s]; a tenth of the bound unless given
+  std::optional<double> first_step = {};  // [s], a tenth of the bound unless given
   DampingLaw law = DampingLaw::none;
 };
 
@@ -79,7 +79,7 @@ inline State evolve(Device& device, const ModelAndState& start, const Method& me
 /// The stiffest mode's angular frequency [1/s].
 inline double stiffest_omega(const Model& model) { return stiffest_frequency(model.bodies.front()); }
 
-/// The larger of two numbers, infinite where one is NaN: a largest error that a NaN cannot slip through.
+/// The larger of two numbers, or infinite if one is NaN. No NaN slips through a largest error that is found this way.
 template <std::floating_point T>
 T larger(T a, T b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::infinity() : std::max(a, b);
@@ -92,7 +92,7 @@ inline double distance(const std::vector<glm::dvec3>& a, const std::vector<glm::
   return std::sqrt(sum);
 }
 
-/// CPU at both precisions, and the GPU where OpenGL is present.
+/// The CPU at both precisions, and the GPU if OpenGL is present.
 struct TestDevice {
   std::string name;
   std::unique_ptr<Device> device;

@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// The error that `call` throws; the test fails when it throws none.
+/// Returns the error that `call` throws. The test fails if it throws none.
 template <typename Call>
 Error error_of(const Call& call) {
   try {

@@ -1,4 +1,5 @@
-// A response of the tests' own. One thread a vertex: one that touches another body goes back to where the step began, and stands.
+// A response of the tests' own. One thread serves one vertex. A vertex that touches another body goes back to where the step began, and
+// stands still.
 #include "physics/body.glsl"
 #include "physics/control.glsl"
 #include "physics/layout.glsl"

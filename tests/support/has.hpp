@@ -8,8 +8,8 @@
 
 namespace pliant::test {
 
-/// Whether it is there. Where it is not the test says so, and leaves out what needs it; under CI, where all of tools/packages
-/// is installed, it fails.
+/// Returns whether it is there. If it is not, the test says so, and leaves out what needs it. Under CI, where all packages are
+/// installed, the test fails instead.
 inline bool has(const char* what, bool is_there) {
   if (is_there) return true;
   if (std::getenv("CI") != nullptr) FAIL("there is no " << what);
@@ -19,11 +19,11 @@ inline bool has(const char* what, bool is_there) {
 
 inline bool has_gl() { return has("OpenGL 4.5", !gl::list_adapters().empty()); }
 
-/// Has ctest count the test as skipped (SKIP_REGULAR_EXPRESSION in tests/CMakeLists.txt). The test returns then, before it has
-/// checked anything.
+/// Makes ctest count the test as skipped (SKIP_REGULAR_EXPRESSION in tests/CMakeLists.txt). The test then has to return before it
+/// checks anything.
 inline void skip(const std::string& why) { WARN("this test is skipped: " << why); }
 
-/// Likewise the whole test, where this is not there: `if (lacks(...)) return;`.
+/// Skips the whole test if this is not there: `if (lacks(...)) return;`. Under CI the test fails instead.
 inline bool lacks(const char* what, bool is_there) {
   if (!is_there && std::getenv("CI") != nullptr) FAIL("there is no " << what);
   if (!is_there) skip(std::string("there is no ") + what);

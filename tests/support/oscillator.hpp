@@ -1,4 +1,4 @@
-// What a method does to an oscillator, stage by stage as methods of its kind are defined: an oracle for steps on bodies.
+// What a method does to an oscillator, stage by stage as methods of its kind are defined. This is an oracle for steps on bodies.
 #pragma once
 #include <vector>
 
@@ -12,7 +12,7 @@ struct Oscillator {
   long double x = 0, v = 0;  // [m], [m/s]
 };
 
-/// After a step of the length h [s].
+/// The oscillator after a step of the length h [s].
 inline Oscillator after_step(const RungeKutta& method, const Oscillator& start, long double h) {
   Oscillator end = start;
   std::vector<Oscillator> stages;

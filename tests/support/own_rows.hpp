@@ -5,7 +5,7 @@ namespace pliant {
 
 inline constexpr double chain_stiffness = 5;  // [N/m]
 
-/// Once: adds the force "chain", which acts on a body named "chained", and the response "halt".
+/// Adds the force "chain", which acts on a body named "chained", and the response "halt". Later calls add nothing.
 void add_own_rows();
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// Where the project and the built program are. The environment variables of the same names replace what the build knew, for tests
-// that run on another machine.
+// Where the project and the built program are. Tests that run on another machine can replace what the build knew by environment
+// variables of the same names.
 #pragma once
 #include <cstdlib>
 #include <string>

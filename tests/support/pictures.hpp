@@ -8,7 +8,7 @@
 
 namespace pliant {
 
-/// Of 255, over all pixels and channels. Expects pictures of one size.
+/// The largest difference over all pixels and channels, of 255. Expects pictures of one size.
 inline int largest_difference(const render::Image& a, const render::Image& b) {
   REQUIRE(a.pixels.size() == b.pixels.size());
   int largest = 0;
@@ -16,7 +16,7 @@ inline int largest_difference(const render::Image& a, const render::Image& b) {
   return largest;
 }
 
-/// Of 255. Expects pictures of one size.
+/// The mean difference over all pixels and channels, of 255. Expects pictures of one size.
 inline double mean_difference(const render::Image& a, const render::Image& b) {
   REQUIRE(a.pixels.size() == b.pixels.size());
   double sum = 0;
@@ -24,8 +24,8 @@ inline double mean_difference(const render::Image& a, const render::Image& b) {
   return sum / static_cast<double>(a.pixels.size());
 }
 
-/// As pictures of the same thing are where depths are seldom cleared: they round in one way or another, and where two surfaces
-/// are equally deep one or the other is seen.
+/// Whether two pictures may be of the same thing. Depths are seldom cleared, so they round in one way or another. If two surfaces
+/// are equally deep, one or the other is seen.
 inline bool are_alike(const render::Image& a, const render::Image& b) { return mean_difference(a, b) < 0.02; }
 
 }  // namespace pliant

@@ -52,7 +52,7 @@ ProgramInTerminal::~ProgramInTerminal() {
   close(terminal_);
 }
 
-// Blocks until there is something; false at the end.
+// Blocks until there is something to read. Returns false at the end.
 bool ProgramInTerminal::read_more() {
   std::array<char, 4096> part{};
   const ssize_t size = read(terminal_, part.data(), part.size());

@@ -13,10 +13,10 @@ struct ProgramResult {
   std::string output;  // standard output and error together
 };
 
-/// `arguments` is a shell command line behind the program's name; `before` stands before it, such as "ulimit -v 1000;".
+/// `arguments` is a shell command line behind the program's name. `before` stands before the name, such as "ulimit -v 1000;".
 ProgramResult run_program(const std::string& arguments, const std::string& before = "");
 
-/// The program in a terminal, where it shows progress, each time behind "\r[". At the end it is killed, if it still runs.
+/// The program in a terminal, where it shows progress, each time behind "\r[". The destructor kills it if it still runs.
 class ProgramInTerminal {
  public:
   explicit ProgramInTerminal(const std::vector<std::string>& arguments);
@@ -24,11 +24,11 @@ class ProgramInTerminal {
   ProgramInTerminal(const ProgramInTerminal&) = delete;
   ProgramInTerminal& operator=(const ProgramInTerminal&) = delete;
 
-  /// Waits until it has shown progress so many times in all; false where it ends before.
+  /// Waits until the program has shown progress so many times in all. Returns false if the program ends before.
   [[nodiscard]] bool has_shown_progress(int times);
-  /// Sends the signal as a terminal does, to the program and what it has started in its group, and waits for the end.
+  /// Sends the signal to the program and what it has started in its group, as a terminal does. Then waits for the end.
   ProgramResult end_by(int signal);
-  /// Sends it again and again, whenever the program has been silent for a moment. After a minute of that the program is killed.
+  /// Sends the signal again whenever the program has been silent for a moment. Kills the program after a minute of that.
   ProgramResult end_by_repeated(int signal);
 
  private:

@@ -12,13 +12,13 @@ namespace pliant::test {
 
 std::size_t line_count(const std::string& text);
 
-/// Of a run into this folder.
+/// The summary of a run into this folder.
 nlohmann::json summary_in(const std::filesystem::path& folder);
 
-/// A scene of two small spheres, quick to run; `more` goes into [simulation].
+/// A scene of two small spheres, quick to run. `more` goes into [simulation].
 std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "");
 
-/// The program ends with this exit code, and says all of `parts`.
+/// Checks that the program ends with this exit code, and says all of `parts`.
 void check_fails(const std::string& arguments, int exit_code, std::initializer_list<const char*> parts);
 
 }  // namespace pliant::test

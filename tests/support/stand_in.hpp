@@ -7,7 +7,7 @@
 
 namespace pliant::test {
 
-/// While it lives, the shell script `text` is the first program called `name`. The folder is for this alone.
+/// While this lives, the shell script `text` is the first program called `name`. The folder has to be for this alone.
 class StandIn {
  public:
   StandIn(const std::filesystem::path& folder, const std::string& name, const std::string& text) {

@@ -45,7 +45,7 @@ std::vector<std::string> command(const std::filesystem::path& scene, const std::
   return command;
 }
 
-/// Why no window can be tested here; empty where it can.
+/// Why no window can be tested here. Empty if it can.
 std::string obstacle() {
   const ProgramResult result = run_program("view " + shipped_scene("two_spheres"), "env -u DISPLAY -u WAYLAND_DISPLAY ");
   if (result.output.find(built_without) != std::string::npos) return "this program was built without the viewer";

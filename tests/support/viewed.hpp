@@ -25,15 +25,15 @@ inline bool has_turned_by_a_quarter(const Json& before, const Json& after) {
   return glm::distance(eye_from_target(after), glm::dvec3(-old.z, old.y, old.x)) < 1e-6 * glm::length(old);
 }
 
-/// The program in its window. Leaks are not looked for: the driver's libraries leave some when they are unloaded with the window,
-/// after which no suppression knows their names.
+/// The program in its window. Leaks are not looked for, because the driver's libraries leave some. They are unloaded with the
+/// window, so no suppression knows their names afterwards.
 class Viewed {
  public:
-  /// Paused, with a small scene, or that with more options.
+  /// Starts the program paused, with a small scene and `more` options.
   Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const std::string& device,
          const std::vector<std::string>& more = {});
 
-  /// Runs commands of it.
+  /// Runs commands of xdotool.
   void xdotool(const std::string& commands) const { (void)display_.run("xdotool " + commands); }
   [[nodiscard]] std::string move_to(const glm::ivec2& at) const {
     return "mousemove --window " + window_ + " " + std::to_string(at.x) + " " + std::to_string(at.y) + " ";
@@ -46,11 +46,11 @@ class Viewed {
   void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted.
   Json await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most = std::chrono::minutes(2));
-  /// Reads lines until one begins so.
+  /// Reads lines until one begins with this.
   std::string await_text(const std::string& beginning);
   /// The picture that the program saves.
   render::Image saved_picture();
-  /// Whether the window shows the picture; it may still be on its way to the display.
+  /// Whether the window shows the picture. Waits for it, because it may still be on its way to the display.
   [[nodiscard]] bool shows(const render::Image& picture) const;
   [[nodiscard]] bool shows_another(const render::Image& picture) const;
   const std::string& window() const { return window_; }
@@ -86,7 +86,7 @@ struct Reddish {
   glm::dvec2 sum{0.0};
 };
 
-/// What such a program says of itself.
+/// What a program without the viewer says of itself.
 inline constexpr const char* built_without = "built without the viewer";
 
 /// Says why no window can be tested here, if so, and fails under CI.
