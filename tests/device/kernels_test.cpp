@@ -24,13 +24,13 @@ struct Bench {
         bodies(*device, start.model, start.state),
         added_forces(bodies, start.model),
         stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_result, &added_forces),
-        collider(bodies, start.model, collision, 256),  // searches cut alike on every device
+        collider(bodies, start.model, collision, 256),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
-    bodies.all_stages_at_once = false;  // and stages, too
+    bodies.all_stages_at_once = false;  // every device runs stages one by one
   }
 
-  // Steps of an adaptive length.
+  // The same, with steps that a tolerance governs.
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision,
         double tolerance)
       : device(std::move(on)),
@@ -46,7 +46,7 @@ struct Bench {
     pacer->aim_at(4 * method.time_step);
   }
 
-  // With a pull at its end.
+  // The passes of a step, with a pull at its end.
   std::vector<Pass> step(std::uint32_t from_half) {
     std::vector<Pass> passes = step_passes(bodies, stepper, collider, from_half, pacer ? &*pacer : nullptr);
     std::ranges::copy(grip.passes(1 - from_half), std::back_inserter(passes));
@@ -158,7 +158,7 @@ BufferId buffer_of(const Bench& bench, const Pass& pass, std::string_view array)
   return 0;
 }
 
-// By the declarations of the kernel's file and of all that it includes.
+// What a pass writes, by the declarations of the kernel's file and of all that it includes.
 std::vector<Written> written_arrays(const Bench& cpu, const Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
   std::set<std::string> names;
   for (const auto& array : cpu.device->signature(cpu_pass.call.kernel).arrays)
@@ -175,7 +175,7 @@ void check_structs(Bench& cpu, Bench& gpu, BufferId a, BufferId b, std::size_t c
   for (std::size_t k = 0; k < count; ++k) CHECK(largest_difference(numbers_of(y[k]), numbers_of(x[k])) < tolerance);
 }
 
-// What a pass has written, compared as its type asks. Lists filled in any order are compared as sets.
+// Compares what a pass has written on both devices, as its type asks. Lists filled in any order are compared as sets.
 void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pass) {
   for (const auto& [element, a, b] : written_arrays(cpu, gpu, cpu_pass, gpu_pass)) {
     CAPTURE(cpu_pass.name, element);
@@ -193,7 +193,7 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       check_structs<physics::Tally>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Pace") {
       const auto x = numbers_of(cpu.read<physics::Pace>(a).front()), y = numbers_of(gpu.read<physics::Pace>(b).front());
-      constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // by powers of floats
+      constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // it comes from powers of floats
       for (std::size_t k = 0; k < x.size(); ++k)
         CHECK(y[k] == Approx(x[k]).epsilon(cpu_pass.name == "judge_step" && k != allowed ? 1e-12 : 1e-6));
     } else if (element == "Aim") {

@@ -15,7 +15,7 @@ struct Chains {
   double (*in_doubles)(const PeakTask<double>&);
 };
 
-// Those that run on this machine, the portable ones first.
+// The chains that run on this machine, the portable ones first.
 std::vector<Chains> available_chains() {
   std::vector<Chains> all;
   for (const Isa isa : available_isas()) {
@@ -28,7 +28,7 @@ std::vector<Chains> available_chains() {
   return all;
 }
 
-// How many there are in a round: each adds 1, ten rounds long.
+// Counts the multiply-adds of a round: each adds 1, ten rounds long.
 template <class Real>
 double multiply_adds_of_round(Real (*run)(const PeakTask<Real>&)) {
   return (run({Real(1), Real(1), 10}) - run({Real(1), Real(1), 0})) / 10;

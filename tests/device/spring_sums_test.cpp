@@ -30,7 +30,7 @@ struct Sample {
   }
 };
 
-// Vertices anywhere in a cube of edge 2, moved by up to `amplitude`. What w holds is nobody's business.
+// Vertices anywhere in a cube of edge 2, moved by up to `amplitude`. The sums have to ignore w.
 template <class Real>
 Sample<Real> random_sample(std::size_t count, double amplitude, unsigned seed = 1) {
   std::mt19937 engine(seed);
@@ -167,7 +167,7 @@ TEMPLATE_TEST_CASE("vertices in one place exert no force on each other", "", flo
     sum(isa, sample);
     for (const glm::dvec3& each : sample.sums) CHECK(each == glm::dvec3(0));
     for (std::size_t i = 0; i < sample.size(); ++i) sample.displacement(i).x = -TestType(0.25) * static_cast<TestType>(i);
-    sum(isa, sample);  // come there from apart
+    sum(isa, sample);  // the vertices were apart at rest
     for (const glm::dvec3& each : sample.sums) CHECK(each == glm::dvec3(0));
   }
 }
@@ -206,7 +206,7 @@ TEMPLATE_TEST_CASE("vertices nearly in one place, at rest and after, pull no har
 TEMPLATE_TEST_CASE("sums do not change where all positions and all displacements shift", "", float, double) {
   for (const Isa isa : available_isas()) {
     Sample<TestType> sample = random_sample<TestType>(200, 0.1);
-    for (auto& vector : sample.placements)  // few bits, so that shifting them rounds nothing
+    for (auto& vector : sample.placements)  // numbers of few bits, so that shifting them rounds nothing
       for (int k = 0; k < 3; ++k) vector[k] = std::round(vector[k] * 1024) / 1024;
     Sample<TestType> shifted = sample;
     for (std::size_t i = 0; i < sample.size(); ++i) {

@@ -6,7 +6,7 @@
 namespace pliant {
 namespace {
 
-// Scaled by the bias, forces of many springs have none left: they agree with fp64 far better than one spring does.
+// Forces are scaled by the bias. Those of many springs therefore agree with fp64 far better than one spring does.
 TEST_CASE("forces of a body are neither too large nor too small on average", "[gl]") {
   BodySetup setup = sphere(3);
   setup.description.stretch = {1.02, 0.99, 1.01};

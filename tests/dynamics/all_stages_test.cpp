@@ -1,4 +1,4 @@
-// Stages that one dispatch runs, with work groups that wait for each other, against a dispatch a stage.
+// Compares stages that one dispatch runs, with work groups that wait for each other, to a dispatch a stage.
 #include <catch2/catch.hpp>
 
 #include "simulation/step_passes.hpp"
@@ -7,7 +7,7 @@
 namespace pliant {
 namespace {
 
-// Deformed and moving, and a second body that is neither; of few enough vertices for a work group each, or not.
+// Two bodies of at most `vertices` vertices, which may fit in one work group or not. Only the first one is deformed and moves.
 ModelAndState bodies_of(int level, std::uint32_t vertices) {
   std::vector<BodySetup> setups{sphere(level), sphere(level)};
   for (BodySetup& setup : setups) {
@@ -26,7 +26,7 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-// Of the first body.
+// What became of the first body.
 Outcome outcome_of(const DeviceBodies& bodies, std::uint32_t half) {
   const physics::Tally tally = bodies.tallies.download().front();
   return {bodies.download(half).motion, tally.force_evaluations, tally.forces_skipped,
@@ -54,7 +54,7 @@ struct AdaptiveOutcome {
   bool operator==(const AdaptiveOutcome&) const = default;
 };
 
-// By vern8, whose estimates take one stage more. The first step is so long that it is rejected, the last one is empty.
+// Steps by vern8, whose estimates take one stage more. The first step is so long that it is rejected. The last one is empty.
 AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start, std::size_t variant, bool all_stages) {
   const double omega = stiffest_omega(start.model);
   const TimePlan plan = plan_of(Adaptive{"vern8", 1e-5, 4 / omega, DampingLaw::constant}, start.model);
@@ -90,7 +90,8 @@ void check_all_stages(Device& device, const ModelAndState& start, std::size_t va
   }
 }
 
-// Calls check(device, start, variant) for every force variant that can, with a work group a body and, where they fit, with many.
+// Calls check(device, start, variant) for every force variant that can run all stages. Bodies have one work group each and, if they
+// fit, many.
 template <class Check>
 void for_each_variant(Check check) {
   for (const TestDevice& test : all_devices())

@@ -43,7 +43,7 @@ std::complex<double> amplification(const Integrator& integrator, double z) {
   return sum;
 }
 
-// ... and of a splitting is kicks and drifts of that oscillator.
+// One step of a splitting kicks and drifts that oscillator.
 std::complex<double> kicked_and_drifted(const Splitting& method, std::complex<double> y, double z) {
   double x = y.real(), v = -y.imag();
   for (std::size_t k = 0; k < method.kick.size(); ++k) {
@@ -53,7 +53,7 @@ std::complex<double> kicked_and_drifted(const Splitting& method, std::complex<do
   return {x, -v};
 }
 
-// ... and of a Nystrom method sums its stages' accelerations.
+// One step of a Nystrom method sums its stages' accelerations.
 std::complex<double> summed_over_stages(const Nystrom& method, std::complex<double> y, double z) {
   const Oscillator end = after_step(method, {.x = y.real(), .v = -y.imag()}, z);
   return {static_cast<double>(end.x), static_cast<double>(-end.v)};
@@ -87,7 +87,7 @@ double breathing_error(Device& device, const Integrator& integrator, double ampl
   return largest / amplitude;
 }
 
-// Rounding errors of the forces reach the step's end through the weights b: large ones of either sign amplify them.
+// Rounding errors of the forces reach the step's end through the weights b. Large weights of either sign amplify them.
 double weight_sum(const Integrator& integrator) {
   const StagedMethod* method = staged_method(integrator);
   if (method == nullptr) return 1;

@@ -74,7 +74,7 @@ TEST_CASE("a pull changes velocities near its vertex towards the target, and not
   }
 }
 
-/// Where a mouse in a fit might be: at times it jumps about, pumps the body's motion, or presses the body into another one.
+/// A mouse that pulls wildly. At times it jumps about, pumps the body's motion, or presses the body into another one.
 class WildMouse {
  public:
   explicit WildMouse(std::uint32_t vertex) : vertex_(vertex) {}
@@ -94,7 +94,7 @@ class WildMouse {
   std::uniform_real_distribution<double> jump_{-1, 1};
 };
 
-/// What is left of a scene after it.
+/// What is left of a scene after that mouse.
 struct Pulled {
   StepReport report;
   std::vector<glm::dvec3> positions;
@@ -123,7 +123,7 @@ Pulled pull_wildly(Device& device, const ModelAndState& start, const TimePlan& p
   return {report, simulation.state().world_positions(start.model)};
 }
 
-/// That the last body, which was pulled, is in one piece.
+/// Checks that the last body, which was pulled, is in one piece.
 void check_whole(const Model& model, const std::vector<glm::dvec3>& positions) {
   const ModelBody& pulled = model.bodies.back();
   const std::vector<glm::dvec3> of_pulled(positions.begin() + pulled.first_vertex, positions.end());
@@ -173,7 +173,7 @@ TEST_CASE("a wild mouse leaves soft and stiff bodies finite, with damping and wi
       }
 }
 
-// Hours on few CPUs. Without damping nothing ever takes out again what the mouse puts into a body, which tears.
+// This takes hours on few CPUs. Without damping a body tears, because nothing takes out again what the mouse puts into it.
 TEST_CASE("a minute of a wild mouse leaves every scene whose step is stable finite, and damped bodies whole", "[.soak][gl]") {
   const std::vector<TestDevice> devices = all_devices();
   for (const char* name : {"two_spheres", "three_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot",

@@ -39,7 +39,7 @@ std::vector<glm::dvec3> reference(const ModelAndState& start, DampingLaw law, do
   return evolve(*make_cpu_device(1, 64), start, {"vern8", time_step, law}, steps).world_positions(start.model);
 }
 
-// How fast the error shrinks with the step, by least squares: minus the slope of log2(error) over the halvings.
+// How fast the error shrinks with the step: minus the slope of log2(error) over the halvings, by least squares.
 double measured_order(const ModelAndState& start, const Method& coarse, double end_time, int halvings,
                       const std::vector<glm::dvec3>& exact) {
   const auto device = make_cpu_device(1, 64);
@@ -55,8 +55,8 @@ double measured_order(const ModelAndState& start, const Method& coarse, double e
   return covariance / variance;
 }
 
-// Where the order of a method can be measured: steps so short that the first term of the error leads, and so many that the error
-// is far above rounding, which is 1e-14 to 3e-14.
+// Where the order of a method can be measured. Steps are so short that the first term of the error leads. They are so many that
+// the error is far above rounding, which is 1e-14 to 3e-14.
 struct OrderRange {
   double omega_step, margin;
   int steps;
@@ -70,7 +70,7 @@ OrderRange range_of(int order) {
 
 TEST_CASE("halving the step shrinks the error as the method's order says") {
   BodySetup setup = tumbling();
-  setup.description.damping = 0.1;  // with more the motion dies away, and its error with it, before there is enough of it
+  setup.description.damping = 0.1;  // with more the motion dies away, and its error with it, before the error is large enough
   const ModelAndState start = built(setup);
   for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant})
     for (const Integrator& integrator : integrators()) {
@@ -94,8 +94,7 @@ TEST_CASE("the kinks of the adaptive law leave any method order two", "[long]") 
   for (const Integrator& integrator : integrators()) {
     if (!allows_damping(integrator, DampingLaw::adaptive)) continue;
     CAPTURE(integrator.name);
-    // Where in a step a vertex meets the kink differs from step to step, so errors scatter about their slope; 2.01 to 2.10 are
-    // measured.
+    // Where in a step a vertex meets the kink differs from step to step, so errors scatter about their slope. It is 2.01 to 2.10.
     CHECK(measured_order(start, {integrator.name, step, DampingLaw::adaptive}, end_time, 5, exact) == Approx(2).margin(0.3));
   }
 }
@@ -130,7 +129,7 @@ TEST_CASE("momentum and angular momentum are conserved without damping", "[gl]")
       const Measurement after = measured(start.model, evolve(*test.device, start, {integrator.name, step}, 200));
       const double tolerance = test.rounding < 1e-12 ? 1e-11 : 2e-5;
       CHECK(glm::distance(after.momentum, before.momentum) < tolerance * glm::length(before.momentum));
-      // A Runge-Kutta method turns rigidly only to its own order; a splitting exactly.
+      // A Runge-Kutta method turns rigidly only to its own order. A splitting does so exactly.
       CHECK(glm::distance(after.angular_momentum, before.angular_momentum) <
             std::max(tolerance, integrator.order == 4 ? 1e-7 : 1e-9) * glm::length(before.angular_momentum));
     }
@@ -177,7 +176,7 @@ TEST_CASE("a body pressed flat, to a point or inside out springs back with bound
       const State end = evolve(*test.device, start, {"dop853", 0.05 / stiffest_omega(start.model), DampingLaw::constant}, 40);
       const double after = measured(start.model, end).energy();
       CHECK(after >= 0);
-      // Vertices that coincide exert no force and count no energy until they part: pairs pressed exactly flat.
+      // Bodies that are pressed exactly flat have vertices that coincide. These exert no force and count no energy until they part.
       CHECK(after < (stretch.x == 0 ? 1.2 : 1.001) * before);
     }
   }
@@ -192,7 +191,7 @@ TEST_CASE("energy with gravity is conserved") {
   CHECK(measured(start.model, end, gravity).energy() == Approx(before).epsilon(1e-10));
 }
 
-// The tumbling body, turned by a scene's rotation [degrees] and moved, against the turned and moved result.
+// How far the tumbling body, turned by a scene's rotation [degrees] and moved, ends from the turned and moved result.
 double invariance_error(Device& device, const glm::dvec3& rotation, const glm::dvec3& position) {
   const glm::dvec3 angle = glm::radians(rotation);
   const glm::dmat3 turn =
@@ -219,8 +218,8 @@ TEST_CASE("a turned start gives the turned result", "[gl]") {
   }
 }
 
-// 1e4 m cost an fp64 position 1e-12; a force in fp32 next to the middle of two numbers may round the other way for that, and
-// the trajectory carries it on: 1e-9 on a CPU, 4e-8 on an H200. Positions rounded to fp32 there would show 6e-4.
+// At 1e4 m an fp64 position loses 1e-12. For that an fp32 force next to the middle of two numbers may round the other way. The
+// trajectory carries it on: 1e-9 on a CPU, 4e-8 on an H200. Positions rounded to fp32 there would show 6e-4.
 TEST_CASE("a moved start gives the moved result, with no loss of fp32 digits far from the origin", "[gl]") {
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);

@@ -30,7 +30,7 @@ void judge_with(Pace& pace, double taken, float error) {
   physics::judge(pace, taken);
 }
 
-// One more vertex touches, and has gone this way in the step.
+// Adds a touching vertex that has gone this way in the step [m].
 void touch(Pace& pace, glm::vec3 way) {
   const auto extend = [](std::uint32_t& least, std::uint32_t& most, float coordinate) {
     least = std::min(least, physics::ordered_bits(coordinate));
@@ -41,7 +41,7 @@ void touch(Pace& pace, glm::vec3 way) {
   extend(pace.least_z, pace.most_z, way.z);
 }
 
-// Judges steps with errors of this function until the run ends by one, or has come to its end; or gives up.
+// Judges steps with the errors of this function until one ends the run or the run comes to its end. Gives up after `most` steps.
 template <class Error>
 Pace run_with(Pace pace, Error error_of, int most = 10'000) {
   for (int k = 0; k < most && pace.failure == physics::no_failure && pace.time < pace.target; ++k) {
@@ -51,7 +51,7 @@ Pace run_with(Pace pace, Error error_of, int most = 10'000) {
   return pace;
 }
 
-// The steps to a target where each has this error, by the controller.
+// How many steps the controller takes to a target if each has this error.
 std::uint64_t steps_taken(Pace pace, double target, float error) {
   pace.target = target;
   while (pace.time < target) judge_with(pace, physics::next_step(pace), error);
@@ -158,7 +158,7 @@ TEST_CASE("a step cut short for a target lets those after it grow, but for one r
     pace.allowed = 0.5;
     pace.target = 0.4;
     pace.rejected_before = rejected_before ? 1 : 0;
-    judge_with(pace, physics::next_step(pace), 1e-7f / 256);  // of a free one twice as long: as aimed
+    judge_with(pace, physics::next_step(pace), 1e-7f / 256);  // a free step twice as long would have the aimed error
     CHECK(pace.allowed == Approx(rejected_before ? 0.5 : 0.8).epsilon(1e-4));
   }
 }
@@ -297,7 +297,7 @@ TEST_CASE("an error that falls, however slowly and unevenly, or is infinite at f
   CHECK(run_with(pace, infinitely).failure == physics::no_failure);
 }
 
-// As where forces in fp32 round: nothing is wrong with steps so short that nothing moves.
+// The error behaves as if forces in fp32 round: nothing is wrong with steps so short that nothing moves.
 TEST_CASE("a run ends where the steps left at its pace are more than it may have, and else goes on") {
   for (const double length : {1e-10, 1e-12}) {
     const auto rounding = [&](double step) { return step < length ? 0.0f : static_cast<float>(step); };
@@ -307,7 +307,7 @@ TEST_CASE("a run ends where the steps left at its pace are more than it may have
     const Pace too_long = run_with(pace, rounding);
     CHECK(too_long.failure == physics::too_many_steps);
     CHECK((too_long.failed_step > length / 10 && too_long.failed_step < 10 * length && too_long.time < 1e-5));
-    pace.end = pace.target = 1e7 * length;  // an average step is longer than a tenth
+    pace.end = pace.target = 1e7 * length;  // an average step is longer than a tenth of `length`
     CHECK(run_with(pace, rounding, 3'000).failure == physics::no_failure);
   }
 }

@@ -34,7 +34,7 @@ double oscillator_amplification(const RungeKutta& method, double h, double omega
   return larger(std::abs(plain_step(method, h * (-g / 2 + root))), std::abs(plain_step(method, h * (-g / 2 - root))));
 }
 
-// Growth of |(x, v)| per step of x'' = -x - g v over many steps of velocity Verlet with the damped kick.
+// The growth of |(x, v)| per step over many steps of velocity Verlet with the damped kick. The equation is x'' = -x - g v.
 double verlet_growth(double h, double g) {
   const double decay = std::exp(-g * h / 2), push = g > 0 ? (1 - decay) / g : h / 2;
   double x = 0.3, v = -0.4;
@@ -50,9 +50,10 @@ double verlet_growth(double h, double g) {
 }  // namespace
 
 TEST_CASE("undamped step bounds are the published limits of the imaginary axis") {
-  // rk4 to vern8: the largest y with |R(iy)| <= 1 + 1e-4, found on a grid of 6e-5 in exact coefficients. verlet: closed
-  // form. srkn11b: Blanes and Moan (2002). dprkn8, dprkn12: the first y at which a step's map, in exact coefficients, has an
-  // eigenvalue above 1 + 1e-4.
+  // - rk4 to vern8: the largest y with |R(iy)| <= 1 + 1e-4, found on a grid of 6e-5 in exact coefficients
+  // - verlet: closed form
+  // - srkn11b: Blanes and Moan (2002)
+  // - dprkn8, dprkn12: the first y at which a step's map, in exact coefficients, has an eigenvalue above 1 + 1e-4
   const std::pair<const char*, double> limits[] = {
       {"verlet", 2.0},     {"srkn11b", 3.1414},     {"rk4", 2.82852},   {"cv8", 3.00186},    {"cv8_minus", 3.39666},
       {"dop853", 5.96046}, {"verner78_8", 4.77546}, {"vern8", 2.85066}, {"dprkn8", 3.14028}, {"dprkn12", 8.32736}};
@@ -174,7 +175,7 @@ TEST_CASE("verlet bears any damping within its undamped bound") {
   CHECK(verlet_growth(2.02, 0.0) > 1.05);
 }
 
-// The larger eigenvalue of a step of omega_step / omega on x'' = -omega^2 x - g v, with drag = g h.
+// The larger eigenvalue of a step on x'' = -omega^2 x - g v. The step's length is h = omega_step / omega, and drag is g h.
 double damped_amplification(const Integrator& integrator, double omega_step, double drag) {
   const NystromTableau tableau = nystrom_tableau(integrator, Stages::of_result, drag);
   std::complex<double> map[2][2];  // [to][from] of x and h v

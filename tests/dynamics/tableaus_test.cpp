@@ -1,5 +1,5 @@
-// Order conditions over every integrator. Runge-Kutta: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
-// II.2; Nystrom methods, and splittings as such: the same book, II.14, with trees for x'' = f(x).
+// Checks the order conditions of every integrator. Their source is Hairer, Norsett and Wanner, Solving Ordinary Differential
+// Equations I: II.2 for Runge-Kutta methods, II.14 with trees for x'' = f(x) for Nystrom methods, and for splittings as such.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -256,7 +256,7 @@ Point plain_step(const Nystrom& method, Point start, long double h, Acceleration
   return end;
 }
 
-// Of x'' = -sin x - rate v, by y = e^(rate t / 2) (x - x(0)): y'' = -e^(rate t / 2) sin x + (rate / 2)^2 y.
+// A step of x'' = -sin x - rate v. With y = e^(rate t / 2) (x - x(0)) that is y'' = -e^(rate t / 2) sin x + (rate / 2)^2 y.
 Point step_without_drag(const Nystrom& method, Point start, long double h, long double rate) {
   Vector accelerations;
   Point y{h * start.v, start.v};
@@ -272,7 +272,7 @@ Point step_without_drag(const Nystrom& method, Point start, long double h, long 
   return {start.x + decay * y.x, decay * (y.v - rate / 2 * y.x)};
 }
 
-// By the method's weights, or by others.
+// A plain step by the method's weights, or by others.
 Point plain_step(const Integrator& integrator, Point start, long double h, const Vector* weights = nullptr) {
   const auto step = [&](auto method) {
     if (weights != nullptr) method.b = *weights;
@@ -282,7 +282,7 @@ Point plain_step(const Integrator& integrator, Point start, long double h, const
   return step(std::get<RungeKutta>(integrator.method));
 }
 
-// The accelerations at the stages; `end`, if any, becomes the step's end.
+// Returns the accelerations at the stages. `end`, if any, becomes the step's end.
 Vector stage_accelerations(const NystromTableau& tableau, Point start, long double h, Acceleration acceleration,
                            Point* end = nullptr) {
   Vector accelerations;

@@ -31,8 +31,8 @@ double relative_distance(const ModelAndState& start, const State& a, const State
   return std::sqrt(apart / size);
 }
 
-// Rounding of forces leaves sums that are not zero, and nothing holds a body back from drifting: the fewer vertices, the further.
-// A CPU sums in another order than a GPU, with more rounding.
+// Rounding of forces leaves sums that are not zero, and nothing holds a body back from drifting. A body of fewer vertices drifts
+// further. A CPU sums in another order than a GPU, with more rounding.
 struct Bounds {
   double cpu, gpu;
 };
@@ -50,7 +50,7 @@ void check_trajectories(int level, const Bounds& bounds) {
   }
 }
 
-// Twice what was measured on CPU, llvmpipe and an H200.
+// The bounds are twice what was measured on CPU, llvmpipe and an H200.
 TEST_CASE("fp32 forces keep small bodies near the fp64 trajectory", "[gl]") {
   check_trajectories(0, {4e-6, 2.2e-6});
   check_trajectories(1, {2.5e-6, 6e-7});
@@ -62,8 +62,8 @@ struct Cancelling {
   double omega_step, bound;
 };
 
-// The bounds lie midway, by factors, between what is measured on llvmpipe where roundings of placements cancel and where they add
-// up. Large weights that nearly cancel, dop853's and above all vern8's, magnify what is left.
+// A bound lies midway, by factors, between two measurements on llvmpipe: roundings of placements cancel in one and add up in the
+// other. Large weights that nearly cancel, dop853's and above all vern8's, magnify what is left.
 void check_cancelling(std::initializer_list<Cancelling> cases) {
   const std::vector<TestDevice> devices = all_devices();
   if (devices.back().name != "gpu") return test::skip("there is no OpenGL to measure on");

@@ -27,7 +27,7 @@ struct Run {
   Simulation simulation;
 };
 
-// Squashed, sliding and turning.
+// A body that is squashed, slides and turns.
 ModelAndState squashed() {
   BodySetup setup = sphere(1);
   setup.description.stretch = {1.2, 0.85, 1.05};
@@ -41,7 +41,7 @@ bool same_bits(const State& a, const State& b) {
          std::memcmp(a.motion.data(), b.motion.data(), a.motion.size() * sizeof(double)) == 0;
 }
 
-// By other weights.
+// A step by other weights than the method's.
 Oscillator after_step(const Integrator& integrator, const std::vector<long double>& weights, const Oscillator& start, double h) {
   const auto step = [&](auto method) {
     method.b = weights;
@@ -51,14 +51,14 @@ Oscillator after_step(const Integrator& integrator, const std::vector<long doubl
   return step(std::get<RungeKutta>(integrator.method));
 }
 
-// Without the fourth component, which means nothing.
+// World positions without their fourth component, which means nothing.
 std::vector<glm::vec3> drawn_positions(Simulation& simulation) {
   std::vector<glm::vec3> positions;
   for (const glm::vec4& position : simulation.world_positions()) positions.emplace_back(position);
   return positions;
 }
 
-// Of all trees, from where searches start down.
+// How many nodes all trees have from where searches start down.
 std::uint64_t nodes_of_a_search(const Collider& collider) {
   std::vector<unsigned> depths;
   for (const glm::uvec4& node : collider.forest().nodes) depths.push_back(node.y == no_node ? 0 : depths[node.y] + 1);
@@ -108,18 +108,18 @@ TEST_CASE("the error of a run follows the tolerance") {
   }
 }
 
-// In all, for several tolerances: at the adaptive law's kink it is chance which steps of one run are rejected.
+// The steps of runs with several tolerances in all. At the adaptive law's kink it is chance which steps of one run are rejected.
 std::uint64_t steps_taken(Device& device, const ModelAndState& start, DampingLaw law) {
   std::uint64_t steps = 0;
   for (const double tolerance : {1e-4, 3e-5, 1e-5, 1e-6, 1e-7}) {
-    if (law == DampingLaw::adaptive && tolerance < 1e-5) continue;  // thousands
+    if (law == DampingLaw::adaptive && tolerance < 1e-5) continue;  // it would take thousands of steps
     const Adaptive adaptive{automatic_integrator(tolerance, law).name, tolerance, {}, law};
     steps += Run(device, start, adaptive).simulation.advance_to(20 / stiffest_omega(start.model)).steps;
   }
   return steps;
 }
 
-// dprkn12's steps are so long that its estimate sees what forces round: it needs the fewest forces all the same.
+// dprkn12's steps are so long that its estimate sees the rounding of forces. It needs the fewest forces all the same.
 TEST_CASE("where auto meets tolerances, fp32 forces take at most a quarter more steps than fp64, and dprkn12 two fifths",
           "[gl]") {
   const ModelAndState start = squashed();
@@ -143,7 +143,7 @@ TEST_CASE("the next step's length follows from how far the embedded methods come
     const Integrator& integrator = find_integrator(name);
     const StagedMethod& method = *staged_method(integrator);
     const double h = (integrator.order > 8 ? 2.0 : 0.8) / omega;  // long enough for an error above rounding
-    const Oscillator start_of_vertex{.omega = omega, .x = 0.1};   // each vertex is one of its own, 0.1 m off
+    const Oscillator start_of_vertex{.omega = omega, .x = 0.1};   // each vertex is an oscillator, 0.1 m off
     const Oscillator end = after_step(integrator, method.b, start_of_vertex, h);
     physics::Pace pace{};
     pace.target = 100;
@@ -200,7 +200,7 @@ TEST_CASE("the way in a contact is held against the finest body's edges, whichev
     StepReport before = run.simulation.report(), report = before;
     while (report.contact_steps == 0 && report.time < 0.2) report = run.simulation.advance_toward(0.2, 1);
     REQUIRE(report.contact_steps == 1);
-    const double finest_edge = 0.16;  // of a sphere with 642 vertices; that with 12 has 1.05
+    const double finest_edge = 0.16;  // of the sphere with 642 vertices (1.05 with 12)
     CAPTURE(fine_first, report.adaptive->smallest_step);
     CHECK(report.adaptive->smallest_step * 2 <= 0.25 * finest_edge);  // they approach by 2 m/s
     CHECK(report.adaptive->rejected_in_contact > 0);
@@ -233,7 +233,7 @@ TEST_CASE("a step rejected for its error or in contact changes nothing") {
       CHECK(same_bits(run.simulation.state(), start.state));
       CHECK((drawn_positions(run.simulation) == positions));
       CHECK((report.contact_steps == 0 && report.contact_pairs_max == 0 && report.reverted_vertices == 0 && !report.non_finite));
-      // What can't be seen is as it was, too: the step that stands at last, and what follows, might as well have come first.
+      // What can't be seen is as it was, too. The step that stands at last, and what follows, are as if it had come first.
       while (report.steps == 0) report = run.simulation.advance_toward(report.time + report.adaptive->next_step);
       REQUIRE(report.steps == 1);
       Run direct(*test.device, start, {.tolerance = tolerance, .first_step = report.time}, Named{"reflect"});
@@ -258,7 +258,7 @@ TEST_CASE("steps end at every time asked for, bit for bit, and empty ones sum no
   const ModelAndState start = squashed();
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
-    Run run(*test.device, start, {.first_step = 1e-4});  // it grows, so that a batch is longer than the way
+    Run run(*test.device, start, {.first_step = 1e-4});  // steps grow, so that a batch is longer than the way
     for (int frame = 1; frame <= 6; ++frame) CHECK(run.simulation.advance_to(frame / 7.0).time == frame / 7.0);
     const StepReport report = run.simulation.report();
     CHECK(report.force_evaluations + report.forces_skipped == 12 * (report.steps + report.adaptive->rejected));
@@ -276,7 +276,7 @@ TEST_CASE("a state from adaptive steps starts another run, by fixed steps or ada
   constexpr double middle = 0.3, end = 0.7;
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
-    // Steps grow, so that a batch is longer than the way: its last ones are empty.
+    // Steps grow, so that a batch is longer than the way, and its last steps are empty.
     Run run(*test.device, start, {.first_step = 1e-4});
     static_cast<void>(run.simulation.advance_to(middle));
     const ModelAndState between{start.model, run.simulation.state()};

@@ -14,7 +14,7 @@ TEST_CASE("the elastic energy is half the stiffness times the squared elongation
   std::vector<BodySetup> setups{sphere(1), sphere(0)};
   setups[0].description.stretch = {1.3, 0.7, 1.01};
   setups[0].description.stiffness = 3;
-  setups[1].description.stretch = {1, 1 + 1e-9, 1};  // where a difference of lengths would keep seven digits
+  setups[1].description.stretch = {1, 1 + 1e-9, 1};  // a difference of lengths would keep seven digits here
   const auto [model, state] = build_model(setups, {0, 0, 0});
   const auto moved = state.world_positions(model);
   long double all = 0;

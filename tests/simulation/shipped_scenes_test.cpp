@@ -46,7 +46,7 @@ PairSet as_set(const std::vector<glm::uvec2>& pairs) {
   return set;
 }
 
-// Every triangle of one leaf with every triangle of the other.
+// Adds every triangle of one leaf with every triangle of the other.
 void add_pairs(PairSet& pairs, const Forest& forest, const glm::uvec4& a, const glm::uvec4& b) {
   for (std::uint32_t i = a.z; i < a.w; ++i)
     for (std::uint32_t j = b.z; j < b.w; ++j) {
@@ -151,7 +151,7 @@ TEST_CASE("dented bodies of every shipped scene move as in fp64 to 1e-5 of the b
     ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     start.state = dented(start);
     CAPTURE(scene.file.string());
-    // Within the bound: beyond it, rounding grows with everything else.
+    // The step is within the bound, because beyond it rounding grows with everything else.
     const TimePlan plan = plan_time(scene, start.model);
     const Method method{plan.integrator->name, std::min(plan.time_step, 0.9 * plan.step_bound), scene.simulation.damping_law};
     const State exact = evolve(*make_cpu_device(2, 64), start, method, 8);

@@ -38,7 +38,7 @@ bool same_bits(const std::vector<physics::Pose>& a, const std::vector<physics::P
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(physics::Pose)) == 0;
 }
 
-// Of every vertex, whether brute force finds a triangle of it that touches another body.
+// For every vertex, whether brute force finds a triangle of it that touches another body.
 std::vector<bool> touched_vertices(const Model& model, const std::vector<glm::uvec2>& pairs) {
   std::vector<bool> touched(model.vertex_count());
   for (const glm::uvec2& pair : pairs)
@@ -126,7 +126,7 @@ TEST_CASE("vertices in contact go back bit for bit with their velocity reversed 
   }
 }
 
-// Bodies at rest, so that a step moves nothing: its marks are the touched vertices, and both kinds are among them.
+// Bodies are at rest, so that a step moves nothing. Its marks are then the touched vertices. Some vertices have marks, some none.
 StepReport check_marks(Device& device, const ModelAndState& start) {
   Simulation simulation(device, start.model, start.state, plan_of(usual), CollisionDescription{});
   const auto pairs = intersecting_pairs(start.model, simulation.world_positions(), TriangleTest::certified);
@@ -228,7 +228,7 @@ TEST_CASE("bodies that have parted are no longer reported as touching", "[gl]") 
   }
 }
 
-// Two bodies whose boxes overlap, though of their triangles only two come near: tip to tip along x, `gap` apart [m].
+// The contacts of two bodies whose boxes overlap. Only two of their triangles come near: tip to tip along x, `gap` apart [m].
 std::uint32_t contacts_at_gap(Device& device, float gap, const CollisionDescription& description) {
   const std::vector<glm::vec4> positions{{-1, -0.1f, 0, 1}, {-1, 0.1f, 0, 1}, {-gap, 0, 0, 1},  //
                                          {5, 5, 5, 1},      {6, 5, 5, 1},     {5, 6, 5, 1},     //
@@ -243,7 +243,7 @@ std::uint32_t contacts_at_gap(Device& device, float gap, const CollisionDescript
   const ModelAndState start = build_model(setups, {0, 0, 0});
   DeviceBodies bodies(device, start.model, start.state);
   const Collider collider(bodies, start.model, description);
-  bodies.world_positions.upload(positions);  // the very bits: the model rounds
+  bodies.world_positions.upload(positions);  // uploads the exact bits, because the model rounds
   bodies.prepare_search();
   const Pass bounding = collider.bounding_pass(0);
   device.run({&bounding, 1});

@@ -1,5 +1,5 @@
-// Damping far beyond what a step resolves: with the exactly damped kick of verlet nothing blows up, at any step within the
-// undamped bound. And deformation far beyond what bounds are for: automatic steps bear it.
+// Damping goes far beyond what a step resolves here. With the exactly damped kick of verlet nothing blows up, at any step within
+// the undamped bound. Deformation goes far beyond what bounds are for, and automatic steps bear it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -51,8 +51,8 @@ class Trial {
   StepReport report() { return simulation_.report(); }
   Measurement measured() { return measure(model_, simulation_.state(), glm::dvec3(0.0), pool_); }
 
-  // The largest energy seen, at the start and every `stride` steps, or the first that is `enough` [J]; infinite where a vertex is
-  // not finite.
+  // Returns the largest energy seen, at the start and every `stride` steps, or the first that is `enough` [J]. It is infinite if
+  // a vertex is not finite.
   double largest_energy(std::uint64_t steps, std::uint64_t stride, double enough = std::numeric_limits<double>::infinity()) {
     double largest = measured().energy();
     for (std::uint64_t done = 0; done < steps && largest < enough; done += std::min(stride, steps - done)) {
@@ -69,7 +69,7 @@ class Trial {
   Simulation simulation_;
 };
 
-// What moves ends within a step, and what is bent creeps back to its shape: no step adds energy.
+// All motion ends within a step, and bent bodies creep back to their shape. No step adds energy.
 void check_settles(const SceneDescription& scene, const ModelAndState& start, double part_of_bound, std::uint64_t steps,
                    std::uint64_t stride) {
   TimePlan plan = plan_time(scene, start.model);
@@ -98,7 +98,7 @@ ModelAndState squashed(int level, const glm::dvec3& stretch) {
 const glm::dvec3 squashes[] = {{0.5, 1.4, 1.4}, {0.5, 0.5, 1.5},   {0.5, 1.1, 1.6},
                                {0.5, 0.5, 0.5}, {0.5, 1.25, 1.25}, {0.5, 1, 1}};  // the worst first
 
-// The largest energy of an undamped body against that at its start, as far as it has blown up.
+// The largest energy of an undamped body over that at its start. A run ends as soon as the body has blown up.
 double energy_growth(const ModelAndState& start, const Method& method, std::uint64_t steps) {
   CollisionDescription apart;
   apart.response = Named{"none"};
@@ -114,14 +114,14 @@ double energy_growth(int level, const glm::dvec3& stretch, const Integrator& int
   return energy_growth(start, {integrator.name, part_of_bound * step_bound(integrator, omega * omega, 0)}, steps);
 }
 
-// Squashed in any of the ways.
+// Whether a sphere that is squashed in any of the ways blows up.
 bool blows_up(int level, const Integrator& integrator, double part_of_bound, std::uint64_t steps) {
   return std::ranges::any_of(squashes, [&](const glm::dvec3& stretch) {
     return !(energy_growth(level, stretch, integrator, part_of_bound, steps) < blow_up_growth);
   });
 }
 
-// The plan where the scene says no more than this.
+// The plan for a scene that says no more than this.
 TimePlan automatic_plan(const Integrator& integrator, const Model& model) {
   SceneDescription scene;
   scene.simulation.integrator.value = integrator.name;
@@ -154,7 +154,8 @@ TEST_CASE("spheres squashed to a half stay whole for long with steps as long as 
   }
 }
 
-// Which length does it is chance: where vertices meet, it matters how far a step has come. Slow growth takes longer than this.
+// Which step's length blows a sphere up is chance, because it matters how far a step has come where vertices meet. Slow growth
+// takes longer than this.
 TEST_CASE("strained bounds are no shorter than they must: with steps at most 1.6 times as long a sphere blows up soon",
           "[long]") {
   for (const Integrator& integrator : integrators()) {

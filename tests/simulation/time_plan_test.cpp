@@ -44,7 +44,7 @@ TEST_CASE("the stiffest body sets the bound") {
   CHECK(plan.step_bound == Approx(step_bound(find_integrator("rk4"), 12 * 9.0, 0)));
 }
 
-// With a search a body this would take over five minutes, ctest's limit.
+// If planning searched once for each body, this would take over five minutes, ctest's limit.
 TEST_CASE("twenty thousand bodies of two kinds are planned like two") {
   const auto model_of = [](std::size_t count) {
     std::vector<BodySetup> setups(count, two_vertices());

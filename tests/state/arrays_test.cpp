@@ -95,7 +95,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     std::vector<std::string> cpu_arrays, gpu_arrays, cpu_numbers, gpu_numbers;
     for (const auto& array : on_cpu.arrays) cpu_arrays.push_back(array.array);
     for (const auto& array : on_gpu.arrays)
-      if (array.array != "meeting" || !sums_springs) gpu_arrays.push_back(array.array);  // of all stages at once alone
+      if (array.array != "meeting" || !sums_springs) gpu_arrays.push_back(array.array);  // for all stages at once alone
     for (const auto& number : on_cpu.parameters) cpu_numbers.push_back(number.name + (number.is_double ? " double" : ""));
     for (const auto& number : on_gpu.parameters)
       if (number.name != "item_count") gpu_numbers.push_back(number.name + (number.is_double ? " double" : ""));

@@ -20,7 +20,7 @@ void check_same(Simulation& a, Simulation& b) {
   CHECK(a.collider().touching().marks() == b.collider().touching().marks());
 }
 
-// Somewhere else and moving in another way, so that whatever is not restored shows.
+// Bodies are somewhere else and move in another way, so that whatever is not restored shows.
 State another_start(const ModelAndState& start) {
   State other = start.state;
   for (std::size_t k = 0; k < other.motion.size(); ++k) other.motion[k] += 0.01 * static_cast<double>(k % 7);

@@ -11,7 +11,7 @@
 namespace pliant::testing {
 namespace {
 
-/// Not inlined, so that the rounding direction in force is the one the arithmetic sees.
+/// This is not inlined, so that the arithmetic sees the rounding direction in force.
 [[gnu::noinline]] bool may_touch(const Triangle& a, const Triangle& b) {
   const glm::vec3 p[3] = {a[0], a[1], a[2]}, q[3] = {b[0], b[1], b[2]};
   return physics::triangles_may_touch(p, q);
@@ -39,7 +39,7 @@ struct LatticePair {
 /// Few lattice points, so that most pairs touch in a corner, along an edge, in a plane, or have no area.
 LatticePair crowded(Random& random) { return {random.triangle(3), random.triangle(3)}; }
 
-/// b has a corner, or the middle of an edge, within a few steps of a point of a: gaps from 0 to 1e-5 of the size.
+/// b has a corner, or the middle of an edge, within a few steps of a point of a. Gaps go from 0 to 1e-5 of the size.
 LatticePair nearly_touching(Random& random) {
   constexpr std::int64_t range = 1 << 19;
   LatticePair pair{random.triangle(range), random.triangle(range)};
@@ -69,7 +69,7 @@ LatticePair coplanar(Random& random) {
   return {{in_plane(), in_plane(), in_plane()}, {in_plane(), in_plane(), in_plane()}};
 }
 
-/// Scaled by a power of two and shifted, both without rounding (as long as offset + scale * point has 24 bits).
+/// Scales by a power of two and shifts. Neither rounds, as long as offset + scale * point has 24 bits.
 Triangle place(const LatticeTriangle& t, int exponent, float offset) {
   Triangle placed;
   for (std::size_t k = 0; k < 3; ++k) placed[k] = glm::vec3(glm::dvec3(t[k]) * std::ldexp(1.0, exponent)) + glm::vec3(offset);

@@ -17,8 +17,8 @@ struct TrianglePair {
 
 struct CubePair {
   std::string id;
-  Model model;                    // two bodies of 12 triangles; rest positions are those to test
-  std::vector<glm::uvec2> pairs;  // that touch, as indices into the model's triangles, in ascending order
+  Model model;                    // two bodies of 12 triangles (the test is about their rest positions)
+  std::vector<glm::uvec2> pairs;  // pairs that touch, as indices into the model's triangles, in ascending order
 };
 
 [[nodiscard]] std::vector<TrianglePair> triangle_pairs();

@@ -43,13 +43,13 @@ bool segments_touch(const Lattice3& p, const Lattice3& q, const Lattice3& r, con
 
 bool same_sign(int a, int b, int c) { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
 
-/// Whether the segment meets the triangle's inside; its border is somebody else's.
+/// Whether the segment meets the triangle's inside. Other functions test the border.
 bool pierces(const Lattice3& p, const Lattice3& q, const LatticeTriangle& t) {
   const Wide3 normal = cross_product(difference(t[1], t[0]), difference(t[2], t[0]));
   if (is_zero(normal)) return false;
   const int side_p = side(t[0], t[1], t[2], p), side_q = side(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return false;
-  if (side_p == 0 && side_q == 0) {  // in its plane: an end inside, or else it crosses the border
+  if (side_p == 0 && side_q == 0) {  // the segment lies in the plane: an end is inside, or it crosses the border
     const auto along = [&](int i) {
       const Lattice3 &from = t[static_cast<std::size_t>(i)], &to = t[static_cast<std::size_t>((i + 1) % 3)];
       return sign(dot_product(normal, cross_product(difference(to, from), difference(p, from))));

@@ -25,7 +25,7 @@ void add_body(Model& model, const TriangleMesh& mesh) {
   model.bodies.push_back(body);
 }
 
-/// Triangles of all sizes at random places: splits come out uneven.
+/// Triangles of all sizes at random places, so that splits come out uneven.
 TriangleMesh triangle_soup(std::uint32_t count) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

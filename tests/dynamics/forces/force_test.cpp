@@ -13,7 +13,7 @@
 namespace pliant {
 namespace {
 
-// A sphere on which this force acts alone, but that springs act on every body: theirs can be zero.
+// A sphere on which this force acts alone. Springs act on every body, but their stiffness can be zero.
 BodySetup example_of(std::string_view force) {
   BodySetup setup = sphere(1);
   setup.description.stiffness = force == "springs" ? 1 : 0;
@@ -47,7 +47,7 @@ State deformed(const ModelAndState& start, double size) {
   return state;
 }
 
-// All of a body's forces at a state: a method's first stage.
+// All of a body's forces at a state, by a method's first stage.
 std::vector<glm::dvec3> forces_at(Device& device, const Model& model, const State& state) {
   DeviceBodies bodies(device, model, state);
   const AddedForces added(bodies, model);
@@ -166,7 +166,7 @@ TEST_CASE("every device has the same forces but for rounding", "[gl]") {
   }
 }
 
-// The largest eigenvalue of the forces' slope, by power iteration on differences [N/m].
+// The largest eigenvalue of the forces' slope [N/m], by power iteration on differences.
 double stiffness_at(Device& device, const Model& model, const State& state) {
   constexpr double step = 1e-5;  // [m]
   const std::size_t count = model.vertex_count();

@@ -33,8 +33,8 @@ double root(F&& f, double low, double high) {
   return low;
 }
 
-// By which a body of springs k grows under pressure p0, if it grows alike everywhere: N k (s - 1) s sum|X|^2 = 3 p0 V0 for a gas,
-// N k (s - 1) sum|X|^2 = 3 p0 V0 s^2 for a constant pressure.
+// The factor s by which a body of springs k grows under pressure p0, if it grows alike everywhere. For a gas
+// N k (s - 1) s sum|X|^2 = 3 p0 V0. For a constant pressure N k (s - 1) sum|X|^2 = 3 p0 V0 s^2.
 double expected_scale(const Model& model) {
   const ModelBody& body = model.bodies.front();
   const double springs = body.vertex_count * body.stiffness * sum_of_squares(model);
