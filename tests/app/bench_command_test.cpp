@@ -30,7 +30,7 @@ nlohmann::json checked_results(const std::string& arguments, const std::filesyst
   for (const char* key : {"cpu", "gpu", "driver", "compiler", "date"}) CHECK(machine.contains(key));
   CHECK_THAT(machine["commit"].get<std::string>(), Catch::Matches("unknown|[0-9a-f]{12,40}(-dirty)?"));
   CHECK(run_program("--version").output == machine["version"].get<std::string>() + '\n');
-  for (const char* key : {"version", "commit", "cpu", "date"})  // above the table too
+  for (const char* key : {"version", "commit", "cpu", "date"})  // they stand above the table, too
     CHECK_THAT(result.output, Catch::Contains(machine[key].get<std::string>()));
   CHECK_THAT(json["machine"]["date"].get<std::string>(), Catch::Matches("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ"));
   CHECK_FALSE(json["rows"].empty());
@@ -112,7 +112,7 @@ TEST_CASE("a full disk is told after the table") {
   CHECK(result.output.find("/dev/full") != std::string::npos);
 }
 
-// Progress is shown before each row.
+// The program shows progress before each row.
 TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way to finished rows alone") {
   for (const int signal : {SIGINT, SIGTERM})
     for (const int shown : {1, 3}) {
@@ -122,7 +122,7 @@ TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way t
       std::ofstream(file) << "earlier";
       ProgramInTerminal program({"bench", "forces", "--device", "cpu", "--threads", "1", "--json", file.string()});
       REQUIRE(program.has_shown_progress(shown));
-      CHECK_FALSE(has_half_a_file(file.parent_path()));  // which a program that is killed would leave
+      CHECK_FALSE(has_half_a_file(file.parent_path()));  // a program that is killed would leave one
       const ProgramResult result = program.end_by(signal);
       CAPTURE(result.output);
       CHECK(result.exit_code == 130);

@@ -182,7 +182,7 @@ TEST_CASE("a device that is not there exits with 4") {
   check_fails("run " + small_scene(folder).string() + " --gpu 99 --out " + folder.path.string(), 4, {"; "});
 }
 
-#ifndef __SANITIZE_ADDRESS__  // whose own memory is beyond any limit
+#ifndef __SANITIZE_ADDRESS__  // its own memory is beyond any limit
 #ifndef __SANITIZE_THREAD__
 TEST_CASE("more threads than the system gives exit with 4") {
   const ScratchFolder folder;

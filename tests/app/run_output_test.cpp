@@ -203,7 +203,7 @@ TEST_CASE("each format of frames has a file a frame") {
   }
 }
 
-// A limit of files' sizes in the place of a full disk.
+// A limit on the size of files stands in for a full disk.
 TEST_CASE("a run that can't write says which files there are of an earlier one") {
   const ScratchFolder folder;
   const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 3 --quiet --frames obj --out " +

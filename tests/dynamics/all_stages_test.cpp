@@ -90,8 +90,8 @@ void check_all_stages(Device& device, const ModelAndState& start, std::size_t va
   }
 }
 
-// Calls check(device, start, variant) for every force variant that can run all stages. Bodies have one work group each and, if they
-// fit, many.
+// Calls check(device, start, variant) for every force variant that can run all stages. Bodies have one work group each. A second
+// call has bodies with many, if they fit.
 template <class Check>
 void for_each_variant(Check check) {
   for (const TestDevice& test : all_devices())

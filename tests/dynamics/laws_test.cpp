@@ -176,7 +176,7 @@ TEST_CASE("a body pressed flat, to a point or inside out springs back with bound
       const State end = evolve(*test.device, start, {"dop853", 0.05 / stiffest_omega(start.model), DampingLaw::constant}, 40);
       const double after = measured(start.model, end).energy();
       CHECK(after >= 0);
-      // Bodies that are pressed exactly flat have vertices that coincide. These exert no force and count no energy until they part.
+      // In bodies pressed exactly flat vertices coincide. These pairs exert no force and count no energy until they part.
       CHECK(after < (stretch.x == 0 ? 1.2 : 1.001) * before);
     }
   }

@@ -1,4 +1,4 @@
-// Flattening shader files, on files made up here; needs no GPU.
+// Flattens shader files that are made up here. This needs no GPU.
 #include "gl/shader_source.hpp"
 
 #include <catch2/catch.hpp>

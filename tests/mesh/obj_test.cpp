@@ -24,7 +24,7 @@ std::string write_obj(const TriangleMesh& mesh) {
   return text;
 }
 
-/// Random coordinates over many magnitudes; every vertex is used.
+/// A mesh with random coordinates over many magnitudes. It uses every vertex.
 TriangleMesh random_mesh(std::mt19937_64& random) {
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::uniform_int_distribution<int> exponent(-300, 8);

@@ -10,7 +10,7 @@
 namespace pliant {
 namespace {
 
-/// A closed ring of quads: `around` times `across`, every quad split in two.
+/// A closed ring of `around` times `across` quads. Every quad is split in two.
 TriangleMesh torus(std::uint32_t around, std::uint32_t across) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < around; ++i) {

@@ -27,7 +27,7 @@ TriangleMesh explode(const TriangleMesh& mesh, double jitter) {
   return soup;
 }
 
-/// The definition, by comparing every vertex with all that stay.
+/// Welds by the definition: compares every vertex with all that stay.
 std::size_t count_merged_by_brute_force(const std::vector<glm::dvec3>& positions, double distance) {
   std::vector<glm::dvec3> stay;
   for (const glm::dvec3& p : positions) {

@@ -1,4 +1,4 @@
-// Two at once.
+// Two holders of one lock at once.
 #include "output/file_lock.hpp"
 
 #include <sys/stat.h>

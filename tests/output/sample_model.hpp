@@ -7,7 +7,7 @@
 
 namespace pliant::test {
 
-/// A tetrahedron and a triangle; what the files hold comes from the arguments of the writers.
+/// A tetrahedron and a triangle. What the files hold comes from the arguments of the writers.
 inline Model two_bodies() {
   Model model;
   model.bodies.resize(2);

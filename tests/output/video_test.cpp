@@ -1,4 +1,4 @@
-// What ffmpeg is told and given, by a script in its place, and what it makes of that where there is one.
+// A script in ffmpeg's place shows what ffmpeg is told and given. If there is an ffmpeg, its own output is tested, too.
 #include "output/video.hpp"
 
 #include <sys/stat.h>
@@ -20,7 +20,7 @@ using test::StandIn;
 
 render::Image picture(std::uint8_t value) { return {6, 4, std::vector<std::uint8_t>(72, value)}; }
 
-// Writes its arguments and its input beside itself.
+// A script that writes its arguments and its input beside itself.
 const std::string recorder = "printf '%s\\n' \"$@\" > \"$0.arguments\"\ncat > \"$0.input\"\n";
 
 TEST_CASE("ffmpeg is given every picture's bytes in order, their size and rate, and the file's place") {

@@ -14,7 +14,7 @@ using namespace pliant::render;
 
 namespace {
 
-/// Normalised picture coordinates, -1 to 1; z is the depth.
+/// Normalised picture coordinates, -1 to 1, with the depth as z.
 glm::dvec3 project(const glm::dmat4& to_clip, const glm::dvec3& p) {
   const glm::dvec4 clip = to_clip * glm::dvec4(p, 1);
   return glm::dvec3(clip) / clip.w;

@@ -14,7 +14,7 @@ using namespace pliant::test;
 
 namespace {
 
-/// Of half the width and height: each pixel the mean of four.
+/// The image at half the width and height. Each pixel is the mean of four.
 Image halved(const Image& image) {
   Image half{image.width / 2, image.height / 2, {}};
   for (std::uint32_t y = 0; y < half.height; ++y) {
@@ -39,7 +39,7 @@ RenderOptions in_reduced_detail() {
   return options;
 }
 
-/// Of 255, over the pixels of a silhouette.
+/// The mean difference of two pictures over the pixels of a silhouette, of 255.
 double mean_difference_within(const Silhouette& silhouette, const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += silhouette.covered[i / 3] ? std::abs(a.pixels[i] - b.pixels[i]) : 0;
@@ -81,7 +81,8 @@ TEST_CASE("reduced detail shows bodies and their shadows, but for rims and outli
 
 TEST_CASE("rims of shadows on bodies have finer steps in full detail", "[gl]") {
   const gl::Context context(0);
-  CHECK(roughest(without_ground()) < roughest(in_reduced_detail()) * 2 / 3);  // a tap is a sixteenth of the light, not a fourth
+  // In full detail a tap is a sixteenth of the light, not a fourth.
+  CHECK(roughest(without_ground()) < roughest(in_reduced_detail()) * 2 / 3);
 }
 
 TEST_CASE("a small body's shadow on the ground is darker in full detail, but takes as much light in reduced", "[gl]") {

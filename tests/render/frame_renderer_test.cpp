@@ -1,4 +1,4 @@
-// What a renderer promises whoever holds it: pictures that depend on nothing but the bodies, the camera and the size.
+// A renderer promises pictures that depend on nothing but the bodies, the camera and the size.
 #include "render/frame_renderer.hpp"
 
 #include <catch2/catch.hpp>
@@ -124,7 +124,7 @@ TEST_CASE("a scene far from the origin has the same picture", "[gl]") {
   RenderOptions options = without_ground();
   options.ground_height = -1.1;
   Subject subject = sphere({0.3, 0, 0});
-  const float finest = 1.0f / 512;  // what floats hold at 10 km, too
+  const float finest = 1.0f / 512;  // floats hold it at 10 km, too
   for (auto& p : subject.world) p = glm::round(p / finest) * finest;
   const Image near_origin = draw(subject, options);
   const glm::dvec3 far_away(8192, -4096, 8192);

@@ -61,7 +61,7 @@ TEST_CASE("where the light does not reach a body it is brighter towards the fill
 
 TEST_CASE("a body mirrors the shadow that it casts on the ground, and is lit the less by the ground there", "[gl]") {
   const gl::Context context(0);
-  RenderOptions above_shadow = without_ground();  // without ground bodies see it lit all over
+  RenderOptions above_shadow = without_ground();  // without a ground in the picture, bodies take it for lit all over
   above_shadow.ground_height = -1.1;
   const glm::dvec3 mirrors_ground = glm::normalize(glm::dvec3(0.3, -0.7, 0.6));
   const glm::dvec3 mirrors_none = glm::normalize(glm::dvec3(0.3, -0.4, 0.8));
@@ -100,5 +100,5 @@ TEST_CASE("a coarse sphere is shaded as a fine one", "[gl]") {
     if (glm::dot(place, to_light) < 0.3) continue;  // flat triangles shade each other where the light is low
     largest = std::max(largest, std::abs(brightness_at(coarse, place) - brightness_at(fine, place)));
   }
-  CHECK(largest < 35);  // neighbouring triangles' own normals are some 0.3 apart, a tenth of the light
+  CHECK(largest < 35);  // normals of neighbouring triangles are some 0.3 apart, which is a tenth of the light
 }

@@ -13,8 +13,8 @@ using namespace pliant::test;
 
 namespace {
 
-/// Of the rows that run into a red body, the share in which its first pixel is less red than the next. Of four samples that one
-/// has 1, 2, 3 or 4 on the body, as often each.
+/// The share of rows in which the first pixel of a red body is less red than the next. Only rows that run into the body count.
+/// The first pixel has 1, 2, 3 or 4 of its four samples on the body, each as often.
 double smooth_share(const Image& image) {
   int rows = 0, smooth = 0;
   for (std::size_t y = 0; y < image.height; ++y) {

@@ -21,7 +21,7 @@ struct Tilt {
   glm::dvec3 along, across, normal;
 };
 
-/// `sine` is of the light's height above the plane, which is turned from the light towards the camera.
+/// `sine` is the sine of the light's height above the plane. The plane is turned from the light towards the camera.
 Tilt tilted(double sine) {
   const glm::dvec3 along = glm::normalize(glm::cross(to_light, front.eye)), towards_eye = glm::cross(along, to_light);
   const glm::dvec3 normal = sine * to_light + std::sqrt(1 - sine * sine) * towards_eye;
@@ -41,7 +41,7 @@ Subject plate(const Tilt& tilt) {
   return subject;
 }
 
-/// But for its rim.
+/// Places all over a plate but for its rim.
 std::vector<glm::dvec3> places_on(const Tilt& tilt) {
   std::vector<glm::dvec3> places;
   for (int i = -15; i <= 15; ++i) {
@@ -50,7 +50,8 @@ std::vector<glm::dvec3> places_on(const Tilt& tilt) {
   return places;
 }
 
-/// How much brighter or darker a body is at some of its places than where nothing casts shadows: far beside the shadow map.
+/// How much brighter or darker a body is at some of its places than the same body far beside the shadow map. Nothing casts
+/// shadows there.
 int shadow_on_itself(const Subject& body, const std::vector<glm::dvec3>& places, double half_box) {
   RenderOptions options = without_ground(), elsewhere = options;
   const glm::dvec3 aside(4 * half_box, 0, 4 * half_box);  // at right angles to the light
@@ -158,14 +159,14 @@ TEST_CASE("a flat body alone is as bright as where nothing casts shadows, down t
 TEST_CASE("a sheet casts its shadow on another that is close behind it", "[gl]") {
   const gl::Context context(0);
   const Tilt tilt = tilted(0.5);
-  const double gap = 0.05;  // [m], a dozen texels of the shadow map: what keeps bodies from shadowing themselves is less
+  const double gap = 0.05;  // [m], a dozen texels of the shadow map: more than keeps bodies from shadowing themselves
   Subject sheet = scaled(plate(tilt), 0.3f);
   for (auto& p : sheet.world) p += glm::vec4(gap * tilt.normal, 0);
   RenderOptions options = without_ground();
   options.scene = {glm::dvec3(-1), glm::dvec3(1)};
   options.camera.field_of_view = 8;
   const Image image = draw(together(plate(tilt), sheet), options);
-  // Beyond the sheet's edge, in the middle of what a light 30 degrees above shadows on the side away from it.
+  // The strip lies beyond the sheet's edge, away from the light. It is the middle of the shadow of a light 30 degrees above.
   const glm::dvec3 strip = tilt.across * (0.3 + 0.5 * gap * std::sqrt(3.0));
   CHECK(brightness_at(image, -strip, options.camera) < brightness_at(image, strip, options.camera) - 60);
 }
@@ -186,7 +187,7 @@ TEST_CASE("a body hides a part of the sky from the ground beside it, and less fr
 TEST_CASE("a body is darker in the cleft beside another, though the light reaches it", "[gl]") {
   const gl::Context context(0);
   const glm::dvec3 in_cleft(-0.12, 0, 0.475), far_side(-1.9, 0, 0.43);
-  for (const double shade : {0.0, 1.0}) {  // black: what it mirrors; white: nearly all is what it scatters
+  for (const double shade : {0.0, 1.0}) {  // a black body only mirrors light, a white one scatters nearly all of it
     const Subject left = sphere({-1, 0, 0}, glm::dvec3(shade));
     const Image alone = draw(left), beside = draw(together(left, sphere({1, 0, 0})));
     CAPTURE(shade);

@@ -1,4 +1,4 @@
-// The picture's geometry is reckoned without the renderer's matrices.
+// This computes the picture's geometry without the renderer's matrices.
 #include "render/sphere_pictures.hpp"
 
 #include <algorithm>

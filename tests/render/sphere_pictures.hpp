@@ -14,7 +14,8 @@ namespace pliant::test {
 
 inline constexpr glm::uvec2 picture_size{320, 180};
 inline const CameraDescription front{{0, 1, 7}, {0, 0, 0}, 40};
-/// Of unit length; the key light of renderers that are made with the camera `front` stands behind its left shoulder.
+/// Unit vector towards the key light of renderers that are made with the camera `front`. The light stands behind the camera's
+/// left shoulder.
 inline const glm::dvec3 to_light = glm::normalize(glm::dvec3(-0.55, 1.15, 0.55));
 
 /// Bodies, and where their vertices are.
@@ -25,11 +26,11 @@ struct Subject {
 
 [[nodiscard]] Subject sphere(const glm::dvec3& centre, const glm::dvec3& color = {0.8, 0.1, 0.05},
                              const char* generator = "icosphere:3");
-/// As many bodies as both have.
+/// Returns a subject with the bodies of both.
 [[nodiscard]] Subject together(Subject a, const Subject& b);
-/// About the mean of its vertices.
+/// Scales a subject about the mean of its vertices.
 [[nodiscard]] Subject scaled(Subject subject, float factor);
-/// All over the part of a unit sphere about the origin that `front` sees, but for its rim. Such a place is its own normal.
+/// Places all over the part of a unit sphere about the origin that `front` sees, but for its rim. A place is also its own normal.
 [[nodiscard]] std::vector<glm::dvec3> places_seen();
 
 [[nodiscard]] render::RenderOptions without_ground();
@@ -60,19 +61,19 @@ struct PixelBox {
 };
 
 [[nodiscard]] PixelBox box_of(const Silhouette& silhouette);
-/// A pinhole camera by similar triangles.
+/// Where a pinhole camera sees the vertices, by similar triangles.
 [[nodiscard]] PixelBox pinhole_box(const std::vector<glm::vec4>& world, const CameraDescription& camera);
-/// Where a camera sees a place, from the top left.
+/// The pixel in which a camera sees a place, counted from the top left.
 [[nodiscard]] glm::ivec2 pixel_of(const glm::dvec3& place, const CameraDescription& camera = front);
 /// Sum of a pixel's red, green and blue.
 [[nodiscard]] int brightness(const render::Image& image, const glm::ivec2& pixel);
-/// The same where a camera sees a place.
+/// The brightness of the pixel in which a camera sees a place.
 [[nodiscard]] int brightness_at(const render::Image& image, const glm::dvec3& place, const CameraDescription& camera = front);
 
-/// What a body changes of the ground beside it, of 255.
+/// By how much a body changes the ground beside it, of 255.
 struct GroundChange {
-  int darkest = 0, brightest = 0;  // of any channel of any pixel
-  double sum = 0;                  // of all, positive where darker
+  int darkest = 0, brightest = 0;  // the largest changes of any channel of any pixel
+  double sum = 0;                  // of all changes, which are positive where the ground is darker
 };
 
 [[nodiscard]] GroundChange change_of_ground(const Subject& subject, const render::RenderOptions& with_ground);

@@ -21,7 +21,7 @@ namespace {
 
 using test::ScratchFolder;
 
-// Two small spheres that collide, in a run of so many reports that it waits for someone to read its progress before it is over.
+// Two small spheres that collide. The run has so many reports that it waits for someone to read its progress before it is over.
 std::filesystem::path scene_in(const ScratchFolder& folder, const std::string& simulation,
                                const std::string& mesh = "icosphere:1") {
   const auto path = folder.path / "scene.toml";
@@ -34,7 +34,7 @@ std::filesystem::path scene_in(const ScratchFolder& folder, const std::string& s
 
 const std::string verlet = "time_step = 0.002\nintegrator = \"verlet\"\nduration = 4";
 
-// What a run says of itself but for what it took, and where.
+// What a run says of itself, without how long it took.
 nlohmann::json account_in(const std::filesystem::path& folder) {
   auto summary = nlohmann::json::parse(read_text(folder / "summary.json"));
   for (const char* key : {"wall_seconds", "steps_per_second", "timings_ms"}) summary.erase(key);
@@ -52,7 +52,7 @@ void check_same_run(const std::filesystem::path& a, const std::filesystem::path&
   CHECK(frames > 10);
 }
 
-// Of a run that has been killed, against the same run that has not: whole rows, and whole frames.
+// A run that has been killed leaves whole rows and whole frames, those of the same run that has not.
 void check_readable(const std::filesystem::path& killed, const std::filesystem::path& whole) {
   CHECK_FALSE(std::filesystem::exists(killed / "summary.json"));
   const std::string rows = read_text(killed / "history.csv");
@@ -121,7 +121,7 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   check_same_run(whole, part);
 }
 
-// A run that was over soon, and its checkpoint of the end.
+// A short run, and its checkpoint from the end.
 struct Begun {
   ScratchFolder folder;
   std::string checkpoint = (folder.path / "run.checkpoint").string();
@@ -144,7 +144,7 @@ struct Begun {
     CHECK(read_text(checkpoint) == before);
     CHECK(read_text(folder.path / "out/history.csv") == history);
   }
-  // Puts `now` for `before` into the checkpoint as if it had been written so.
+  // Replaces `before` by `now` in the checkpoint, as if it had been written so.
   void replace(const std::string& before, const std::string& now) const {
     REQUIRE(before.size() == now.size());
     std::string content = read_checkpoint(checkpoint);
@@ -152,7 +152,7 @@ struct Begun {
     REQUIRE(at != std::string::npos);
     write_checkpoint(checkpoint, content.replace(at, now.size(), now));
   }
-  // As if the run were to last longer: steps are left.
+  // Makes the run last longer, so that steps are left.
   void lengthen() const { replace("duration = 0.2", "duration = 0.3"); }
 };
 
@@ -239,7 +239,7 @@ TEST_CASE("warnings stay with a run, however often it is resumed, and are told o
   const Begun begun("icosphere:1", " --tolerance 1e-5");
   const auto warnings = [&] { return account_in(begun.folder.path / "out")["warnings"]; };
   const auto before = warnings();
-  REQUIRE(before.size() == 1);  // of an integrator that can't meet it
+  REQUIRE(before.size() == 1);  // about an integrator that can't meet it
   begun.lengthen();
   REQUIRE(begun.resume(" --precision 64").exit_code == 0);
   const auto after = warnings();
@@ -379,7 +379,7 @@ TEST_CASE("what stands where a checkpoint's lock would be exits with 2, and is l
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-// The shell's own end of a run that waits for a reader: 124.
+// If the run waited for a reader, `timeout` would end it with 124.
 TEST_CASE("a pipe is no place for a checkpoint: that exits with 2, and at once") {
   const ScratchFolder folder;
   const auto pipe = folder.path / "pipe", out = folder.path / "out";
@@ -416,7 +416,7 @@ TEST_CASE("two runs do not write one checkpoint: the second exits with 2 and cha
   CHECK_FALSE(std::filesystem::exists(checkpoint + ".lock"));
 }
 
-// By which error comes first: what is there cannot be read.
+// The error that comes first tells the order, because what is there cannot be read as a checkpoint.
 TEST_CASE("a run that is resumed has its checkpoint for itself from before it is read on, wherever it goes on writing") {
   const ScratchFolder folder;
   const auto checkpoint = folder.path / "run.checkpoint";
@@ -433,7 +433,7 @@ TEST_CASE("a run that is resumed has its checkpoint for itself from before it is
   CHECK_FALSE(std::filesystem::exists(folder.path / "no"));
 }
 
-// A limit of files' sizes in the place of a full disk.
+// A limit on the size of files stands in for a full disk.
 TEST_CASE("a checkpoint that can't be written costs no run, and is told of once") {
   const ScratchFolder folder;
   const auto checkpoint = folder.path / "c";

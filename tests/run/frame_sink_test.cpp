@@ -22,7 +22,7 @@ using test::StandIn;
 
 constexpr std::size_t picture_bytes = 3 * 64 * 48;
 
-// A run that draws; a tenth of a second, unless told otherwise, is seven frames.
+// A run that draws. It lasts a tenth of a second unless told otherwise, which is seven frames.
 struct Drawn {
   ScratchFolder folder;
   std::string scene = (folder.path / "scene.toml").string(), video = (folder.path / "out.mp4").string();
@@ -132,7 +132,7 @@ TEST_CASE("Ctrl-C in the terminal ends a run with whole pictures, and lets ffmpe
   CHECK(drawn.input().size() % picture_bytes == 0);
 }
 
-// It waits for its end, which comes with the last writer of a pipe: the test's own.
+// The ffmpeg waits for the end of a pipe. That comes when the pipe's last writer is gone, which is the test itself.
 TEST_CASE("Ctrl-C again a second later ends a run that waits for an ffmpeg without end", "[gl]") {
   if (test::lacks_gl()) return;
   const Drawn drawn;

@@ -28,7 +28,7 @@ std::vector<double> stiffnesses(const SceneDescription& scene) {
   return values;
 }
 
-/// World bounding box of one body at the start.
+/// One body's bounding box in the world at the start.
 std::pair<glm::dvec3, glm::dvec3> box(const ModelAndState& built, const ModelBody& body) {
   const std::vector<glm::dvec3> world = built.state.world_positions(built.model);
   TriangleMesh mesh;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Drops a file on a window, as a file manager would: the source's part of the XDND protocol, version 5.
+"""Drops a file on a window, as a file manager would. This is the source's part of the XDND protocol, version 5.
 
 usage: drop_file.py WINDOW FILE
 """

@@ -37,7 +37,7 @@ TEST_CASE("at the root's level there is a box a body, around all of it") {
   }
 }
 
-/// The box that 12 lines are the edges of, beginning at an end.
+/// The box whose edges are 12 lines, beginning at an end.
 render::SceneBox box_at(const Lines& lines, std::size_t first_end) {
   std::vector<glm::dvec3> ends;
   for (std::size_t end = first_end; end < first_end + 24; ++end) ends.emplace_back(glm::vec3(lines[end].place));

@@ -57,7 +57,7 @@ TEST_CASE("samples take a tenth of the time at most, however long one takes") {
   Session session(*device, colliding());
   constexpr double a_sample = 0.3;  // [s]
   double time = 0;
-  bool is_sampling = false;  // what reads the clock again has taken a sample since
+  bool is_sampling = false;  // between two looks at the clock a sample has been taken
   Observer observer([&] { return time += std::exchange(is_sampling, true) ? a_sample : 0; });
   for (int k = 0; k < 300; ++k) {
     session.step_once();

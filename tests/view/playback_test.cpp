@@ -10,7 +10,7 @@ namespace {
 
 /// A simulation of fixed steps, and a clock that they move.
 struct Show {
-  double time_step = 0.002, cost = 0;  // of a step: simulated and real [s]
+  double time_step = 0.002, cost = 0;  // simulated and real time of a step [s]
   double now = 100;                    // [s]
   int steps = 0;
 
@@ -25,7 +25,7 @@ struct Show {
     }
     playback.end(now, simulated(), !is_before(playback.goal()));
   }
-  /// Pictures that begin every `interval` [s], or as soon as the one before is done.
+  /// Makes pictures that begin every `interval` [s], or as soon as the one before is done.
   void run(Playback& playback, double seconds, double interval) {
     const double end = now + seconds;
     while (now < end - 1e-9) {

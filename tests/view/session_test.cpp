@@ -254,7 +254,7 @@ TEST_CASE("settings without a plan leave a session as it was") {
   session.step_once();
   const Settings before = session.settings();
   Settings bad = before;
-  bad.integrator = "srkn11b";  // bears no damping
+  bad.integrator = "srkn11b";  // it bears no damping
   const auto motion = motion_of(session);
   CHECK_THROWS_AS(session.change(bad), Error);
   CHECK(session.settings() == before);

@@ -39,7 +39,7 @@ TEST_CASE("the panel and the help come and go, and what happens over them leaves
   }
 }
 
-// Where the panel has its widgets, in rows above all that wraps.
+// Where the panel has its widgets. Their rows stand above all that wraps.
 constexpr glm::ivec2 scene_list(120, 46), first_in_list(60, 70), play_button(48, 70), back_button(93, 70), step_button(116, 70),
     reset_button(153, 70), gpu_button(240, 70), speed_slider(100, 92);
 constexpr glm::ivec2 farther_right(40, 0);

@@ -12,7 +12,7 @@ using namespace pliant::test;
 
 namespace {
 
-/// Of a process [MiB].
+/// The resident memory of a process [MiB].
 double resident_memory(pid_t process) {
   std::ifstream sizes("/proc/" + std::to_string(process) + "/statm");
   long pages = 0, resident = 0;
@@ -20,7 +20,7 @@ double resident_memory(pid_t process) {
   return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// The states to go back to fill their room in the first minutes.
+// The states that the viewer can go back to fill their room in the first minutes.
 TEST_CASE("a viewer that plays for ten minutes needs no more memory than after six", "[.soak][gl]") {
   if (is_skipped()) return;
   const VirtualDisplay display;

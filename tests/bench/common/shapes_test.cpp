@@ -33,7 +33,7 @@ TEST_CASE("points on the spiral are evenly spread over the unit sphere") {
     for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, glm::distance(mesh.positions[i], mesh.positions[j]));
   }
   CHECK(glm::length(sum) < 1);
-  CHECK(nearest > 0.7 * std::sqrt(4 * std::numbers::pi / 1000));  // a square lattice has 1
+  CHECK(nearest > 0.7 * std::sqrt(4 * std::numbers::pi / 1000));  // in a square lattice the factor is 1
 }
 
 TEST_CASE("every vertex of a deformed body moves by up to a few percent, each differently") {

@@ -18,11 +18,11 @@
 namespace pliant::bench {
 namespace {
 
-// What Progress was told.
+// Collects what Progress was told.
 struct Told {
   std::vector<double> done;
   std::vector<std::string> next;
-  int most = 1'000'000;  // then it says to end
+  int most = 1'000'000;  // after so many it says to end
   Progress progress() {
     return [this](double part, std::string_view what) {
       done.push_back(part);
@@ -195,7 +195,7 @@ TEST_CASE("steps are measured on one thread and all, and every row is told") {
     CHECK(std::ranges::any_of(told.next, [&](const std::string& next) { return next.find(row.scene) != std::string::npos; }));
   }
   CHECK(threads == std::set<unsigned>{1, 2});
-  // The scene, and two sizes of its family; two bunnies have no scene here. Whether the scene is short depends on the processor.
+  // The scene, and two sizes of its family. Two bunnies have no scene here. Whether the scene is short depends on the processor.
   CHECK(result.rows.size() + result.notes.size() == 2 * 3 + 1);
   CHECK_THAT(table, Catch::Contains("two bunnies, split: left out"));
   CHECK(told.done.back() == 1);

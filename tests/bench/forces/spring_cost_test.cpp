@@ -4,7 +4,7 @@
 
 #include "physics/language.glsl"
 
-// The spring's own source once more, in numbers that count what is done to them.
+// Includes the spring's own source once more, with numbers that count what is done to them.
 namespace pliant::counted {
 
 struct Operations {
@@ -12,7 +12,7 @@ struct Operations {
 };
 Operations operations;
 
-// A compiler folds what is done to constants alone; signs are part of an instruction.
+// What is done to constants alone does not count, because a compiler folds it. Signs are part of an instruction.
 struct Number {
   explicit Number(int) : constant(true) {}
   Number(bool is_constant) : constant(is_constant) {}
@@ -64,16 +64,16 @@ counted::Operations operations_of_strain() {
 
 TEST_CASE("the table of a pair's instructions counts what the spring's source asks for") {
   const counted::Operations strain = operations_of_strain();
-  const int differences = 6, accumulation = 3;  // around it: of two vertices' places, and one multiply-add a coordinate
+  const int differences = 6, accumulation = 3;  // around it: differences of two vertices' places, and a multiply-add a coordinate
   CHECK(instructions_of_pair.all == strain.all + differences + accumulation);
   CHECK(instructions_of_pair.multiply_adds == strain.multiply_adds + accumulation);
-  CHECK(strain.maxima == 1);  // left out of the table
+  CHECK(strain.maxima == 1);  // the table leaves it out
 }
 
 TEST_CASE("a bound of pairs follows from the multiply-adds a second and the instructions of a pair") {
   constexpr InstructionCount pair{.all = 20, .multiply_adds = 8};
   CHECK(bound_of_pairs_per_second(20e9, pair, true) == Approx(1e9));
-  // Unfused, a pair is 12 + 2 * 8 instructions, and 14e9 multiply-adds are 28e9.
+  // Unfused, a pair needs 12 + 2 * 8 instructions, and 14e9 multiply-adds are 28e9 instructions.
   CHECK(bound_of_pairs_per_second(14e9, pair, false) == Approx(1e9));
 }
 

@@ -21,7 +21,7 @@
 namespace pliant::bench {
 namespace {
 
-// Ends when it hears of something that begins with `last`.
+// A Progress that ends the suite when it hears of something that begins with `last`.
 Progress until(std::string last) {
   return [last = std::move(last)](double, std::string_view next) { return !next.starts_with(last); };
 }
@@ -41,7 +41,7 @@ PrecisionCase squashed_sphere(DampingLaw law) {
   return what;
 }
 
-// By pliant, in steps of 1/200 rad.
+// Where pliant comes to in steps of 1/200 rad.
 Ending truth_of(const PrecisionCase& what) {
   const auto device = make_cpu_device(1, 64);
   Simulation simulation(*device, what.start.model, what.start.state, what.plan_steps(find_integrator("vern8"), 1000),
@@ -67,13 +67,13 @@ TEST_CASE("other libraries come to pliant's end at a tight tolerance, under ever
   const auto [law, tolerance, bound] =
       GENERATE(table<DampingLaw, double, double>({{DampingLaw::none, 1e-12, 1e-10},
                                                   {DampingLaw::constant, 1e-12, 1e-10},
-                                                  {DampingLaw::adaptive, 1e-10, 1e-5}}));  // whose kinks cost the order
+                                                  {DampingLaw::adaptive, 1e-10, 1e-5}}));  // its kinks cost the order
   say_what_is_skipped();
   const PrecisionCase what = squashed_sphere(law);
   const Ending truth = truth_of(what);
   for (const PeerMethod& method : peer_methods(law != DampingLaw::none)) {
     if (!method.adaptive) continue;
-    const bool multistep = method.library == "CVODE";  // whose tolerance is a step's, of many short ones
+    const bool multistep = method.library == "CVODE";  // its tolerance is for a step, and its steps are many and short
     CAPTURE(static_cast<int>(law), method.library, method.name);
     CHECK(error_of(method, tolerance, what, truth) < (multistep ? 10 : 1) * bound);
   }
@@ -122,7 +122,7 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
   REQUIRE(result.cases.size() == 1);
   CHECK(result.cases.front().reference_error < 1e-12);
   for (const Integrator& integrator : integrators()) {
-    // Order 12 falls in waves down to rounding: its slope is taken over all of them, from longer steps on.
+    // An error of order 12 falls in waves down to rounding. Its slope is taken over all of them, from longer steps on.
     const bool in_waves = integrator.order > 8;
     const double longest = in_waves ? 3.4 : 1.5, least = in_waves ? 1e-13 : 1e-11;
     std::vector<std::pair<double, double>> points;  // step, error
@@ -147,7 +147,7 @@ TEST_CASE("errors of a case without damping fall with the methods' orders, and a
   CHECK(least_single < 1e-5);
 }
 
-// Of a tolerance's rows alone.
+// Only the rows with a tolerance.
 std::vector<PrecisionRow> rows_of_tolerances(const PrecisionCase& what, const Place& place) {
   const auto exact = make_cpu_device(1, 64), device = open(place);
   Sweeps sweeps(what, find_reference(*exact, what), {.longest_run = 1, .most_evaluations = 500, .rounds = 1},
@@ -183,7 +183,7 @@ TEST_CASE("an adaptive row's error is near what its tolerance asks") {
     CHECK(row.step == 0);
     CHECK(row.error < 5 * row.tolerance);
     if (row.method != "dop853" || row.tolerance > 2e-5)
-      continue;  // others' estimates are pessimists, and loose ones meet the bound
+      continue;  // others' estimates are pessimistic, and loose tolerances meet the bound
     CHECK(row.error > 1e-3 * row.tolerance);
     ++tight;
   }

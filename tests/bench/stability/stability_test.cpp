@@ -22,7 +22,7 @@ ModelAndState breathing(const Sphere& body, double amplitude) {
   return start;
 }
 
-constexpr double dprkn8_from_rest = 3.3643;  // omega times the first step that a body released from rest does not bear
+constexpr double dprkn8_from_rest = 3.3643;  // omega times the shortest step that a body released from rest does not bear
 
 TEST_CASE("measured limits are the predicted ones within 1 %, for every method") {
   const auto device = make_cpu_device(1, 64);
@@ -32,7 +32,7 @@ TEST_CASE("measured limits are the predicted ones within 1 %, for every method")
     const std::optional<double> limit = find_limit(*device, start, plan_of(integrator, DampingLaw::none, 1), predicted);
     CAPTURE(integrator.name);
     REQUIRE(limit);
-    // dprkn8's first instability, 0.04 % wide, lets velocities grow and displacements shrink: from rest the next one is met.
+    // dprkn8's first instability, 0.04 % wide, lets velocities grow and displacements shrink. From rest the next one is met.
     const double met = integrator.name == "dprkn8" ? dprkn8_from_rest / ball.omega() : predicted;
     CHECK(*limit == Approx(met).epsilon(0.01));
   }
@@ -70,7 +70,7 @@ TEST_CASE("a stable body is told from a damped one and from one that blows up") 
   CHECK(outcome("verlet", DampingLaw::none, 2.2) == Outcome::blown_up);
   CHECK(outcome("rk4", DampingLaw::none, 2.88) == Outcome::blown_up);  // steady, but inside out
   CHECK(outcome("verlet", DampingLaw::constant, 1.9) == Outcome::damped);
-  CHECK(outcome("verlet", DampingLaw::adaptive, 1.9) == Outcome::creeping);  // up to ten times the damping
+  CHECK(outcome("verlet", DampingLaw::adaptive, 1.9) == Outcome::creeping);  // it has up to ten times the damping
   for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) CHECK(outcome("cv8", law, 1.9) == Outcome::blown_up);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("far from the world's origin fp32 is as exact as at it") {
   const double near = error_at({0, 0, 0}), far = error_at({1e4, -6e3, 3e3});
   CHECK(near > 0);
   CHECK(near < 1e-6);
-  CHECK(far / near == Approx(1).margin(0.5));  // forces see differences alone, so that roundings differ but not their size
+  CHECK(far / near == Approx(1).margin(0.5));  // forces see differences alone: roundings differ, but not their size
 }
 
 TEST_CASE("relative errors of fp32 stay below 2e-6 from amplitudes of 1e-4 to 0.5") {
@@ -127,7 +127,7 @@ TEST_CASE("relative errors of fp32 stay below 2e-6 from amplitudes of 1e-4 to 0.
   }
 }
 
-// Angular momentum of cv8 decays by 1e-9 a step or less at this step; of verlet not at all.
+// At this step cv8's angular momentum decays by 1e-9 a step or less. Verlet's does not decay at all.
 TEST_CASE("a body that tumbles a hundred times keeps its angular momentum and its energy in fp32") {
   const auto exact = make_cpu_device(1, 64), rounded = make_cpu_device(1, 32);
   Sphere body{.squash = 0.02};
@@ -135,7 +135,7 @@ TEST_CASE("a body that tumbles a hundred times keeps its angular momentum and it
   const ModelAndState start = body.build();
   const TimePlan plan = plan_of(find_integrator("verlet"), DampingLaw::none, 0.25 / body.omega());
   const LongRun a = run_long(*exact, start, plan, 12'566), b = run_long(*rounded, start, plan, 12'566);
-  CHECK(b.frame_changes > 10'000);  // re-based step by step
+  CHECK(b.frame_changes > 10'000);  // the frame follows step by step
   CHECK(a.angular_momentum_change < 1e-12);
   CHECK(b.angular_momentum_change < 1e-6);
   CHECK(std::abs(b.energy_change - a.energy_change) < 1e-4);
@@ -173,7 +173,7 @@ TEST_CASE("a quick run of the suite has rows of every kind, and nothing within i
     kinds.insert(row["kind"].get<std::string>());
     if (row["kind"] == "error") families.insert(row["family"].get<std::string>());
     if (row["kind"] == "limit" && row["damping"] == 0.0 && row["amplitude"] < 0.01) {
-      // dprkn8's bound begins a sliver in which next to velocities alone grow: a body released from rest does not see it.
+      // Just above dprkn8's bound velocities grow, but hardly displacements. A body released from rest does not see that sliver.
       const double met = row["integrator"] == "dprkn8" ? dprkn8_from_rest / 3.14028 : 1;
       CHECK(row["measured_step"].get<double>() == Approx(met * row["predicted_step"].get<double>()).epsilon(0.02));
     }

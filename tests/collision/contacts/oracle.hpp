@@ -10,7 +10,7 @@
 namespace pliant {
 
 /// Returns all pairs of triangles of different bodies that touch according to `test`. They are indices into Model::triangles, the
-/// lower first, in ascending order. `world_positions` [m] are those of the model's vertices. They have to be finite. w is ignored.
+/// lower first, in ascending order. `world_positions` [m] are those of the model's vertices. They have to be finite, without w.
 /// The cost is the product of the triangle counts in the overlap of two bodies' boxes.
 [[nodiscard]] std::vector<glm::uvec2> intersecting_pairs(const Model& model, std::span<const glm::vec4> world_positions,
                                                          TriangleTest test);
