@@ -18,7 +18,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
 
 def module_of(path, root):
-    """The module of a file in the repository; None outside of src/ and shaders/."""
+    """Returns the module of a file in the repository, or None outside of src/ and shaders/."""
     for folder in ("src", "shaders/compute", "shaders"):
         base = root / folder
         if path.is_relative_to(base):
@@ -28,7 +28,7 @@ def module_of(path, root):
 
 
 def resolve(name, including, root):
-    """The file in the repository that an include names, or None."""
+    """Returns the file in the repository that an include names, or None."""
     for folder in (including.parent, root / "src", root / "shaders" / "compute"):
         if (folder / name).is_file():
             return (folder / name).resolve()
@@ -36,7 +36,7 @@ def resolve(name, including, root):
 
 
 def problem_of(path, name, root):
-    """What is wrong with file `path` including `name`; None when nothing is."""
+    """Returns what is wrong with file `path` including `name`, or None if nothing is."""
     module = module_of(path, root)
     if name.startswith("GLFW/"):
         return None if path == root / WINDOW_FILE else f"GLFW's headers belong in {WINDOW_FILE} alone"

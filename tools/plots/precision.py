@@ -6,7 +6,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from plots.style import SOFT, fail, hardware_of, make_axes, plain_number, set_style, trim_spines
 
-# Who takes part, by library, device and precision and whether on one thread; everyone at the best of his methods.
+# Who takes part: library, device, precision, and whether on one thread. Everyone has the best of their methods.
 CONTENDERS = (
     (("pliant", "cpu", 64, False), "pliant, {threads} threads, fp64", "#0072b2", "--"),
     (("pliant", "cpu", 64, True), "pliant, 1 thread, fp64", "#0072b2", "-"),
@@ -28,7 +28,7 @@ def key_of(row):
 
 
 def is_drawn(curve, against):
-    """Numbers of evaluations are those of one thread in fp64."""
+    """Whether a curve is drawn. Force evaluations are drawn for one thread in fp64 alone."""
     return curve["errors"] and (against == "time" or (curve["precision"] == 64 and curve["threads"] == 1))
 
 
@@ -48,7 +48,7 @@ def plain_axes(axes):
 
 
 def limit_errors(axes, info, errors):
-    """From large errors to small ones, and a mark where the reference's own error begins."""
+    """Makes the axis go from large errors to small ones, and marks where the reference's own error begins."""
     reference = info["reference_error"]
     least = max(min(errors), reference / 3) / 2
     axes.set_xlim(0.2, least)
@@ -65,7 +65,7 @@ def mark_ticks(axes):
 
 
 def draw_contenders(axes, info, curves, against):
-    """One panel: a line for everyone who took part; answers the legend's handles by label."""
+    """Draws one panel, with a line for everyone who took part. Returns the legend's handles by label."""
     column, _, factor = COSTS[against]
     handles = {}
     for key, label, color, style in CONTENDERS:
@@ -87,7 +87,7 @@ def draw_contenders(axes, info, curves, against):
 
 
 def panels_of(data, against):
-    """Every case in which pliant has a curve, with all its curves."""
+    """Returns every case in which pliant has a curve, with all its curves."""
     panels = []
     for info in data["cases"]:
         curves = [curve for curve in data["curves"] if curve["case"] == info["name"] and is_drawn(curve, against)]
@@ -130,7 +130,7 @@ METHOD_MARKERS = "osD^vPX*<h"
 
 
 def draw_precision_case(data, against, name):
-    """Every method of pliant on one thread in fp64, dashed where a tolerance governs its steps, and the best of each library."""
+    """Draws every method of pliant on one thread in fp64, dashed if a tolerance governs its steps. Also draws each library's best."""
     column, y_label, factor = COSTS[against]
     info = next((info for info in data["cases"] if info["name"] == name), None)
     rows = [row for row in data["rows"] if row["case"] == name and key_of(row) == ("pliant", "cpu", 64, True)]

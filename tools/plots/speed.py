@@ -29,7 +29,7 @@ def marker_of(key):
 
 
 def by_place(rows):
-    """Rows by (device, threads), the GPU first and with 0 threads, each sorted by size."""
+    """Returns rows by (device, threads), each sorted by size. The GPU comes first and has 0 threads."""
     groups = collections.defaultdict(list)
     for row in sorted(rows, key=lambda row: row["vertices"]):
         groups[row["device"], 0 if row["device"] == "gpu" else row["threads"]].append(row)
@@ -37,7 +37,7 @@ def by_place(rows):
 
 
 def fastest_isa(rows):
-    """Rows of the instruction set that is the fastest at its largest size."""
+    """Returns the rows of the instruction set that is the fastest at the largest size. On the GPU each size has its best variant."""
     largest = max(row["vertices"] for row in rows)
     best = max((row for row in rows if row["vertices"] == largest), key=lambda row: row["pairs_per_second"])
     if best["device"] != "gpu":
@@ -70,7 +70,7 @@ def draw_forces(data, precision):
 
 
 def crossing_height(crossing, rows):
-    """The time of a step where the lines cross, read off the GPU's."""
+    """Returns the time of a step where the lines cross, read off the GPU's line."""
     line = sorted((row["vertices"], row["milliseconds_per_step"]) for row in rows)
     (x0, y0), (x1, y1) = next(pair for pair in zip(line, line[1:]) if crossing <= pair[1][0])
     return exp(log(y0) + log(crossing / x0) / log(x1 / x0) * log(y1 / y0))

@@ -15,14 +15,14 @@ MAP_COLUMNS = ("verlet", "rk4", "cv8", "dop853")  # the others look alike
 
 
 def edges(values):
-    """Between neighbours of ever larger numbers, and as far beyond the first and the last, by logarithms."""
+    """Returns edges midway between ever larger numbers, by logarithms, and as far beyond the first and the last."""
     logs = [log(value) for value in values]
     middles = [(a + b) / 2 for a, b in zip(logs, logs[1:])]
     return [exp(middle) for middle in (2 * logs[0] - middles[0], *middles, 2 * logs[-1] - middles[-1])]
 
 
 def draw_map(axes, rows):
-    """One panel: damping over step, each cell by how it ended, and the bound that pliant predicts."""
+    """Draws one panel: damping over step, each cell by how it ended, and the bound that pliant predicts."""
     nothing = 0.015  # where c = 0 lies on the logarithmic axis: below a gap
     for damped in (False, True):
         own = [row for row in rows if (row["damping"] > 0) == damped]

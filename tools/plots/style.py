@@ -14,19 +14,22 @@ def fail(problem):
 
 
 def short(renderer):
-    """"NVIDIA H200/PCIe/SSE2" and "llvmpipe (LLVM 15.0.6, 256 bits)" without what stands behind the name."""
+    """Returns the name alone of a renderer such as "NVIDIA H200/PCIe/SSE2" or "llvmpipe (LLVM 15.0.6, 256 bits)"."""
     return renderer.split("/")[0].split(" (")[0]
 
 
 def plain_number(value, _=None):
-    """1, 10, 1,000, 0.01; powers of ten where that would be long."""
+    """Writes numbers like 1, 10, 1,000 and 0.01, and as a power of ten if that would be long."""
     if 1e-4 < value < 1e6:
         return f"{value:,.0f}" if value >= 1 else f"{value:g}"
     return f"$10^{{{len(f'{value:.0f}') - 1}}}$" if value >= 1 else f"{value:.0e}"
 
 
 def leave_room(axes):
-    """Half a decade or more below, left and right of what is drawn, so that no marker lies on an axis; whole numbers at every tick."""
+    """Leaves half a decade or more below, left and right of what is drawn, so that no marker lies on an axis.
+
+    If the data cover less than 2.5 decades in x, each decade has ticks at 1, 2 and 5.
+    """
     (left, low), (right, high) = axes.dataLim.min, axes.dataLim.max
     axes.set_xlim(left / 10 ** 0.5, right * 10 ** 0.5)
     axes.set_ylim(low / 10 ** 0.7, 10 ** ceil(log10(high) + 0.1))
