@@ -11,7 +11,7 @@ endif()
 # Headers include each other from src/ and from shaders/compute/.
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant
         FILES_MATCHING PATTERN "*.hpp" PATTERN "kernel_prelude.inc" PATTERN "app" EXCLUDE PATTERN "bench" EXCLUDE PATTERN "window" EXCLUDE
-        PATTERN "studio.hpp" EXCLUDE)
+        PATTERN "studio.hpp" EXCLUDE PATTERN "scene/toml.hpp" EXCLUDE PATTERN "scene/overrides.hpp" EXCLUDE)
 install(DIRECTORY shaders/compute/physics DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders)
 install(DIRECTORY shaders/compute/kernels/parts DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders/kernels)  # for kernels from outside
 

@@ -5,93 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/read_text.hpp"
-
-namespace pliant {
-struct TomlAssertion {};
-[[noreturn]] static void fail_toml_assertion() { throw TomlAssertion(); }
-}  // namespace pliant
-
-// toml++ 3.3 takes some malformed keys, such as [.a], for bugs of its own. Then an assertion fails, or under NDEBUG its behaviour
-// is undefined.
-#undef NDEBUG
-#define TOML_ASSERT(condition) ((condition) ? void() : pliant::fail_toml_assertion())
-#include <toml++/toml.h>
+#include "scene/overrides.hpp"
+#include "scene/toml.hpp"
 
 namespace pliant {
 namespace {
-
-// ---- Errors ----
-
-const std::string override_prefix = "--set ";  // toml++ keeps only a path as a node's source: this marks it
-
-bool is_override(const toml::node& node) { return node.source().path && node.source().path->starts_with(override_prefix); }
-
-/// Returns "file:line", or the override that made the node.
-std::string place_of(const toml::node& node) {
-  const toml::source_region& source = node.source();
-  if (!source.path) return "scene";
-  return is_override(node) ? *source.path : fmt::format("{}:{}", *source.path, source.begin.line);
-}
-
-Origin origin_of(const toml::node& node, const std::string& path) {
-  return {is_override(node) ? Origin::From::override : Origin::From::file,
-          path.empty() ? place_of(node) : fmt::format("{}: {}", place_of(node), path)};
-}
-
-[[noreturn]] void fail(const toml::node& node, const std::string& path, const std::string& what, const std::string& remedy) {
-  throw Error(origin_of(node, path), what, remedy);
-}
-
-std::string type_name(const toml::node& node) {
-  if (node.is_string()) return "a string";
-  if (node.is_integer()) return "a whole number";
-  if (node.is_floating_point()) return "a number";
-  if (node.is_boolean()) return "true or false";
-  if (node.is_array()) return "an array";
-  return node.is_table() ? "a table" : "a date or time";
-}
-
-/// Returns Levenshtein's distance: how many letters to insert, drop or change.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-/// Suggests the names that contain the word, such as vertex_mass for mass. If there is none, suggests the nearest name. If
-/// nothing is near, lists all names.
-std::string suggest(std::string_view word, const std::vector<std::string>& names) {
-  std::string containing;
-  for (const std::string& name : names)
-    if (word.size() > 2 && name.find(word) != std::string::npos)
-      containing += fmt::format("{}\"{}\"", containing.empty() ? "" : " or ", name);
-  if (!containing.empty()) return fmt::format("did you mean {}?", containing);
-  const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(word, name); });
-  if (nearest != names.end() && edit_distance(word, *nearest) <= std::max<std::size_t>(2, word.size() / 3))
-    return fmt::format("did you mean \"{}\"?", *nearest);
-  return "known here: " + list(names);
-}
 
 // ---- Values ----
 
@@ -334,12 +258,6 @@ void read_table(TableReader& table, BodyDescription& body) {
 }
 
 /// Returns the name in a body's table, or "body0", "body1", ... by its index.
-std::string name_of(const toml::node& body, std::size_t index) {
-  const toml::table* table = body.as_table();
-  const toml::node* name = table != nullptr ? table->get("name") : nullptr;
-  return name != nullptr && name->is_string() ? name->as_string()->get() : fmt::format("body{}", index);
-}
-
 void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   if (!node.is_array()) fail(node, "body", fmt::format("is {}", type_name(node)), "begin each body with [[body]]");
   for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
@@ -363,122 +281,6 @@ void read_table(TableReader& table, SceneDescription& scene) {
   if (const toml::node* bodies = table.find("body")) read_bodies(*bodies, scene.bodies);
 }
 
-// ---- Overrides ----
-
-[[noreturn]] void fail_override(const std::string& place, const std::string& what, const std::string& remedy) {
-  throw Error(ErrorKind::command_line, place, what, remedy);
-}
-
-const char* const override_form = "write section.key=value or body.NAME.key=value";
-
-bool is_bare_word(std::string_view text) {
-  return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=#") == std::string_view::npos;
-}
-
-/// Returns a table whose only entry is "value", or nothing if the text is not TOML. `place` becomes every node's source.
-std::optional<toml::table> parse_value(const std::string& text, const std::string& place) {
-  try {
-    toml::table parsed = toml::parse("value = " + text, place);
-    if (parsed.size() == 1) return parsed;
-  } catch (const toml::parse_error&) {  // the caller says what is wrong
-  } catch (const TomlAssertion&) {
-  }
-  return std::nullopt;
-}
-
-toml::table parse_value_or_word(const std::string& text, const std::string& place) {
-  std::optional<toml::table> parsed = parse_value(text, place);
-  if (!parsed && is_bare_word(text)) parsed = parse_value("'" + text + "'", place);
-  if (!parsed)
-    fail_override(place, "the value is no TOML", "put text with spaces in quotation marks, for the shell and for TOML");
-  return std::move(*parsed);
-}
-
-/// Returns the table below `key`, and makes it if it is absent.
-toml::table& table_below(toml::table& table, const std::string& key, const std::string& place) {
-  if (table.get(key) == nullptr) table.insert(key, toml::parse("", place));
-  toml::table* below = table.get(key)->as_table();
-  if (below == nullptr) fail_override(place, fmt::format("\"{}\" is no section", key), override_form);
-  return *below;
-}
-
-toml::table& find_body(toml::table& root, const std::string& name, const std::string& place) {
-  std::vector<std::string> names;
-  if (toml::array* bodies = root.get_as<toml::array>("body")) {
-    for (std::size_t i = 0; i < bodies->size(); ++i) {
-      names.push_back(name_of((*bodies)[i], i));
-      if (names.back() == name && (*bodies)[i].is_table()) return *(*bodies)[i].as_table();
-    }
-  }
-  fail_override(place, fmt::format("there is no body \"{}\"", name), suggest(name, names));
-}
-
-std::vector<std::string> split_at_dots(std::string_view text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == '.')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
-/// Returns the table in which `key` (such as "collision.tree.max_depth") stands. A body's name may contain dots.
-toml::table& table_of(toml::table& root, const std::string& key, const std::string& place) {
-  const std::size_t last_dot = key.rfind('.');
-  if (last_dot == std::string::npos) return root;
-  if (key.starts_with("body.")) {
-    if (last_dot < 5) fail_override(place, "names no body", override_form);
-    return find_body(root, key.substr(5, last_dot - 5), place);
-  }
-  toml::table* table = &root;
-  for (const std::string& part : split_at_dots(key.substr(0, last_dot))) table = &table_below(*table, part, place);
-  return *table;
-}
-
-std::string trim(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-void apply_override(toml::table& root, const std::string& text) {
-  const std::string place = override_prefix + text;
-  const std::size_t equals = text.find('=');
-  const std::string key = trim(text.substr(0, equals));
-  if (equals == std::string::npos || key.empty()) fail_override(place, "has no key or no \"=\"", override_form);
-  toml::table parsed = parse_value_or_word(trim(text.substr(equals + 1)), place);
-  toml::table& table = table_of(root, key, place);
-  parsed.get("value")->visit([&](auto& value) { table.insert_or_assign(key.substr(key.rfind('.') + 1), std::move(value)); });
-}
-
-/// Returns the first line at which toml++'s assertion fails.
-std::size_t line_of_assertion(const std::string& text) {
-  std::size_t line = 1;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1), ++line) {
-    try {
-      static_cast<void>(toml::parse(std::string_view(text).substr(0, end)));
-    } catch (const TomlAssertion&) {
-      break;
-    } catch (const toml::parse_error&) {  // a value that goes on in the next line
-    }
-  }
-  return line;
-}
-
-toml::table parse_text(const std::string& text, const std::filesystem::path& file) {
-  const auto fail_at = [&](std::size_t line, const std::string& what) {
-    return Error(ErrorKind::input, fmt::format("{}:{}", file.string(), line), what, "correct the TOML");
-  };
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw fail_at(error.source().begin.line, std::string(error.description()));
-  } catch (const TomlAssertion&) {
-    throw fail_at(line_of_assertion(text), "a malformed key");
-  }
-}
-
 }  // namespace
 
 glm::dvec3 default_color(std::size_t index) {
@@ -492,7 +294,7 @@ SceneDescription load_scene(const std::filesystem::path& file, std::span<const s
 }
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file, std::span<const std::string> overrides) {
-  toml::table root = parse_text(text, file);
+  toml::table root = parse_toml(text, file);
   for (const std::string& change : overrides) apply_override(root, change);
   SceneDescription scene;
   scene.file = file;
