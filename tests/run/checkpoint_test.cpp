@@ -221,7 +221,7 @@ TEST_CASE("a run goes on on another device or at another precision only if told 
   begun.lengthen();
   const ProgramResult more = begun.resume(" --precision 64");
   CHECK(more.exit_code == 0);
-  CHECK_THAT(more.output, Catch::Contains("goes on on") && Catch::Contains("at precision 64"));
+  CHECK_THAT(more.output, Catch::Contains("from there on it is on") && Catch::Contains("at precision 64"));
 }
 
 TEST_CASE("a run that is over has no bits that differ elsewhere: resuming it warns of none") {
@@ -257,7 +257,7 @@ TEST_CASE("a run at precision 64 goes on on a GPU, which knows 32 alone", "[gl]"
   const ProgramResult result = begun.resume(" --device gpu");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Catch::Contains("at precision 64, and goes on on") && Catch::Contains("at precision 32"));
+  CHECK_THAT(result.output, Catch::Contains("at precision 64, and from there on it is on") && Catch::Contains("at precision 32"));
 }
 
 TEST_CASE("a run at precision 64 stays so on the device that fits best, which is the CPU") {

@@ -225,10 +225,10 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
 }
 
 TEST_CASE("keys that contradict each other are an error") {
-  check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4, {"body.body0.total_stiffness", "beside stiffness"});
+  check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4, {"body.body0.total_stiffness", "can't be combined with stiffness"});
   check_input_error("[simulation]\ntolerance = 1e-6\ntime_step = 0.1\n" + smallest, 2,
-                    {"simulation.tolerance", "beside time_step", "keep one"});
-  check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "beside vertex_mass"});
+                    {"simulation.tolerance", "can't be combined with time_step", "keep one"});
+  check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "can't be combined with vertex_mass"});
 }
 
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {
@@ -333,7 +333,7 @@ TEST_CASE("a faulty override is a command line error that repeats it") {
   check_override_error(two_named, "body.lefd.stiffness=1", {"no body \"lefd\"", "did you mean \"left\"?"});
   check_override_error(two_named, "body.stiffness=1", {"names no body"});
   check_override_error(two_named, "body.left.stifness=1", {"did you mean \"stiffness\"?"});
-  check_override_error(two_named, "body.left.total_stiffness=1", {"beside stiffness"});
+  check_override_error(two_named, "body.left.total_stiffness=1", {"can't be combined with stiffness"});
   check_override_error(two_named, "body.left.stiffness=many", {"is a string"});
   check_override_error("title = \"t\"\n" + two_named, "title.sub=1", {"\"title\" is no section"});
   check_override_error(two_named, "simulation..x=1", {"simulation"});
