@@ -9,8 +9,8 @@ std::vector<KernelPack>& packs() {
 }
 
 template <class Row>
-void append(std::vector<Row>& to, std::span<const Row> rows) {
-  to.insert(to.end(), rows.begin(), rows.end());
+void append(std::vector<Row>& to, std::span<const Row> more) {
+  to.insert(to.end(), more.begin(), more.end());
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 namespace pliant {
 namespace {
 
-using Row = std::vector<long double>;
+using Coefficients = std::vector<long double>;
 
 // `lower` holds the rows of A up to the diagonal.
 template <class Method = RungeKutta>
-Method tableau(const std::vector<Row>& lower, Row b, Row c) {
+Method tableau(const std::vector<Coefficients>& lower, Coefficients b, Coefficients c) {
   Method method{{static_cast<int>(b.size()), {}, std::move(b), std::move(c)}};
-  for (Row row : lower) {
+  for (Coefficients row : lower) {
     row.resize(lower.size());
     method.a.insert(method.a.end(), row.begin(), row.end());
   }
@@ -23,8 +23,8 @@ Method tableau(const std::vector<Row>& lower, Row b, Row c) {
 enum class Mirror { with_middle_once, with_middle_twice };
 
 // Completes coefficients that read the same backwards.
-Row mirrored(const Row& half, Mirror mirror) {
-  Row whole = half;
+Coefficients mirrored(const Coefficients& half, Mirror mirror) {
+  Coefficients whole = half;
   whole.insert(whole.end(), half.rbegin() + (mirror == Mirror::with_middle_once ? 1 : 0), half.rend());
   return whole;
 }

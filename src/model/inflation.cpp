@@ -6,33 +6,28 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "core/error.hpp"
 #include "mesh/report.hpp"
+#include "model/body_error.hpp"
 #include "physics/forces/pressure.glsl"
 
 namespace pliant {
 namespace {
 
-glm::dvec3 rest_position(const Model& model, std::size_t vertex) { return glm::dvec3(model.rest_positions[vertex]); }
-
-[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
-  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
-}
-
 void expect_encloses(const BodySetup& setup) {
   const MeshReport report = report_mesh(setup.mesh);
   if (!report.closed)
-    fail(setup.description,
-         fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
-         "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
+    throw body_error(setup.description,
+                     fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
+                     "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
   if (!report.volume)
-    fail(setup.description,
-         fmt::format("pressure needs triangles that wind alike, but at {} edges two do not", report.inconsistent_edge_count),
-         "turn these triangles, or leave the pressure out");
+    throw body_error(
+        setup.description,
+        fmt::format("pressure needs triangles that wind alike, but at {} edges two do not", report.inconsistent_edge_count),
+        "turn these triangles, or leave the pressure out");
   if (!(*report.volume > 0))
-    fail(setup.description,
-         "pressure needs triangles that wind counter-clockwise seen from outside, but these wind the other way",
-         "turn all triangles, or leave the pressure out");
+    throw body_error(setup.description,
+                     "pressure needs triangles that wind counter-clockwise seen from outside, but these wind the other way",
+                     "turn all triangles, or leave the pressure out");
 }
 
 // Returns a bound on the norm of the volume's second derivative [m]. The derivative by two vertices a and b is the cross product
@@ -43,7 +38,7 @@ double curvature_of_volume(const Model& model, const ModelBody& body) {
   for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = model.triangles[t][k], b = model.triangles[t][(k + 1) % 3], c = model.triangles[t][(k + 2) % 3];
-      third_corners[std::minmax(a, b)] += (a < b ? 1.0 : -1.0) * rest_position(model, c) / 6.0;
+      third_corners[std::minmax(a, b)] += (a < b ? 1.0 : -1.0) * model.rest_position(c) / 6.0;
     }
   std::map<std::uint32_t, double> sums;
   for (const auto& [edge, sum] : third_corners)
@@ -62,8 +57,8 @@ Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& b
   for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t corner = model.triangles[t][k];
-      const glm::dvec3 a = rest_position(model, corner), b = rest_position(model, model.triangles[t][(k + 1) % 3]),
-                       c = rest_position(model, model.triangles[t][(k + 2) % 3]);
+      const glm::dvec3 a = model.rest_position(corner), b = model.rest_position(model.triangles[t][(k + 1) % 3]),
+                       c = model.rest_position(model.triangles[t][(k + 2) % 3]);
       gradients[corner - body.first_vertex] += physics::volume_gradient(a, b, c);
       if (k == 0) inside.rest_volume += physics::volume_below(a, b, c);
     }

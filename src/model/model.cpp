@@ -11,8 +11,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "core/error.hpp"
 #include "core/expect.hpp"
+#include "model/body_error.hpp"
 #include "model/inflation.hpp"
 
 namespace pliant {
@@ -74,19 +74,13 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   return body;
 }
 
-glm::dvec3 rest_position(const Model& model, std::size_t vertex) { return glm::dvec3(model.rest_positions[vertex]); }
-
-[[noreturn]] void fail(const BodyDescription& body, const std::string& what, const std::string& remedy) {
-  throw Error(ErrorKind::input, fmt::format("{}{}body.{}", body.where, body.where.empty() ? "" : ": ", body.name), what, remedy);
-}
-
 /// Appends the body's rest shape, centred on `centroid`.
 void append_shape(const BodySetup& setup, const std::vector<glm::dvec3>& positions, const glm::dvec3& centroid, Model& model) {
   ModelBody body = describe_body(setup, model);
   const auto index = static_cast<float>(model.bodies.size());
   for (const glm::dvec3& position : positions) {
     model.rest_positions.emplace_back(glm::vec3(position - centroid), index);
-    body.radius = std::max(body.radius, glm::length(rest_position(model, model.rest_positions.size() - 1)));
+    body.radius = std::max(body.radius, glm::length(model.rest_position(model.rest_positions.size() - 1)));
   }
   for (const auto& [a, b, c] : setup.mesh.triangles)
     model.triangles.push_back({body.first_vertex + a, body.first_vertex + b, body.first_vertex + c});
@@ -100,7 +94,7 @@ void append_motion(const BodyDescription& description, const Model& model, State
   physics::Pose& pose = state.poses.back();
   std::vector<glm::dvec3> displacements, world;
   for (std::size_t i = 0; i < body.vertex_count; ++i) {
-    const glm::dvec3 rest = rest_position(model, body.first_vertex + i);
+    const glm::dvec3 rest = model.rest_position(body.first_vertex + i);
     displacements.push_back((description.stretch - 1.0) * rest);
     world.push_back(physics::to_world(pose, rest + displacements.back()));
   }
@@ -127,22 +121,24 @@ void check_start(std::span<const BodySetup> setups, const ModelAndState& built) 
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
     const BodyDescription& body = setups[built.model.body_index(vertex)].description;
     if (out_of_reach(positions[vertex]))
-      fail(body, fmt::format("vertices stand beyond {} m", largest_coordinate), "use a smaller scale, stretch or position");
+      throw body_error(body, fmt::format("vertices stand beyond {} m", largest_coordinate),
+                       "use a smaller scale, stretch or position");
     if (out_of_reach(velocities[vertex]))
-      fail(body, fmt::format("vertices move faster than {} m/s", largest_coordinate), "use a smaller velocity or spin");
+      throw body_error(body, fmt::format("vertices move faster than {} m/s", largest_coordinate),
+                       "use a smaller velocity or spin");
   }
 }
 
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
   const BodyDescription& description = setup.description;
-  if (setup.mesh.positions.empty()) fail(description, "the mesh has no vertices", "use a mesh with a surface");
+  if (setup.mesh.positions.empty()) throw body_error(description, "the mesh has no vertices", "use a mesh with a surface");
   const std::vector<glm::dvec3> positions = scaled_positions(setup);
   const glm::dvec3 centroid = mean(positions);
   const glm::dquat rotation = rotation_of(description.rotation);
   append_shape(setup, positions, centroid, built.model);
   if (const double radius = built.model.bodies.back().radius; radius > 0 && radius < smallest_radius)
-    fail(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
-         "use a larger scale, with other units if need be");
+    throw body_error(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
+                     "use a larger scale, with other units if need be");
   built.state.poses.push_back(make_pose(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
   append_motion(description, built.model, built.state);
 }
@@ -166,7 +162,7 @@ std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
     const physics::Pose& pose = poses[model.body_index(vertex)];
-    positions.push_back(physics::to_world(pose, rest_position(model, vertex) + load(motion, 6 * vertex)));
+    positions.push_back(physics::to_world(pose, model.rest_position(vertex) + load(motion, 6 * vertex)));
   }
   return positions;
 }

@@ -37,6 +37,8 @@ struct ModelBody {
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are
   /// exact.
   [[nodiscard]] double unit_of_length() const;
+  /// Returns the force of a spring that is longer by that unit [N].
+  [[nodiscard]] double unit_force() const { return stiffness * unit_of_length(); }
 };
 
 struct Model {
@@ -48,6 +50,7 @@ struct Model {
   [[nodiscard]] std::uint32_t body_index(std::size_t vertex) const {
     return static_cast<std::uint32_t>(rest_positions[vertex].w);
   }
+  [[nodiscard]] glm::dvec3 rest_position(std::size_t vertex) const { return glm::dvec3(rest_positions[vertex]); }  // [m]
   [[nodiscard]] const ModelBody& body_of(std::size_t vertex) const { return bodies[body_index(vertex)]; }
 };
 

@@ -19,11 +19,13 @@ namespace {
 constexpr std::string_view magic = "\x8bpliant checkpoint\r\n\x1a\n";
 
 std::string header_of(std::string_view content) {
-  ByteWriter header;
-  header.put(checkpoint_version);
-  header.put(std::uint64_t{content.size()});
-  header.put(checksum(content));
-  return std::string(magic) + header.take();
+  ByteWriter numbers;
+  numbers.put(checkpoint_version);
+  numbers.put(std::uint64_t{content.size()});
+  numbers.put(checksum(content));
+  std::string header(magic);
+  header += numbers.take();
+  return header;
 }
 
 void expect_version(std::uint32_t version, const std::filesystem::path& path) {

@@ -11,7 +11,7 @@ namespace {
 physics::Body body_of(const ModelBody& body, double strain_bias) {
   const double unit = body.unit_of_length();
   return {.inverse_unit = 1 / unit,
-          .unit_force = body.stiffness * unit / (1 + strain_bias),
+          .unit_force = body.unit_force() / (1 + strain_bias),
           .inverse_mass = 1 / body.vertex_mass,
           .damping = body.damping,
           .first_vertex = body.first_vertex,

@@ -10,7 +10,7 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "support/collision_scene.hpp"
-#include "support/paths.hpp"
+#include "support/shipped_scenes.hpp"
 
 namespace pliant {
 namespace {
@@ -179,7 +179,7 @@ TEST_CASE("a minute of a wild mouse leaves every scene whose step is stable fini
   for (const char* name : {"two_spheres", "three_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot",
                            "bunnies_undamped_verlet", "bunnies_overdamped_verlet"}) {
     CAPTURE(name);
-    const SceneDescription scene = load_scene(source_dir() + "/scenes/" + name + ".toml");
+    const SceneDescription scene = test::load_shipped_scene(name);
     const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     const Pulled end = pull_wildly(*devices.back().device, start, plan_time(scene, start.model), scene.collision, 60);
     CHECK_FALSE(end.report.non_finite);

@@ -1,4 +1,6 @@
 // The scenes that come with the project hold what the paper says of them.
+#include "support/shipped_scenes.hpp"
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <glm/vector_relational.hpp>
@@ -6,21 +8,9 @@
 #include "mesh/report.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
-#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
-
-std::vector<std::filesystem::path> scene_files() {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  return files;
-}
-
-SceneDescription shipped(const std::string& name) {
-  return load_scene(std::filesystem::path(source_dir() + "/scenes") / (name + ".toml"));
-}
 
 std::vector<double> stiffnesses(const SceneDescription& scene) {
   std::vector<double> values;
@@ -40,11 +30,10 @@ std::pair<glm::dvec3, glm::dvec3> box(const ModelAndState& built, const ModelBod
 }  // namespace
 
 TEST_CASE("every shipped scene builds without a warning, with bodies clear of each other") {
-  const std::vector<std::filesystem::path> files = scene_files();
-  REQUIRE(files.size() >= 7);
-  for (const std::filesystem::path& file : files) {
-    CAPTURE(file.string());
-    const SceneDescription scene = load_scene(file);
+  const std::vector<SceneDescription> scenes = test::load_shipped_scenes();
+  REQUIRE(scenes.size() >= 7);
+  for (const SceneDescription& scene : scenes) {
+    CAPTURE(scene.file.string());
     std::vector<std::string> warnings;
     const ModelAndState built = build_model(load_bodies(scene, &warnings), scene.simulation.gravity);
     CHECK(warnings == std::vector<std::string>{});
@@ -65,18 +54,18 @@ TEST_CASE("the paper's scenes have its stiffness, damping, elasticity, depth and
                                                                   {"bunnies_overdamped", {40, 40}}};
   for (const auto& [name, values] : expected) {
     CAPTURE(name);
-    const SceneDescription scene = shipped(name);
+    const SceneDescription scene = test::load_shipped_scene(name);
     CHECK(stiffnesses(scene) == values);
     CHECK(scene.simulation.integrator.value == "cv8");
     CHECK(scene.collision.elasticity == 0.9);
     CHECK(scene.collision.tree.max_depth == 12u);
     for (const BodyDescription& body : scene.bodies) CHECK(body.vertex_mass == 1);
   }
-  for (const BodyDescription& body : shipped("bunnies_overdamped").bodies) CHECK(body.damping == 2000);
-  CHECK(shipped("bunnies_overdamped").simulation.damping_law == DampingLaw::constant);
-  CHECK(shipped("bunnies_undamped").simulation.damping_law == DampingLaw::none);
+  for (const BodyDescription& body : test::load_shipped_scene("bunnies_overdamped").bodies) CHECK(body.damping == 2000);
+  CHECK(test::load_shipped_scene("bunnies_overdamped").simulation.damping_law == DampingLaw::constant);
+  CHECK(test::load_shipped_scene("bunnies_undamped").simulation.damping_law == DampingLaw::none);
   for (const char* name : {"two_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot", "three_spheres"})
-    for (const BodyDescription& body : shipped(name).bodies) CHECK(body.damping == 1);
+    for (const BodyDescription& body : test::load_shipped_scene(name).bodies) CHECK(body.damping == 1);
 }
 
 }  // namespace pliant

@@ -10,7 +10,7 @@
 #include "support/collision_scene.hpp"
 #include "support/expect_error.hpp"
 #include "support/oscillator.hpp"
-#include "support/paths.hpp"
+#include "support/shipped_scenes.hpp"
 
 namespace pliant {
 namespace {
@@ -403,7 +403,7 @@ TEST_CASE("shipped scenes of fast spheres end untangled at 60 frames a second, w
   for (const char* name : {"two_spheres", "three_spheres", "soft_and_hard"})
     for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
       CAPTURE(name, tolerance);
-      SceneDescription scene = load_scene(source_dir() + "/scenes/" + name + ".toml");
+      SceneDescription scene = test::load_shipped_scene(name);
       scene.simulation.integrator.value = "auto";
       scene.simulation.tolerance = tolerance;
       scene.output.frame_rate = 60;

@@ -1,4 +1,6 @@
 // The first steps of every shipped scene, on both devices and against brute force.
+#include "support/shipped_scenes.hpp"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,17 +12,9 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "support/evolve.hpp"
-#include "support/paths.hpp"
 
 namespace pliant {
 namespace {
-
-std::vector<SceneDescription> shipped_scenes() {
-  std::vector<SceneDescription> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
-    if (entry.path().extension() == ".toml") scenes.push_back(load_scene(entry.path()));
-  return scenes;
-}
 
 // Moves bodies into each other and bends them, as if in the middle of a collision.
 std::vector<glm::vec4> crowded_positions(const ModelAndState& start) {
@@ -77,7 +71,7 @@ PairSet pairs_by_tree(Device& device, const ModelAndState& start, const Collisio
 }
 
 TEST_CASE("on every shipped scene the trees find the pairs that brute force finds", "[gl]") {
-  for (const SceneDescription& scene : shipped_scenes()) {
+  for (const SceneDescription& scene : test::load_shipped_scenes()) {
     const ModelAndState start = build_model(load_bodies(scene), glm::dvec3(0.0));
     const std::vector<glm::vec4> positions = crowded_positions(start);
     const PairSet all = as_set(intersecting_pairs(start.model, positions, scene.collision.triangle_test));
@@ -124,7 +118,7 @@ std::uint64_t smooth_steps(const SceneDescription& scene, const ModelAndState& s
 
 TEST_CASE("until the first contact every shipped scene is the fp64 one to 1e-5 of the body", "[gl][long]") {
   std::size_t scenes_touching_at_once = 0;
-  for (const SceneDescription& scene : shipped_scenes()) {
+  for (const SceneDescription& scene : test::load_shipped_scenes()) {
     const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     const TimePlan plan = plan_time(scene, start.model);
     const std::uint64_t steps = smooth_steps(scene, start);
@@ -147,7 +141,7 @@ TEST_CASE("until the first contact every shipped scene is the fp64 one to 1e-5 o
 }
 
 TEST_CASE("dented bodies of every shipped scene move as in fp64 to 1e-5 of the body", "[gl][long]") {
-  for (const SceneDescription& scene : shipped_scenes()) {
+  for (const SceneDescription& scene : test::load_shipped_scenes()) {
     ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     start.state = dented(start);
     CAPTURE(scene.file.string());

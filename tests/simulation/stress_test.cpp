@@ -13,21 +13,12 @@
 #include "scene/load_scene.hpp"
 #include "simulation/measure.hpp"
 #include "support/evolve.hpp"
-#include "support/paths.hpp"
+#include "support/shipped_scenes.hpp"
 
 namespace pliant {
 namespace {
 
 constexpr double enormous = 1e6;  // c [kg/s]
-
-std::vector<SceneDescription> shipped_scenes() {
-  std::vector<SceneDescription> scenes;
-  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/scenes"))
-    if (entry.path().extension() == ".toml") scenes.push_back(load_scene(entry.path()));
-  return scenes;
-}
-
-SceneDescription shipped(const char* name) { return load_scene(source_dir() + "/scenes/" + name + ".toml"); }
 
 SceneDescription overdamped(SceneDescription scene, DampingLaw law) {
   scene.simulation.integrator.value = "verlet";
@@ -82,7 +73,7 @@ void check_settles(const SceneDescription& scene, const ModelAndState& start, do
 }
 
 void check_all_settle(DampingLaw law, std::initializer_list<double> parts_of_bound, std::uint64_t steps, std::uint64_t stride) {
-  for (const SceneDescription& shipped : shipped_scenes()) {
+  for (const SceneDescription& shipped : test::load_shipped_scenes()) {
     const SceneDescription scene = overdamped(shipped, law);
     const ModelAndState start = squeezed(build_model(load_bodies(scene), scene.simulation.gravity));
     for (const double part : parts_of_bound) check_settles(scene, start, part, steps, stride);
@@ -198,7 +189,7 @@ TEST_CASE("the damped kick is needed: a Runge-Kutta method blows up where verlet
 
 TEST_CASE("the paper's overdamped bunnies fly apart by its method and stop whole by verlet") {
   for (const auto& [name, holds] : {std::pair("bunnies_overdamped", false), std::pair("bunnies_overdamped_verlet", true)}) {
-    const SceneDescription scene = shipped(name);
+    const SceneDescription scene = test::load_shipped_scene(name);
     const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     const TimePlan plan = plan_time(scene, start.model);
     Trial trial(start, plan, scene.collision);
@@ -212,7 +203,7 @@ TEST_CASE("the paper's overdamped bunnies fly apart by its method and stop whole
 
 TEST_CASE("the paper's undamped bunnies are torn by its step and part whole by verlet", "[long]") {
   for (const auto& [name, holds] : {std::pair("bunnies_undamped", false), std::pair("bunnies_undamped_verlet", true)}) {
-    const SceneDescription scene = shipped(name);
+    const SceneDescription scene = test::load_shipped_scene(name);
     const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     const TimePlan plan = plan_time(scene, start.model);
     CHECK((plan.time_step < plan.step_bound) == holds);
@@ -227,7 +218,7 @@ TEST_CASE("the paper's undamped bunnies are torn by its step and part whole by v
 
 TEST_CASE("a twin differs from the paper's scene in method and step alone") {
   for (const char* name : {"bunnies_undamped", "bunnies_overdamped"}) {
-    const SceneDescription paper = shipped(name), twin = shipped((std::string(name) + "_verlet").c_str());
+    const SceneDescription paper = test::load_shipped_scene(name), twin = test::load_shipped_scene(std::string(name) + "_verlet");
     CAPTURE(name);
     CHECK(twin.simulation.integrator.value == "verlet");
     CHECK(twin.simulation.damping_law == paper.simulation.damping_law);

@@ -17,7 +17,7 @@ namespace pliant::test {
 namespace {
 
 // Two small spheres, one of them on its way to the other.
-std::filesystem::path small_scene(const ScratchFolder& folder) {
+std::filesystem::path scene_to_view(const ScratchFolder& folder) {
   const auto file = folder.path / "small.toml";
   std::ofstream(file)
       << "title = \"Small\"\n[simulation]\ntime_step = 0.01\n[output]\nsize = [320, 240]\n"
@@ -60,7 +60,7 @@ Viewed::Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const
                const std::vector<std::string>& more)
     : display_(display),
       folder_(folder.path),
-      program_(command(small_scene(folder), device, more),
+      program_(command(scene_to_view(folder), device, more),
                {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, folder.path) {
   await([](const Json&) { return true; });
   window_ = display.run("xdotool search --sync --onlyvisible --name 'Small - pliant'");

@@ -24,7 +24,7 @@ struct Watched {
   [[nodiscard]] const Observation& seen() const { return observer.observation(); }
 };
 
-LoadedScene colliding() {
+LoadedScene touching_spheres() {
   LoadedScene scene;
   scene.description.simulation.time_step = 0.01;
   scene.description.simulation.damping_law = DampingLaw::none;
@@ -34,7 +34,7 @@ LoadedScene colliding() {
 
 TEST_CASE("an observer samples energy and contacts ten times a second") {
   const auto device = make_cpu_device(2, 32);
-  Session session(*device, colliding());
+  Session session(*device, touching_spheres());
   Watched watched;
   double touching = 0;
   for (int k = 0; k < 60; ++k) {
@@ -54,7 +54,7 @@ TEST_CASE("an observer samples energy and contacts ten times a second") {
 
 TEST_CASE("samples take a tenth of the time at most, however long one takes") {
   const auto device = make_cpu_device(1, 32);
-  Session session(*device, colliding());
+  Session session(*device, touching_spheres());
   constexpr double a_sample = 0.3;  // [s]
   double time = 0;
   bool is_sampling = false;  // between two looks at the clock a sample has been taken
@@ -72,7 +72,7 @@ TEST_CASE("samples take a tenth of the time at most, however long one takes") {
 
 TEST_CASE("an observer counts from its first sample on, whatever happened before it looked") {
   const auto device = make_cpu_device(2, 32);
-  Session session(*device, colliding());
+  Session session(*device, touching_spheres());
   Watched watched;
   const auto step_until_touched = [&] {
     const std::uint64_t before = session.report().reverted_vertices;
@@ -102,7 +102,7 @@ TEST_CASE("an observer counts from its first sample on, whatever happened before
 
 TEST_CASE("what steps take is told of single ones as well, and of those made anew on the way back") {
   const auto device = make_cpu_device(2, 32);
-  Session session(*device, colliding());
+  Session session(*device, touching_spheres());
   session.advance_toward(0.1, 10);
   REQUIRE(session.stepping().steps == 10);
   const double seconds = session.stepping().seconds;
@@ -122,7 +122,7 @@ TEST_CASE("what steps take is told of single ones as well, and of those made ane
 
 TEST_CASE("passes are told while they are timed, the slowest first") {
   const auto device = make_cpu_device(2, 32);
-  Session session(*device, colliding());
+  Session session(*device, touching_spheres());
   Watched watched;
   session.time_passes(true);
   for (int k = 0; k < 3; ++k) {

@@ -11,12 +11,12 @@ using namespace pliant::view;
 
 namespace {
 
-const glm::dvec2 size(640, 480);
-const CameraDescription camera{{3, 2, 5}, {0.2, 0.1, 0}, 40};
+const glm::dvec2 picture_size(640, 480);
+const CameraDescription viewpoint{{3, 2, 5}, {0.2, 0.1, 0}, 40};
 
 glm::dvec2 pixel_of(const glm::dvec3& place) {
-  const glm::dvec4 clip = render::view_projection(camera, size.x / size.y) * glm::dvec4(place, 1);
-  return {(clip.x / clip.w + 1) / 2 * size.x, (1 - clip.y / clip.w) / 2 * size.y};
+  const glm::dvec4 clip = render::view_projection(viewpoint, picture_size.x / picture_size.y) * glm::dvec4(place, 1);
+  return {(clip.x / clip.w + 1) / 2 * picture_size.x, (1 - clip.y / clip.w) / 2 * picture_size.y};
 }
 
 std::vector<glm::vec4> positions_of(const ModelAndState& start) {
@@ -27,7 +27,7 @@ std::vector<glm::vec4> positions_of(const ModelAndState& start) {
 
 TEST_CASE("a ray through a place's pixel goes through the place") {
   for (const glm::dvec3 place : {glm::dvec3(1, 0, 0), {-2, 1, 1}, {0, -1, -7}}) {
-    const Ray ray = ray_through(camera, pixel_of(place), size);
+    const Ray ray = ray_through(viewpoint, pixel_of(place), picture_size);
     CHECK(glm::length(glm::cross(glm::normalize(ray.direction), place - ray.origin)) < 1e-9);
     CHECK(glm::dot(ray.direction, place - ray.origin) > 0);
   }
@@ -38,13 +38,13 @@ TEST_CASE("each vertex that can be seen is picked at its pixel, and none behind 
   const auto positions = positions_of(start);
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
     const glm::dvec3 place(glm::vec3(positions[i]));
-    const auto picked = pick_vertex(start.model, positions, ray_through(camera, pixel_of(place * 0.999), size));
+    const auto picked = pick_vertex(start.model, positions, ray_through(viewpoint, pixel_of(place * 0.999), picture_size));
     REQUIRE(picked);
-    const double facing = glm::dot(place, glm::normalize(camera.eye - place));
+    const double facing = glm::dot(place, glm::normalize(viewpoint.eye - place));
     if (facing > 0.2) CHECK(*picked == i);
     if (facing < -0.2) CHECK(*picked != i);
   }
-  CHECK_FALSE(pick_vertex(start.model, positions, ray_through(camera, {1, 1}, size)));
+  CHECK_FALSE(pick_vertex(start.model, positions, ray_through(viewpoint, {1, 1}, picture_size)));
 }
 
 TEST_CASE("of two bodies in line the nearer one is picked") {

@@ -15,7 +15,7 @@ using namespace pliant::view;
 
 namespace {
 
-LoadedScene colliding() {
+LoadedScene overlapping_spheres() {
   LoadedScene scene;
   scene.description.simulation.time_step = 0.01;
   scene.start = build_model(colliding_spheres(), {0, 0, 0});
@@ -34,7 +34,7 @@ TEST_CASE("a session looks the same on every device, whatever its bodies are col
   if (test::lacks_gl()) return;
   gl::Context context(0);
   const auto cpu = make_cpu_device(2, 32), gpu = make_gpu_device(context);
-  Session session(*cpu, colliding());
+  Session session(*cpu, overlapping_spheres());
   for (int k = 0; k < 7; ++k) session.step_once();  // an odd number: positions are in the other half
   std::array<Shows, 4> looks;
   looks[1].colors = Colors::deformation;
@@ -51,7 +51,7 @@ TEST_CASE("a view follows its session, and draws no picture twice", "[gl]") {
   if (test::lacks_gl()) return;
   gl::Context context(0);
   const auto cpu = make_cpu_device(2, 32), gpu = make_gpu_device(context);
-  Session session(*cpu, colliding());
+  Session session(*cpu, overlapping_spheres());
   SceneView view(session, {160, 120}, render::Detail::reduced);
   Look look{.step = 0, .camera = view.first_camera(), .size = {160, 120}, .shows = {}};
   view.draw(look);

@@ -44,7 +44,7 @@ State PeerSystem::state_of(const std::vector<double>& numbers, const State& star
 void PeerSystem::rates(const double* y, double* rates) {
   const std::size_t half = 3 * vertex_count_;
   const ModelBody& body = model_.bodies.front();
-  const double unit_force = body.stiffness * body.unit_of_length(), to_rate = 1 / (body.vertex_mass * omega_);
+  const double unit_force = body.unit_force(), to_rate = 1 / (body.vertex_mass * omega_);
   sum_springs(y);
   for (std::size_t k = 0; k < half; ++k) rates[k] = omega_ * y[half + k];
   for (std::size_t i = 0; i < vertex_count_; ++i) {
@@ -58,7 +58,7 @@ void PeerSystem::rates(const double* y, double* rates) {
 void PeerSystem::accelerations(const double* u, double* scaled) {
   PLIANT_EXPECT(!is_damped());
   const ModelBody& body = model_.bodies.front();
-  const double factor = -body.stiffness * body.unit_of_length() / (body.vertex_mass * omega_ * omega_);
+  const double factor = -body.unit_force() / (body.vertex_mass * omega_ * omega_);
   sum_springs(u);
   for (std::size_t i = 0; i < vertex_count_; ++i)
     for (std::size_t k = 0; k < 3; ++k) scaled[3 * i + k] = factor * sums_[i][static_cast<int>(k)];

@@ -114,7 +114,7 @@ double energy_at(const Inflation& inside, double volume) {
   return -inside.pressure * inside.rest_volume * std::log(volume / inside.rest_volume);
 }
 
-double energy(const EnergyQuestion& question) {
+double pressure_energy(const EnergyQuestion& question) {
   const std::vector<glm::dvec3> positions = positions_of(question.model, question.state);
   double sum = 0;
   for (const ModelBody& body : question.model.bodies)
@@ -122,14 +122,14 @@ double energy(const EnergyQuestion& question) {
   return sum;
 }
 
-double energy_scale(const ModelBody& body) { return body.inflation.pressure * body.inflation.rest_volume; }
+double pressure_energy_scale(const ModelBody& body) { return body.inflation.pressure * body.inflation.rest_volume; }
 
 // For a gas the second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 minus p times the second derivative of V. Down to half
 // the rest volume p is at most 2 p0. A shape that is pressed flat keeps its dV/dx. One that grows makes up for it by its lower
 // pressure.
 constexpr double least_volume = 0.5;  // of the rest volume
 
-double frequency_squared(const ModelBody& body) {
+double pressure_frequency_squared(const ModelBody& body) {
   const Inflation& inside = body.inflation;
   const bool is_gas = inside.law == PressureLaw::gas;
   const double of_volume = is_gas ? inside.gradient_squared / (least_volume * least_volume * inside.rest_volume) : 0;
@@ -164,9 +164,9 @@ Force pressure() {
   return {.name = "pressure",
           .is_zero_at_rest = false,
           .acts_on = has_pressure,
-          .energy = energy,
-          .energy_scale = energy_scale,
-          .frequency_squared = frequency_squared,
+          .energy = pressure_energy,
+          .energy_scale = pressure_energy_scale,
+          .frequency_squared = pressure_frequency_squared,
           .make = make,
           .warning = warning};
 }

@@ -64,15 +64,15 @@ std::vector<double> elastic_energies(const EnergyQuestion& question) {
   return energies;
 }
 
-double energy(const EnergyQuestion& question) {
+double spring_energy(const EnergyQuestion& question) {
   double sum = 0;
   for (const double energy : elastic_energies(question)) sum += energy;
   return sum;
 }
 
 bool acts_on(const ModelBody&) { return true; }
-double energy_scale(const ModelBody& body) { return 0.5 * body.stiffness * body.radius * body.radius; }
-double frequency_squared(const ModelBody& body) { return body.vertex_count * body.stiffness / body.vertex_mass; }
+double spring_energy_scale(const ModelBody& body) { return 0.5 * body.stiffness * body.radius * body.radius; }
+double spring_frequency_squared(const ModelBody& body) { return body.vertex_count * body.stiffness / body.vertex_mass; }
 
 }  // namespace
 
@@ -80,9 +80,9 @@ Force springs() {
   return {.name = "springs",
           .is_zero_at_rest = true,
           .acts_on = acts_on,
-          .energy = energy,
-          .energy_scale = energy_scale,
-          .frequency_squared = frequency_squared,
+          .energy = spring_energy,
+          .energy_scale = spring_energy_scale,
+          .frequency_squared = spring_frequency_squared,
           .make = nullptr,
           .warning = nullptr};
 }
