@@ -6,6 +6,11 @@ function(pliant_compile_options target)
     -ffp-contract=off -fno-math-errno -fno-trapping-math)
 endfunction()
 
+# For code that nothing waits for, such as reading a command line: it compiles in two thirds of the time.
+function(pliant_optimize_less target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # Most of what a file costs to compile are these headers: they are compiled once. A file still includes what it uses, and a build with
 # CMAKE_DISABLE_PRECOMPILE_HEADERS shows whether it does.
 set(pliant_common_headers <algorithm> <array> <chrono> <cmath> <cstdint> <cstdio> <filesystem> <fstream> <functional> <limits> <map>
@@ -20,6 +25,27 @@ function(pliant_precompile_headers target)
     target_precompile_headers(pliant_precompiled PRIVATE ${pliant_common_headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM pliant_precompiled)
+endfunction()
+
+# Compiles the files of a folder as one, in about half the time: they share headers and what templates become. So names outside
+# of classes differ within a folder, also those in anonymous namespaces. Files that have options or a precision of their own stay alone.
+option(PLIANT_UNITE_FOLDERS "Compile the files of a folder together: half the time for all of it, more for a change of one file" OFF)
+function(pliant_unite_folders target)
+  if(NOT PLIANT_UNITE_FOLDERS)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    file(STRINGS ${source} precision REGEX "#define REAL_BITS")
+    if(NOT precision)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)  # which is about headers, and takes a united .cpp file for one
 endfunction()
 
 if(PLIANT_SANITIZE)
