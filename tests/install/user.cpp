@@ -1,10 +1,5 @@
-<<<<<<< HEAD
 // The example of docs/library.md, and one thing of other modules, so that their headers and the libraries behind them must be
 // there. Takes a scene file.
-=======
-// README's example of the library, with one thing from other modules. Their headers and the libraries behind them therefore have
-// to be there. The argument is a scene file.
->>>>>>> 0309251 (tests: Say in sentences what helpers return and do)
 #include <cstdio>
 #include <vector>
 
