@@ -54,7 +54,6 @@ struct Pending {
   Course course;
   Rounding rounding;      // so far
   double rest;
-  double added;           // force beside the springs [N]
   double stage_velocity;  // at this stage
   double displacement;    // for the next stage, or at the end, without position_weight a [m]
   double velocity;        // for the next stage, or at the end, without velocity_weight a [m/s]
@@ -123,7 +122,6 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   p.course = c;
   p.rounding = rounding_so_far(i, k);
   p.rest = double(rest_position[i][int(k)]);
-  p.added = adds_force != 0u ? added_force[force_of(i) + k] : double(0);
   p.stage_velocity = motion[w];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
   p.displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
@@ -136,7 +134,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double all_force = adds_force != 0u ? spring_force + p.added : spring_force;
+  double all_force = adds_force != 0u ? spring_force + added_force[force_of(i) + k] : spring_force;
   double a = all_force * s.body.inverse_mass + p.course.gravity;
   if (damping_law != damping_none)
     a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;

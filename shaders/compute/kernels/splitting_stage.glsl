@@ -38,7 +38,6 @@ struct Pending {
   double displacement;  // after the drifts so far
   double velocity;
   double reference;  // the next placement is relative to this displacement [m]
-  double added;      // force beside the springs [N]
 };
 
 Pending before_force(uint i, uint k, IN(Share) s) {
@@ -48,14 +47,13 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   p.gravity = pose[s.body_index].gravity[k];
   p.displacement = motion[displacement_of(after) + k];
   p.velocity = motion[velocity_of(after) + k];
-  p.added = adds_force != 0u ? added_force[force_of(i) + k] : double(0);
   p.reference = motion[displacement_of(first) + k] + elapsed() * motion[velocity_of(first) + k];
   return p;
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
-  double all_force = adds_force != 0u ? spring_force + p.added : spring_force;
+  double all_force = adds_force != 0u ? spring_force + added_force[force_of(i) + k] : spring_force;
   double velocity = kicked(s.body, p.gravity, all_force, force_squared, p.velocity, kick_time());
   double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
