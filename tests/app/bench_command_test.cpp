@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/read_text.hpp"
 #include "gl/context.hpp"
+#include "support/json.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
@@ -13,6 +13,7 @@
 namespace pliant {
 namespace {
 
+using test::ReadJson;
 using test::ScratchFolder;
 
 bool has_half_a_file(const std::filesystem::path& folder) {
@@ -21,11 +22,11 @@ bool has_half_a_file(const std::filesystem::path& folder) {
   return false;
 }
 
-nlohmann::json checked_results(const std::string& arguments, const std::filesystem::path& file) {
+ReadJson checked_results(const std::string& arguments, const std::filesystem::path& file) {
   const ProgramResult result = run_program("bench " + arguments + " --quick --json " + file.string());
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
-  auto json = nlohmann::json::parse(read_text(file));
+  const auto json = ReadJson::parse(read_text(file));
   const auto& machine = json["machine"];
   for (const char* key : {"cpu", "gpu", "driver", "compiler", "date"}) CHECK(machine.contains(key));
   CHECK_THAT(machine["commit"].get<std::string>(), Catch::Matches("unknown|[0-9a-f]{12,40}(-dirty)?"));
@@ -52,9 +53,9 @@ TEST_CASE("bench forces writes every key of its rows, into a folder that it make
   const auto json = checked_results("forces --device cpu --threads 1", folder.path / "new" / "forces.json");
   CHECK(json["suite"] == "forces");
   for (const auto& row : json["rows"]) {
-    for (const char* key : {"device", "isa", "form"}) CHECK(row.at(key).is_string());
-    for (const char* key : {"precision", "threads", "vertices"}) CHECK(row.at(key).is_number_unsigned());
-    for (const char* key : {"pairs_per_second", "bound_pairs_per_second"}) CHECK(row.at(key).get<double>() > 0);
+    for (const char* key : {"device", "isa", "form"}) CHECK(row[key].is_string());
+    for (const char* key : {"precision", "threads", "vertices"}) CHECK(row[key].is_number_unsigned());
+    for (const char* key : {"pairs_per_second", "bound_pairs_per_second"}) CHECK(row[key].get<double>() > 0);
   }
 }
 
@@ -70,12 +71,12 @@ TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder"
   CHECK(json["notes"].size() == 2);  // the families: one without a scene, one too large
   CHECK(json.contains("crossovers"));
   for (const auto& row : json["rows"]) {
-    CHECK(row.at("scene") == "small");
-    CHECK(row.at("vertices") == 84);
-    CHECK(row.at("bodies") == 2);
-    CHECK(row.at("steps") == 5);
+    CHECK(row["scene"] == "small");
+    CHECK(row["vertices"] == 84);
+    CHECK(row["bodies"] == 2);
+    CHECK(row["steps"] == 5);
     for (const char* key : {"device", "precision", "threads", "contact_steps", "steps_per_second"}) CHECK(row.contains(key));
-    CHECK(row.at("milliseconds_per_step").get<double>() > 0);
+    CHECK(row["milliseconds_per_step"].get<double>() > 0);
   }
 }
 
@@ -133,7 +134,7 @@ TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way t
       CHECK(rows >= shown - 1);
       CHECK((read_text(file) == "earlier") == (rows == 0));
       if (rows == 0) continue;
-      const auto json = nlohmann::json::parse(read_text(file));
+      const auto json = ReadJson::parse(read_text(file));
       CHECK(json["interrupted"] == true);
       CHECK(json["rows"].size() == static_cast<std::size_t>(rows));
     }

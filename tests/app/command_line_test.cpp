@@ -5,6 +5,7 @@
 
 #include "core/read_text.hpp"
 #include "support/has.hpp"
+#include "support/json.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
 #include "support/runs.hpp"
@@ -230,7 +231,7 @@ TEST_CASE("mesh reports counts as text and as JSON") {
   const ProgramResult json = run_program("mesh " + source_dir() + "/meshes/bunny.obj --json");
   REQUIRE(json.exit_code == 0);
   CHECK_THAT(json.output, Catch::Contains("3674"));
-  CHECK_NOTHROW(nlohmann::json::parse(json.output));
+  CHECK_NOTHROW(test::ReadJson::parse(json.output));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "mesh/report.hpp"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "mesh/generators.hpp"
 #include "mesh/obj.hpp"
+#include "support/json.hpp"
 #include "support/paths.hpp"
 
 namespace pliant {
@@ -139,14 +139,14 @@ TEST_CASE("a mesh without triangles can be reported") {
 TEST_CASE("the JSON report holds the report's numbers, and null where there is none") {
   TriangleMesh mesh = generate_mesh("icosphere:1");
   const MeshReport report = report_mesh(mesh);
-  const auto json = nlohmann::json::parse(to_json(report));
+  const auto json = test::ReadJson::parse(to_json(report));
   CHECK(json["vertices"] == report.vertex_count);
   CHECK(json["edges"] == report.edge_count);
   CHECK(json["closed"] == true);
   CHECK(json["genus"] == 0);
   CHECK(json["volume"] == *report.volume);
   mesh.triangles.pop_back();
-  CHECK(nlohmann::json::parse(to_json(report_mesh(mesh)))["volume"].is_null());
+  CHECK(test::ReadJson::parse(to_json(report_mesh(mesh)))["volume"].is_null());
 }
 
 }  // namespace pliant

@@ -3,60 +3,53 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/read_text.hpp"
+#include "support/json.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
 
 using namespace test;
-using Json = nlohmann::ordered_json;
 
-Json written(const Summary& summary) {
+ReadJson written(const Summary& summary) {
   const ScratchFolder folder;
   write_summary(folder.path / "summary.json", summary);
-  return Json::parse(read_text(folder.path / "summary.json"));
-}
-
-std::vector<std::string> keys(const Json& object) {
-  std::vector<std::string> names;
-  for (const auto& item : object.items()) names.push_back(item.key());
-  return names;
+  return ReadJson::parse(read_text(folder.path / "summary.json"));
 }
 
 }  // namespace
 
 TEST_CASE("a summary has every key that scripts rely on") {
-  const Json json = written({});
+  const ReadJson json = written({});
   using Names = std::vector<std::string>;
-  CHECK(keys(json) == Names{"scene",
-                            "device",
-                            "precision",
-                            "threads",
-                            "integrator",
-                            "time_step",
-                            "adaptive",
-                            "steps",
-                            "simulated_seconds",
-                            "wall_seconds",
-                            "steps_per_second",
-                            "energy",
-                            "contacts",
-                            "final_intersecting_pairs",
-                            "non_finite",
-                            "interrupted",
-                            "warnings",
-                            "work",
-                            "skipped",
-                            "timings_ms",
-                            "version"});
-  CHECK(keys(json["device"]) == Names{"kind", "name"});
-  CHECK(keys(json["energy"]) == Names{"initial", "final", "max_drift"});
-  CHECK(keys(json["contacts"]) == Names{"steps", "pairs_max", "reverted_vertices"});
-  CHECK(keys(json["work"]) == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
+  CHECK(json.keys() == Names{"scene",
+                             "device",
+                             "precision",
+                             "threads",
+                             "integrator",
+                             "time_step",
+                             "adaptive",
+                             "steps",
+                             "simulated_seconds",
+                             "wall_seconds",
+                             "steps_per_second",
+                             "energy",
+                             "contacts",
+                             "final_intersecting_pairs",
+                             "non_finite",
+                             "interrupted",
+                             "warnings",
+                             "work",
+                             "skipped",
+                             "timings_ms",
+                             "version"});
+  CHECK(json["device"].keys() == Names{"kind", "name"});
+  CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift"});
+  CHECK(json["contacts"].keys() == Names{"steps", "pairs_max", "reverted_vertices"});
+  CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
   CHECK(json["skipped"].is_object());
   CHECK(json["timings_ms"].is_object());
 }
@@ -75,7 +68,7 @@ TEST_CASE("a summary's values read back as they were") {
   summary.skipped = {{"forces", 3}, {"collision", 4}};
   summary.timings_ms = {{"step", 1.25}};
   summary.pass_timings_ms = {{"refit", 0.25}};
-  const Json json = written(summary);
+  const ReadJson json = written(summary);
   CHECK(json["scene"] == summary.scene);
   CHECK(json["device"]["kind"] == "gpu");
   CHECK(json["time_step"] == 0.1);
@@ -86,7 +79,7 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(json["energy"]["max_drift"] == 1e-7);
   CHECK(json["contacts"]["pairs_max"] == 17);
   CHECK(json["work"]["triangle_tests"] == 99);
-  CHECK(keys(json["skipped"]) == std::vector<std::string>{"forces", "collision"});
+  CHECK(json["skipped"].keys() == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);
   CHECK(json["timings_ms"]["passes"]["refit"] == 0.25);
 }
@@ -95,9 +88,9 @@ TEST_CASE("steps that a tolerance governs have no one length, but are counted") 
   Summary summary;
   summary.adaptive = {
       .tolerance = 1e-6, .accepted = 5, .rejected = 2, .rejected_in_contact = 1, .smallest_step = 0.25, .largest_step = 0.5};
-  const Json json = written(summary);
+  const ReadJson json = written(summary);
   CHECK(json["time_step"].is_null());
-  CHECK(keys(json["adaptive"]) ==
+  CHECK(json["adaptive"].keys() ==
         std::vector<std::string>{"tolerance", "accepted", "rejected", "rejected_in_contact", "smallest_step", "largest_step"});
   CHECK(json["adaptive"]["tolerance"] == 1e-6);
   CHECK(json["adaptive"]["accepted"] == 5);
@@ -111,7 +104,7 @@ TEST_CASE("what is not a finite number is null") {
   Summary summary;
   summary.energy.final = std::numeric_limits<double>::quiet_NaN();
   summary.steps_per_second = std::numeric_limits<double>::infinity();
-  const Json json = written(summary);
+  const ReadJson json = written(summary);
   CHECK(json["energy"]["final"].is_null());
   CHECK(json["energy"]["max_drift"].is_null());
   CHECK(json["steps_per_second"].is_null());

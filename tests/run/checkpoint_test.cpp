@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/read_text.hpp"
@@ -13,12 +12,14 @@
 #include "output/checkpoint_file.hpp"
 #include "output/file_lock.hpp"
 #include "support/has.hpp"
+#include "support/json.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
 
+using test::ReadJson;
 using test::ScratchFolder;
 
 // Two small spheres that collide. The run has so many reports that it waits for someone to read its progress before it is over.
@@ -35,9 +36,9 @@ std::filesystem::path scene_in(const ScratchFolder& folder, const std::string& s
 const std::string verlet = "time_step = 0.002\nintegrator = \"verlet\"\nduration = 4";
 
 // What a run says of itself, without how long it took.
-nlohmann::json account_in(const std::filesystem::path& folder) {
-  auto summary = nlohmann::json::parse(read_text(folder / "summary.json"));
-  for (const char* key : {"wall_seconds", "steps_per_second", "timings_ms"}) summary.erase(key);
+ReadJson account_in(const std::filesystem::path& folder) {
+  auto summary = ReadJson::parse(read_text(folder / "summary.json"));
+  for (const char* key : {"wall_seconds", "steps_per_second", "timings_ms"}) summary = summary.without(key);
   return summary;
 }
 
@@ -209,7 +210,7 @@ TEST_CASE("a run goes on on another device or at another precision only if told 
   for (const char* kind : {"cpu", "auto"}) {
     const Begun begun;
     begun.lengthen();
-    const std::string device = account_in(begun.folder.path / "out")["device"]["name"];
+    const std::string device = account_in(begun.folder.path / "out")["device"]["name"].get<std::string>();
     begun.replace(device, std::string(device.size(), 'x'));
     begun.check_refused(4, "its bits would differ");
     const ProgramResult told = begun.resume(std::string(" --device ") + kind);
@@ -283,7 +284,7 @@ TEST_CASE("a run begun by a pliant of another version or another commit goes on 
 
 TEST_CASE("the times of loading and building are sums over all parts of a run, as others are") {
   const Begun begun;
-  const auto timings = [&] { return nlohmann::json::parse(read_text(begun.folder.path / "out/summary.json"))["timings_ms"]; };
+  const auto timings = [&] { return ReadJson::parse(read_text(begun.folder.path / "out/summary.json"))["timings_ms"]; };
   const auto before = timings();
   REQUIRE(begun.resume().exit_code == 0);
   for (const char* part : {"load", "build"}) CHECK(timings()[part] > before[part]);

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "core/read_text.hpp"
 #include "support/has.hpp"
+#include "support/json.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/stand_in.hpp"
@@ -17,6 +17,7 @@
 namespace pliant {
 namespace {
 
+using test::ReadJson;
 using test::ScratchFolder;
 using test::StandIn;
 
@@ -38,7 +39,7 @@ struct Drawn {
   std::vector<std::string> endless() const {
     return {"run", scene, "--device", "cpu", "--out", folder.path.string(), "--video", video, "--steps", "100000000"};
   }
-  nlohmann::json summary() const { return nlohmann::json::parse(read_text(folder.path / "summary.json")); }
+  ReadJson summary() const { return ReadJson::parse(read_text(folder.path / "summary.json")); }
 };
 
 const std::string recorder = "printf '%s\\n' \"$@\" > \"$0.arguments\"\ncat > \"$0.input\"\necho whole > \"$0.end\"\n";
@@ -74,7 +75,7 @@ TEST_CASE("without ffmpeg a run says so and writes PNG frames", "[gl]") {
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("no ffmpeg on PATH") && Catch::Contains("(7 files)"));
-  CHECK_THAT(drawn.summary()["warnings"].dump(), Catch::Contains("no ffmpeg"));
+  CHECK_THAT(drawn.summary()["warnings"].text(), Catch::Contains("no ffmpeg"));
   CHECK(std::filesystem::exists(drawn.folder.path / "frames/frame_0006.png"));
   CHECK_FALSE(std::filesystem::exists(drawn.video));
 }
@@ -113,7 +114,7 @@ TEST_CASE("an ffmpeg that dies on the way costs the video alone, with a warning 
   CAPTURE(result.output);
   CHECK(result.exit_code == 2);
   CHECK_THAT(result.output, Catch::Contains("warning: the video ends here") && Catch::Contains("no room left"));
-  CHECK_THAT(drawn.summary()["warnings"].dump(), Catch::Contains("no room left"));
+  CHECK_THAT(drawn.summary()["warnings"].text(), Catch::Contains("no room left"));
   CHECK(drawn.summary()["steps"] == 1000);
   CHECK(std::filesystem::exists(drawn.folder.path / "final_state.csv"));
 }

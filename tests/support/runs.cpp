@@ -10,9 +10,7 @@ namespace pliant::test {
 
 std::size_t line_count(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
 
-nlohmann::json summary_in(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(read_text(folder / "summary.json"));
-}
+ReadJson summary_in(const std::filesystem::path& folder) { return ReadJson::parse(read_text(folder / "summary.json")); }
 
 std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more) {
   const auto path = folder.path / "small.toml";

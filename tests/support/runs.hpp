@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/json.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant::test {
@@ -13,7 +13,7 @@ namespace pliant::test {
 std::size_t line_count(const std::string& text);
 
 /// The summary of a run into this folder.
-nlohmann::json summary_in(const std::filesystem::path& folder);
+ReadJson summary_in(const std::filesystem::path& folder);
 
 /// A scene of two small spheres, quick to run. `more` goes into [simulation].
 std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& more = "");

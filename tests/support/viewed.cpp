@@ -62,7 +62,7 @@ Viewed::Viewed(const VirtualDisplay& display, const ScratchFolder& folder, const
       folder_(folder.path),
       program_(command(scene_to_view(folder), device, more),
                {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, folder.path) {
-  await([](const Json&) { return true; });
+  await([](const ReadJson&) { return true; });
   window_ = display.run("xdotool search --sync --onlyvisible --name 'Small - pliant'");
   window_.erase(window_.find_last_not_of('\n') + 1);
   xdotool("windowfocus --sync " + window_);
@@ -75,9 +75,11 @@ std::string Viewed::await_line(const std::function<bool(const std::string&)>& is
   throw std::runtime_error("no line was as wanted");
 }
 
-Json Viewed::await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most) {
-  const auto is_wanted_report = [&](const std::string& line) { return line.starts_with('{') && is_wanted(Json::parse(line)); };
-  return Json::parse(await_line(is_wanted_report, at_most));
+ReadJson Viewed::await(const std::function<bool(const ReadJson&)>& is_wanted, std::chrono::minutes at_most) {
+  const auto is_wanted_report = [&](const std::string& line) {
+    return line.starts_with('{') && is_wanted(ReadJson::parse(line));
+  };
+  return ReadJson::parse(await_line(is_wanted_report, at_most));
 }
 
 std::string Viewed::await_text(const std::string& beginning) {

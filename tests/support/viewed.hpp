@@ -7,20 +7,18 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
 
 #include "support/display.hpp"
+#include "support/json.hpp"
 #include "support/pictures.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant::test {
 
-using Json = nlohmann::json;
+inline glm::dvec3 place(const ReadJson& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
+inline glm::dvec3 eye_from_target(const ReadJson& line) { return place(line["camera"]["eye"]) - place(line["camera"]["target"]); }
 
-inline glm::dvec3 place(const Json& json) { return {json[0], json[1], json[2]}; }
-inline glm::dvec3 eye_from_target(const Json& line) { return place(line["camera"]["eye"]) - place(line["camera"]["target"]); }
-
-inline bool has_turned_by_a_quarter(const Json& before, const Json& after) {
+inline bool has_turned_by_a_quarter(const ReadJson& before, const ReadJson& after) {
   const glm::dvec3 old = eye_from_target(before);
   return glm::distance(eye_from_target(after), glm::dvec3(-old.z, old.y, old.x)) < 1e-6 * glm::length(old);
 }
@@ -45,7 +43,7 @@ class Viewed {
   void click(const glm::ivec2& at) const { xdotool(move_to(at) + "click 1"); }
   void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted.
-  Json await(const std::function<bool(const Json&)>& is_wanted, std::chrono::minutes at_most = std::chrono::minutes(2));
+  ReadJson await(const std::function<bool(const ReadJson&)>& is_wanted, std::chrono::minutes at_most = std::chrono::minutes(2));
   /// Reads lines until one begins with this.
   std::string await_text(const std::string& beginning);
   /// The picture that the program saves.
@@ -66,10 +64,10 @@ class Viewed {
 };
 
 inline auto step_is(std::uint64_t step) {
-  return [step](const Json& line) { return line["step"] == step; };
+  return [step](const ReadJson& line) { return line["step"] == step; };
 }
 inline auto size_is(unsigned width, unsigned height) {
-  return [=](const Json& line) { return line["size"] == Json{width, height}; };
+  return [=](const ReadJson& line) { return line["size"] == std::vector<ReadJson>{width, height}; };
 }
 
 /// The pixels of the red body: how many there are, and where they are on average.

@@ -20,20 +20,20 @@ TEST_CASE("the panel and the help come and go, and what happens over them leaves
     Viewed viewed(display, folder, device);
     const render::Image alone = viewed.saved_picture();
     viewed.press("Tab");
-    const Json with_panel = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+    const ReadJson with_panel = viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
     CHECK(viewed.shows_another(alone));
     viewed.drag(1, {60, 100}, {150, 120});
     viewed.xdotool("click 5");
     viewed.press("period");
-    const Json after = viewed.await(step_is(1));
+    const ReadJson after = viewed.await(step_is(1));
     CHECK(after["camera"] == with_panel["camera"]);
     viewed.press("comma");
     viewed.await(step_is(0));
     viewed.press("Tab");
     viewed.press("F1");
-    viewed.await([](const Json& line) { return !line["panel"] && line["help"]; });
+    viewed.await([](const ReadJson& line) { return !line["panel"].get<bool>() && line["help"].get<bool>(); });
     viewed.press("F1");
-    viewed.await([](const Json& line) { return !line["help"]; });
+    viewed.await([](const ReadJson& line) { return !line["help"].get<bool>(); });
     CHECK(viewed.shows(alone));
     CHECK(are_alike(viewed.saved_picture(), alone));
   }
@@ -51,7 +51,7 @@ TEST_CASE("the panel's buttons do what keys do, and its list opens the scenes be
   std::ofstream(folder.path / "another.toml") << "[[body]]\nmesh = \"icosphere:1\"\n";
   Viewed viewed(display, folder, "cpu");
   viewed.press("Tab");
-  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
   viewed.click(step_button);
   viewed.await(step_is(1));
   viewed.click(step_button);
@@ -59,17 +59,18 @@ TEST_CASE("the panel's buttons do what keys do, and its list opens the scenes be
   viewed.click(back_button);
   viewed.await(step_is(1));
   viewed.click(gpu_button);
-  viewed.await([](const Json& line) { return line["device"] == "gpu"; });
+  viewed.await([](const ReadJson& line) { return line["device"] == "gpu"; });
   viewed.click(play_button);
-  viewed.await([](const Json& line) { return !line["paused"] && line["step"] > 1; });
+  viewed.await([](const ReadJson& line) { return !line["paused"].get<bool>() && line["step"] > 1; });
   viewed.click(play_button);
-  viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["paused"].get<bool>(); });
   viewed.click(reset_button);
   viewed.await(step_is(0));
   viewed.click(scene_list);
-  viewed.await([](const Json& line) { return line["windows"] == 2; });
+  viewed.await([](const ReadJson& line) { return line["windows"] == 2; });
   viewed.click(first_in_list);
-  const Json opened = viewed.await([](const Json& line) { return !line["scene"].get<std::string>().ends_with("small.toml"); });
+  const ReadJson opened =
+      viewed.await([](const ReadJson& line) { return !line["scene"].get<std::string>().ends_with("small.toml"); });
   CHECK_THAT(opened["scene"].get<std::string>(), Catch::EndsWith("another.toml"));
   CHECK(opened["panel"].get<bool>());
 }
@@ -80,17 +81,17 @@ TEST_CASE("a widget that is held when the panel goes is let go by the mouse, whe
   const ScratchFolder folder;
   Viewed viewed(display, folder, "cpu");
   viewed.press("Tab");
-  const Json before = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  const ReadJson before = viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
   viewed.xdotool(viewed.move_to(speed_slider) + "mousedown 1");
-  const Json pressed = viewed.await([](const Json& line) { return line["speed"] != 1; });
+  const ReadJson pressed = viewed.await([](const ReadJson& line) { return line["speed"] != 1; });
   viewed.xdotool(viewed.move_to(speed_slider + farther_right));
-  const Json held = viewed.await([&](const Json& line) { return line["speed"] > pressed["speed"].get<double>(); });
+  const ReadJson held = viewed.await([&](const ReadJson& line) { return line["speed"] > pressed["speed"].get<double>(); });
   viewed.press("Tab");
-  viewed.await([](const Json& line) { return !line["panel"]; });
+  viewed.await([](const ReadJson& line) { return !line["panel"].get<bool>(); });
   viewed.xdotool(viewed.move_to(speed_slider) + "mouseup 1 key Tab " + viewed.move_to(speed_slider + 2 * farther_right));
   for (std::uint64_t step = 1; step <= 4; ++step) {  // a few pictures
     viewed.press("period");
-    const Json after = viewed.await(step_is(step));
+    const ReadJson after = viewed.await(step_is(step));
     CHECK(after["panel"].get<bool>());
     CHECK(after["speed"] == held["speed"]);
     CHECK(after["camera"] == before["camera"]);
@@ -103,11 +104,11 @@ TEST_CASE("what was told of a breakdown is gone when the panel goes back to the 
   const ScratchFolder folder;
   Viewed viewed(display, folder, "cpu", {"--set", "simulation.time_step=1e30", "--set", "body.body1.stretch=[0.8, 1, 1]"});
   viewed.press("Tab");
-  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
   viewed.press("period");
   CHECK_THAT(viewed.await(step_is(1))["message"].get<std::string>(), Catch::Contains("non-finite"));
   viewed.click(reset_button);
-  const Json restarted = viewed.await(step_is(0));
+  const ReadJson restarted = viewed.await(step_is(0));
   CHECK(restarted["message"] == "");
   CHECK(restarted["title"] == "Small - pliant (paused at 0 s)");
 }
@@ -118,14 +119,15 @@ TEST_CASE("what happens over the help leaves the scene alone, and beside it does
   const ScratchFolder folder;
   Viewed viewed(display, folder, "cpu", {"--set", "output.size=[800, 300]"});
   viewed.press("Tab");
-  viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
   viewed.press("Tab");
   viewed.press("F1");
-  const Json before = viewed.await([](const Json& line) { return !line["panel"] && line["help"]; });
+  const ReadJson before =
+      viewed.await([](const ReadJson& line) { return !line["panel"].get<bool>() && line["help"].get<bool>(); });
   viewed.drag(1, {700, 100}, {650, 120});
   viewed.xdotool("click 5");
   viewed.drag(1, {60, 100}, {260, 100});  // where the panel was, by a quarter of the width
-  viewed.await([&](const Json& line) { return has_turned_by_a_quarter(before, line); });
+  viewed.await([&](const ReadJson& line) { return has_turned_by_a_quarter(before, line); });
 }
 
 TEST_CASE("on a dense display the panel is larger", "[gl][long]") {
@@ -135,8 +137,8 @@ TEST_CASE("on a dense display the panel is larger", "[gl][long]") {
   const ScratchFolder folder;
   Viewed viewed(display, folder, "cpu");
   viewed.press("Tab");
-  const Json before = viewed.await([](const Json& line) { return line["panel"].get<bool>(); });
-  CHECK(before["size"] == Json{640, 480});
+  const ReadJson before = viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
+  CHECK(before["size"] == std::vector<ReadJson>{640, 480});
   viewed.click(2 * step_button);
   viewed.await(step_is(1));
 }

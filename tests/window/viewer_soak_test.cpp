@@ -31,13 +31,13 @@ TEST_CASE("a viewer that plays for ten minutes needs no more memory than after s
   viewed.press("Tab");
   viewed.press("space");
   const auto play_until = [&, began = std::chrono::steady_clock::now()](std::chrono::minutes end) {
-    viewed.await([&](const Json&) { return std::chrono::steady_clock::now() - began > end; }, end + std::chrono::minutes(1));
+    viewed.await([&](const ReadJson&) { return std::chrono::steady_clock::now() - began > end; }, end + std::chrono::minutes(1));
     return resident_memory(viewed.program().id());
   };
   const double after_six = play_until(std::chrono::minutes(6)), after_ten = play_until(std::chrono::minutes(10));
   WARN("after 6 minutes " << after_six << " MiB, after 10 " << after_ten);
   CHECK(after_ten - after_six < 4);
-  CHECK_FALSE(viewed.await([](const Json&) { return true; })["paused"].get<bool>());
+  CHECK_FALSE(viewed.await([](const ReadJson&) { return true; })["paused"].get<bool>());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ void check_playing(Viewed& viewed) {
   CHECK(viewed.shows(first));
   for (const std::uint64_t step : {1, 2, 3}) {
     viewed.press("period");
-    CHECK(viewed.await(step_is(step))["time"] == Approx(0.01 * static_cast<double>(step)));
+    CHECK(viewed.await(step_is(step))["time"].get<double>() == Approx(0.01 * static_cast<double>(step)));
   }
   const render::Image third = viewed.saved_picture();
   CHECK_FALSE(are_alike(third, first));
@@ -30,10 +30,10 @@ void check_playing(Viewed& viewed) {
   CHECK(are_alike(viewed.saved_picture(), third));
 
   viewed.press("space");
-  const Json playing = viewed.await([](const Json& line) { return !line["paused"] && line["step"] > 3; });
-  viewed.await([&](const Json& line) { return line["step"] > playing["step"]; });
+  const ReadJson playing = viewed.await([](const ReadJson& line) { return !line["paused"].get<bool>() && line["step"] > 3; });
+  viewed.await([&](const ReadJson& line) { return line["step"] > playing["step"]; });
   viewed.press("space");
-  const Json paused = viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+  const ReadJson paused = viewed.await([](const ReadJson& line) { return line["paused"].get<bool>(); });
   CHECK_THAT(paused["title"].get<std::string>(), Catch::Contains("paused"));
   viewed.press("comma");
   viewed.await(step_is(paused["step"].get<std::uint64_t>() - 1));
@@ -44,16 +44,16 @@ void check_playing(Viewed& viewed) {
 }
 
 void check_camera(Viewed& viewed) {
-  Json before = viewed.await([](const Json&) { return true; });
+  ReadJson before = viewed.await([](const ReadJson&) { return true; });
   viewed.drag(1, {100, 100}, {180, 100});  // a quarter of the window's width
-  before = viewed.await([&](const Json& line) { return has_turned_by_a_quarter(before, line); });
+  before = viewed.await([&](const ReadJson& line) { return has_turned_by_a_quarter(before, line); });
   viewed.xdotool("click 4");
-  const auto is_nearer = [&](const Json& line) {
+  const auto is_nearer = [&](const ReadJson& line) {
     return std::abs(glm::length(eye_from_target(line)) - 0.9 * glm::length(eye_from_target(before))) < 1e-9;
   };
   before = viewed.await(is_nearer);
   viewed.drag(3, {100, 100}, {130, 90});
-  const auto has_shifted = [&](const Json& line) {
+  const auto has_shifted = [&](const ReadJson& line) {
     return line["camera"]["target"] != before["camera"]["target"] &&
            glm::distance(eye_from_target(line), eye_from_target(before)) < 1e-9;
   };
@@ -61,13 +61,13 @@ void check_camera(Viewed& viewed) {
   const render::Image surface = viewed.saved_picture();
   CHECK(viewed.shows(surface));
   viewed.press("w");
-  viewed.await([](const Json& line) { return line["wireframe"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["wireframe"].get<bool>(); });
   CHECK_FALSE(are_alike(viewed.saved_picture(), surface));
   viewed.press("w");
-  viewed.await([](const Json& line) { return !line["wireframe"]; });
+  viewed.await([](const ReadJson& line) { return !line["wireframe"].get<bool>(); });
   CHECK(are_alike(viewed.saved_picture(), surface));
   viewed.press("f");
-  viewed.await([](const Json& line) { return glm::length(place(line["camera"]["target"])) < 1e-6; });
+  viewed.await([](const ReadJson& line) { return glm::length(place(line["camera"]["target"])) < 1e-6; });
 }
 
 void check_window(Viewed& viewed) {
@@ -79,10 +79,10 @@ void check_window(Viewed& viewed) {
   CHECK(viewed.shows(resized));
 
   viewed.press("space");
-  viewed.await([](const Json& line) { return !line["paused"]; });
+  viewed.await([](const ReadJson& line) { return !line["paused"].get<bool>(); });
   viewed.xdotool("windowminimize " + viewed.window());
-  const Json minimised = viewed.await(size_is(0, 0));
-  viewed.await([&](const Json& line) { return line["step"] > minimised["step"]; });
+  const ReadJson minimised = viewed.await(size_is(0, 0));
+  viewed.await([&](const ReadJson& line) { return line["step"] > minimised["step"]; });
   viewed.xdotool("windowactivate --sync " + viewed.window());
   viewed.await(size_is(402, 301));
   viewed.press("alt+F4");
@@ -119,13 +119,13 @@ TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scen
   std::ofstream(bad) << "no mesh\n";
   viewed.drop(bad);
   CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("bad.obj"));
-  const Json kept =
-      viewed.await([](const Json& line) { return line["title"].get<std::string>().find("bad.obj") != std::string::npos; });
+  const ReadJson kept =
+      viewed.await([](const ReadJson& line) { return line["title"].get<std::string>().find("bad.obj") != std::string::npos; });
   CHECK_THAT(kept["scene"].get<std::string>(), Catch::EndsWith("small.toml"));
   CHECK(are_alike(viewed.saved_picture(), before));
 
   viewed.drop(source_dir() + "/meshes/teapot.obj");
-  viewed.await([](const Json& line) { return line["title"].get<std::string>().starts_with("teapot"); });
+  viewed.await([](const ReadJson& line) { return line["title"].get<std::string>().starts_with("teapot"); });
   const render::Image teapot = viewed.saved_picture();
   CHECK_FALSE(are_alike(teapot, before));
   CHECK(viewed.shows(teapot));
@@ -142,23 +142,23 @@ TEST_CASE("Ctrl and the mouse pull a body, and D moves the scene to the other de
     viewed.press("space");
     viewed.xdotool("keydown ctrl " + viewed.move_to(before) + "mousedown 1 " + viewed.move_to(before - glm::ivec2(0, 40)) +
                    "keyup ctrl");
-    const Json pulled = viewed.await([](const Json& line) { return line["pulls"].get<bool>(); });
-    viewed.await([&](const Json& line) { return line["time"] > pulled["time"].get<double>() + 0.5; });
+    const ReadJson pulled = viewed.await([](const ReadJson& line) { return line["pulls"].get<bool>(); });
+    viewed.await([&](const ReadJson& line) { return line["time"] > pulled["time"].get<double>() + 0.5; });
     CHECK(Reddish(viewed.saved_picture()).centre().y < before.y - 10);
     viewed.xdotool("mouseup 1");
-    const Json released = viewed.await([](const Json& line) { return !line["pulls"]; });
+    const ReadJson released = viewed.await([](const ReadJson& line) { return !line["pulls"].get<bool>(); });
     CHECK(released["camera"] == pulled["camera"]);
 
     viewed.press("space");
-    viewed.await([](const Json& line) { return line["paused"].get<bool>(); });
+    viewed.await([](const ReadJson& line) { return line["paused"].get<bool>(); });
     const render::Image here = viewed.saved_picture();
     viewed.press("d");
-    const Json moved = viewed.await([&](const Json& line) { return line["device"] != device; });
+    const ReadJson moved = viewed.await([&](const ReadJson& line) { return line["device"] != device; });
     CHECK(are_alike(viewed.saved_picture(), here));
     viewed.press("period");
     viewed.await(step_is(moved["step"].get<std::uint64_t>() + 1));
     viewed.press("d");
-    viewed.await([&](const Json& line) { return line["device"] == device; });
+    viewed.await([&](const ReadJson& line) { return line["device"] == device; });
   }
 }
 
@@ -168,14 +168,14 @@ TEST_CASE("a key that is held ends its work when it is let go, and only steps re
   const ScratchFolder folder;
   Viewed viewed(display, folder, "cpu");
   viewed.xdotool("keydown period");
-  viewed.await([](const Json& line) { return line["step"] > 3; });
+  viewed.await([](const ReadJson& line) { return line["step"] > 3; });
   viewed.xdotool("keyup period key w");
-  const Json after = viewed.await([](const Json& line) { return line["wireframe"].get<bool>(); });
+  const ReadJson after = viewed.await([](const ReadJson& line) { return line["wireframe"].get<bool>(); });
   viewed.xdotool("keydown w");  // would flip back and forth
-  viewed.await([](const Json& line) { return !line["wireframe"]; });
+  viewed.await([](const ReadJson& line) { return !line["wireframe"].get<bool>(); });
   viewed.xdotool("sleep 1 keyup w key period");
-  const Json last = viewed.await(step_is(after["step"].get<std::uint64_t>() + 1));
-  CHECK_FALSE(last["wireframe"]);
+  const ReadJson last = viewed.await(step_is(after["step"].get<std::uint64_t>() + 1));
+  CHECK_FALSE(last["wireframe"].get<bool>());
 }
 
 TEST_CASE("a key does what the layout writes by it, and nothing beside Ctrl", "[gl][long]") {
@@ -185,13 +185,13 @@ TEST_CASE("a key does what the layout writes by it, and nothing beside Ctrl", "[
   Viewed viewed(display, folder, "cpu");
   viewed.press("ctrl+w");
   viewed.press("period");
-  CHECK_FALSE(viewed.await(step_is(1))["wireframe"]);
+  CHECK_FALSE(viewed.await(step_is(1))["wireframe"].get<bool>());
   (void)display.run("setxkbmap fr");
   viewed.press("period");  // Shift and another key there
   viewed.await(step_is(2));
   (void)display.run("setxkbmap ru");
   viewed.press("Cyrillic_tse");  // where W is in a Latin layout
-  viewed.await([](const Json& line) { return line["wireframe"].get<bool>(); });
+  viewed.await([](const ReadJson& line) { return line["wireframe"].get<bool>(); });
 }
 
 TEST_CASE("a step that goes non-finite is told at once", "[gl]") {

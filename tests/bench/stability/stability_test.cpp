@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "bench/stability/report.hpp"
 #include "dynamics/stability.hpp"
 #include "model/deform.hpp"
+#include "support/json.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -154,7 +154,7 @@ TEST_CASE("the suite keeps its finished rows when it is told to end") {
   REQUIRE(result.rows.size() == 3);
   const std::string table = to_table(result);
   CHECK_THAT(table, Catch::Contains("limits") && Catch::Contains("verlet") && !Catch::Contains("errors"));
-  const auto json = nlohmann::json::parse(to_json({}, {}, result));
+  const auto json = test::ReadJson::parse(to_json({}, {}, result));
   CHECK(json["interrupted"] == true);
   CHECK(json["rows"].size() == 3);
 }
@@ -168,7 +168,7 @@ TEST_CASE("a quick run of the suite has rows of every kind, and nothing within i
   CHECK(std::ranges::is_sorted(done));
   CHECK(done.back() == 1);
   std::set<std::string> kinds, families;
-  const auto json = nlohmann::json::parse(to_json({}, {}, result));
+  const auto json = test::ReadJson::parse(to_json({}, {}, result));
   for (const auto& row : json["rows"]) {
     kinds.insert(row["kind"].get<std::string>());
     if (row["kind"] == "error") families.insert(row["family"].get<std::string>());
