@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "mesh/report.hpp"
 #include "model/body_error.hpp"
@@ -30,41 +31,70 @@ void expect_encloses(const BodySetup& setup) {
                      "turn all triangles, or leave the pressure out");
 }
 
-// Returns a bound on the norm of the volume's second derivative [m]. The derivative by two vertices a and b is the cross product
-// with a vector of the edge ab. That vector is the sum of the edge's triangles' third corners over 6, with the sign of the edge's
-// direction. The largest sum of these lengths over a vertex's edges is the bound (Gershgorin).
-double curvature_of_volume(const Model& model, const ModelBody& body) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> third_corners;
-  for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
+// What two triangles at an edge add to the volume's second derivative.
+struct EdgeTerm {
+  std::uint32_t low, high;  // the edge's vertices
+  glm::dvec3 third;         // a triangle's third corner over 6, with the sign of the edge's direction
+};
+
+// Returns the terms of each edge one behind the other, in the order of triangles.
+std::vector<EdgeTerm> edge_terms(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  std::vector<EdgeTerm> terms;
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = model.triangles[t][k], b = model.triangles[t][(k + 1) % 3], c = model.triangles[t][(k + 2) % 3];
-      third_corners[std::minmax(a, b)] += (a < b ? 1.0 : -1.0) * model.rest_position(c) / 6.0;
+      const auto [low, high] = std::minmax({a - body.first_vertex, b - body.first_vertex});
+      terms.push_back({low, high, (a < b ? 1.0 : -1.0) * positions[c - body.first_vertex] / 6.0});
     }
-  std::map<std::uint32_t, double> sums;
-  for (const auto& [edge, sum] : third_corners)
-    for (const std::uint32_t end : {edge.first, edge.second}) sums[end] += glm::length(sum);
-  double largest = 0;
-  for (const auto& [vertex, sum] : sums) largest = std::max(largest, sum);
-  return largest;
+  std::ranges::stable_sort(terms, {}, [](const EdgeTerm& term) { return std::pair(term.low, term.high); });
+  return terms;
+}
+
+// Returns a bound on the norm of the volume's second derivative [m]. The derivative by two vertices a and b is the cross product
+// with a vector of the edge ab. That vector is the sum of the edge's terms. The largest sum of these lengths over a vertex's
+// edges is the bound (Gershgorin).
+double curvature_of_volume(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  const std::vector<EdgeTerm> terms = edge_terms(model, body, positions);
+  std::vector<double> sums(body.vertex_count, 0.0);
+  for (std::size_t k = 0; k < terms.size();) {
+    const auto [low, high, first] = terms[k];
+    glm::dvec3 sum(0.0);
+    for (; k < terms.size() && terms[k].low == low && terms[k].high == high; ++k) sum += terms[k].third;
+    sums[low] += glm::length(sum);
+    sums[high] += glm::length(sum);
+  }
+  return std::ranges::max(sums);
 }
 
 }  // namespace
 
+VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  VolumeAt at;
+  std::vector<glm::dvec3> gradients(body.vertex_count, glm::dvec3(0.0));
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t corner = model.triangles[t][k] - body.first_vertex;
+      const glm::dvec3 a = positions[corner], b = positions[model.triangles[t][(k + 1) % 3] - body.first_vertex],
+                       c = positions[model.triangles[t][(k + 2) % 3] - body.first_vertex];
+      gradients[corner] += physics::volume_gradient(a, b, c);
+      if (k == 0) at.volume += physics::volume_below(a, b, c);
+    }
+  for (const glm::dvec3& gradient : gradients) at.gradient_squared += glm::dot(gradient, gradient);
+  at.curvature = curvature_of_volume(model, body, positions);
+  return at;
+}
+
 Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& body) {
   expect_encloses(setup);
-  Inflation inside{.pressure = setup.description.pressure, .law = setup.description.pressure_law};
-  std::vector<glm::dvec3> gradients(body.vertex_count, glm::dvec3(0.0));
-  for (std::size_t t = body.first_triangle; t < model.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t corner = model.triangles[t][k];
-      const glm::dvec3 a = model.rest_position(corner), b = model.rest_position(model.triangles[t][(k + 1) % 3]),
-                       c = model.rest_position(model.triangles[t][(k + 2) % 3]);
-      gradients[corner - body.first_vertex] += physics::volume_gradient(a, b, c);
-      if (k == 0) inside.rest_volume += physics::volume_below(a, b, c);
-    }
-  for (const glm::dvec3& gradient : gradients) inside.gradient_squared += glm::dot(gradient, gradient);
-  inside.curvature = curvature_of_volume(model, body);
-  return inside;
+  std::vector<glm::dvec3> positions;
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
+    positions.push_back(model.rest_position(i));
+  const VolumeAt rest = volume_at(model, body, positions);
+  return {.pressure = setup.description.pressure,
+          .law = setup.description.pressure_law,
+          .rest_volume = rest.volume,
+          .gradient_squared = rest.gradient_squared,
+          .curvature = rest.curvature};
 }
 
 }  // namespace pliant

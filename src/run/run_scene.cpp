@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <set>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -170,16 +169,17 @@ class Run {
                      .reverted_vertices = report_.reverted_vertices});
   }
 
-  // Warns once for each force.
   void warn_of_forces() {
-    for (const Force& force : forces()) {
-      if (force.warning == nullptr || warned_of_.contains(force.name)) continue;
-      const auto warning = force.warning(run_.start.model, state_);
-      if (!warning) continue;
-      warned_of_.insert(force.name);
-      run_.warnings.push_back(*warning);
-      fmt::print(stderr, "pliant: warning: {}\n", *warning);
-    }
+    for (const Force& force : forces())
+      if (force.warnings != nullptr)
+        for (const std::string& warning : force.warnings(run_.start.model, state_)) warn_once(warning);
+  }
+
+  // A resumed run holds the warnings from before, so it does not repeat them.
+  void warn_once(const std::string& warning) {
+    if (std::ranges::find(run_.warnings, warning) != run_.warnings.end()) return;
+    run_.warnings.push_back(warning);
+    fmt::print(stderr, "pliant: warning: {}\n", warning);
   }
 
   // After Ctrl-C it measures for a moment only. If that is too short, the elastic energy is missing.
@@ -267,7 +267,6 @@ class Run {
   StepReport report_;
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
-  std::set<std::string_view> warned_of_;          // names of forces
   bool has_state_ = false, has_summary_ = false;  // this run has written them
 };
 

@@ -97,6 +97,41 @@ TEST_CASE("a run on the GPU that is killed and resumed ends as one that is not, 
   check_killed_run(verlet, " --device gpu --duration 3");
 }
 
+std::size_t count_of(std::string_view part, std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string_view::npos; at += part.size()) ++count;
+  return count;
+}
+
+TEST_CASE("a body pressed below half its volume is named once, and a resumed run names it no second time") {
+  const ScratchFolder folder;
+  const std::string checkpoint = (folder.path / "run.checkpoint").string();
+  std::vector<std::string> arguments = {"run",          scene_in(folder, verlet).string(),
+                                        "--device",     "cpu",
+                                        "--frames",     "obj",
+                                        "--out",        folder.path.string(),
+                                        "--checkpoint", checkpoint};
+  for (const std::string body : {"left", "right"})
+    for (const char* key : {"pressure=1e-3", "stiffness=1e-3", "stretch=[1,1,0.4]", "velocity=[0,0,0]"}) {
+      arguments.push_back("--set");
+      arguments.push_back("body." + body + "." + key);
+    }
+  ProgramInTerminal program(arguments);
+  REQUIRE(program.has_shown_progress(9));
+  const ProgramResult begun = program.end_by(SIGINT);
+  REQUIRE(begun.exit_code == 130);
+  const ProgramResult resumed = run_program("run --resume " + checkpoint);
+  REQUIRE(resumed.exit_code == 0);
+  const std::string told = account_in(folder.path)["warnings"].dump();
+  for (const std::string body : {"left", "right"}) {
+    CAPTURE(begun.output, resumed.output, told);
+    const std::string warning = "body \"" + body + "\" was pressed below 0.5 of its rest volume";
+    CHECK(count_of(warning, begun.output) == 1);
+    CHECK(count_of(warning, resumed.output) == 1);  // as it tells all warnings from before at its beginning
+    CHECK(count_of("body \\\"" + body + "\\\" was pressed", told) == 1);
+  }
+}
+
 TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from which it ends as one that is not") {
   const ScratchFolder folder;
   const std::string scene = scene_in(folder, verlet).string(), checkpoint = (folder.path / "run.checkpoint").string();

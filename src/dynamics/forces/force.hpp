@@ -2,7 +2,6 @@
 #pragma once
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,8 +44,9 @@ struct Force {
   double (*frequency_squared)(const ModelBody& body);
   /// Null for the springs, which force kernels sum themselves.
   std::unique_ptr<AddedForce> (*make)(DeviceBodies& bodies, const Model& model);
-  /// Says that a body is beyond what frequency_squared holds for, and what helps. Null if that holds everywhere.
-  std::optional<std::string> (*warning)(const Model& model, const State& state);
+  /// Returns a text for each body that is beyond what frequency_squared holds for. It names the body and says what helps. A body
+  /// gets the same text again at a later state, so that a run tells it once. Null if the force has nothing to tell.
+  std::vector<std::string> (*warnings)(const Model& model, const State& state);
 };
 
 /// Returns all forces, the springs first.

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "model/inflation.hpp"
 #include "physics/forces/pressure.glsl"
 
 namespace pliant {
@@ -124,29 +126,51 @@ double pressure_energy(const EnergyQuestion& question) {
 
 double pressure_energy_scale(const ModelBody& body) { return body.inflation.pressure * body.inflation.rest_volume; }
 
-// For a gas the second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 minus p times the second derivative of V. Down to half
-// the rest volume p is at most 2 p0. A shape that is pressed flat keeps its dV/dx. One that grows makes up for it by its lower
-// pressure.
-constexpr double least_volume = 0.5;  // of the rest volume
-
-double pressure_frequency_squared(const ModelBody& body) {
-  const Inflation& inside = body.inflation;
-  const bool is_gas = inside.law == PressureLaw::gas;
-  const double of_volume = is_gas ? inside.gradient_squared / (least_volume * least_volume * inside.rest_volume) : 0;
-  const double of_shape = inside.curvature / least_volume;
-  return inside.pressure * (of_volume + of_shape) / body.vertex_mass;
+// For a gas the second derivative of the energy is p0 V0 / V^2 (dV/dx)^2 minus p times the second derivative of V. For a constant
+// pressure the first term is zero. Returns a bound on its norm [N/m].
+double stiffness_at(const Inflation& inside, const VolumeAt& at) {
+  if (inside.law == PressureLaw::constant) return inside.pressure * at.curvature;
+  const double pressure = inside.pressure * (inside.rest_volume / at.volume);
+  return pressure * (at.gradient_squared / at.volume + at.curvature);
 }
 
-std::optional<std::string> warning(const Model& model, const State& state) {
-  const std::vector<glm::dvec3> positions = positions_of(model, state);
-  for (const ModelBody& body : model.bodies) {
-    const double left = has_pressure(body) ? volume_of(model, body, positions) / body.inflation.rest_volume : 1;
-    if (left < least_volume)
-      return fmt::format(
-          "body \"{}\" was pressed to {:.3g} of its rest volume: the bound on steps holds only down to {}, so use shorter steps",
-          body.name, left, least_volume);
-  }
+// The bound is stiffness_at() with half the rest volume, and with the derivatives at rest. Take a shape that is stretched by a, b
+// and c along three axes, and a body with equal parts of (dV/dx)^2 along them. Then (dV/dx)^2 / V^2 is at most (1/a^2 + 1/b^2 +
+// 1/c^2) / 3 times that at rest. The second derivative of V is at most max(a, b, c) times that at rest. So the bound holds down
+// to V0 / 2 if the body is pressed along one axis, or evenly. It does not hold if a body is pressed flat and grows sideways, as
+// by (2, 2, 1/8). It does not hold either if a constant pressure makes a body grow to more than twice its length.
+constexpr double least_volume = 0.5;  // of the rest volume
+
+double highest_stiffness(const Inflation& inside) {
+  const double of_volume =
+      inside.law == PressureLaw::gas ? inside.gradient_squared / (least_volume * least_volume * inside.rest_volume) : 0;
+  const double of_shape = inside.curvature / least_volume;
+  return inside.pressure * (of_volume + of_shape);
+}
+
+double pressure_frequency_squared(const ModelBody& body) { return highest_stiffness(body.inflation) / body.vertex_mass; }
+
+std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at) {
+  if (at.volume < least_volume * body.inflation.rest_volume)
+    return fmt::format(
+        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps",
+        body.name, least_volume);
+  if (stiffness_at(body.inflation, at) > highest_stiffness(body.inflation))
+    return fmt::format(
+        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps",
+        body.name);
   return {};
+}
+
+std::vector<std::string> warnings(const Model& model, const State& state) {
+  const std::vector<glm::dvec3> positions = positions_of(model, state);
+  std::vector<std::string> all;
+  for (const ModelBody& body : model.bodies) {
+    if (!has_pressure(body)) continue;
+    const VolumeAt at = volume_at(model, body, std::span(positions).subspan(body.first_vertex, body.vertex_count));
+    if (const auto warning = warning_of(body, at)) all.push_back(*warning);
+  }
+  return all;
 }
 
 }  // namespace
@@ -168,7 +192,7 @@ Force pressure() {
           .energy_scale = pressure_energy_scale,
           .frequency_squared = pressure_frequency_squared,
           .make = make,
-          .warning = warning};
+          .warnings = warnings};
 }
 
 }  // namespace pliant

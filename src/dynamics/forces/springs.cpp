@@ -84,7 +84,7 @@ Force springs() {
           .energy_scale = spring_energy_scale,
           .frequency_squared = spring_frequency_squared,
           .make = nullptr,
-          .warning = nullptr};
+          .warnings = nullptr};
 }
 
 }  // namespace pliant

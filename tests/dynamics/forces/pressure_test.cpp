@@ -141,12 +141,30 @@ TEST_CASE("a body pressed below half its rest volume is told, for its bound on s
   BodySetup setup = balloon(1, 5, PressureLaw::gas);
   setup.description.stretch = {1, 1, 0.55};
   const ModelAndState above = built(setup);
-  CHECK_FALSE(pressure().warning(above.model, above.state).has_value());
+  CHECK(pressure().warnings(above.model, above.state).empty());
   setup.description.stretch = {1, 1, 0.45};
-  const ModelAndState below = built(setup);
-  const auto warning = pressure().warning(below.model, below.state);
-  REQUIRE(warning.has_value());
-  CHECK_THAT(*warning, Catch::Contains("\"body\"") && Catch::Contains("0.45"));
+  BodySetup setups[] = {setup, balloon(1, 5, PressureLaw::gas), setup};
+  setups[2].description.name = "other";
+  const ModelAndState below = build_model(setups, glm::dvec3(0.0));
+  const auto warnings = pressure().warnings(below.model, below.state);
+  REQUIRE(warnings.size() == 2);
+  CHECK_THAT(warnings[0], Catch::Contains("\"body\"") && Catch::Contains("0.5 of its rest volume"));
+  CHECK_THAT(warnings[1], Catch::Contains("\"other\""));
+  setups[0].description.stretch = {1, 1, 0.4};
+  const ModelAndState lower = build_model(setups, glm::dvec3(0.0));
+  CHECK(pressure().warnings(lower.model, lower.state) == warnings);  // so that a run tells it once
+}
+
+TEST_CASE("a shape with enough volume in which pressure is stiffer than its bound is told") {
+  for (const auto& [law, stretch] :
+       {std::pair{PressureLaw::gas, glm::dvec3(2, 2, 0.13)}, {PressureLaw::constant, glm::dvec3(2.1)}}) {
+    BodySetup setup = balloon(1, 5, law);
+    setup.description.stretch = stretch;
+    const ModelAndState start = built(setup);
+    const auto warnings = pressure().warnings(start.model, start.state);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("\"body\"") && Catch::Contains("stiffer") && Catch::Contains("shorter steps"));
+  }
 }
 
 }  // namespace
