@@ -66,6 +66,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK((body.name == "body0" && body.mesh == "icosphere:1" && !body.weld && body.scale == 1.0));
   CHECK((body.stiffness == 40.0 && !body.total_stiffness && body.vertex_mass == 1.0 && !body.total_mass && body.damping == 1.0));
   CHECK(body.stretch == glm::dvec3(1.0));
+  CHECK((body.pressure == 0.0 && body.pressure_law == PressureLaw::gas));
   CHECK_THAT(body.where, Catch::EndsWith("scene.toml:1"));
 }
 
@@ -116,6 +117,8 @@ stretch = [0.5, 1, 2]
 total_stiffness = 1000
 total_mass = 10
 damping = 0
+pressure = 2.5
+pressure_law = "constant"
 color = [0.1, 0.2, 0.3]
 )");
   CHECK(scene.title == "All keys");
@@ -145,6 +148,16 @@ color = [0.1, 0.2, 0.3]
   CHECK((body.spin == glm::dvec3(1.5, 2.5, 3.5) && body.stretch == glm::dvec3(0.5, 1, 2) &&
          body.color == glm::dvec3(0.1, 0.2, 0.3)));
   CHECK((body.total_stiffness == 1000 && body.total_mass == 10 && body.damping == 0));
+  CHECK((body.pressure == 2.5 && body.pressure_law == PressureLaw::constant));
+}
+
+TEST_CASE("a pressure is a number that is not negative, and its law one of two") {
+  check_input_error(smallest + "pressure = -1\n", 3, {"pressure", "-1"});
+  check_input_error(smallest + "pressure = \"high\"\n", 3, {"pressure"});
+  check_input_error(smallest + "pressure = 1\npressure_law = \"gass\"\n", 4, {"pressure_law", "gass", "gas", "constant"});
+  check_override_error(smallest, "body.body0.pressure=-1", {"pressure"});
+  const SceneDescription scene = load_text(smallest + "pressure = 1\npressure_law = \"gas\"\n");
+  CHECK((scene.bodies[0].pressure == 1 && scene.bodies[0].pressure_law == PressureLaw::gas));
 }
 
 TEST_CASE("time_step = \"auto\" leaves the step to be chosen") {
@@ -225,10 +238,12 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
 }
 
 TEST_CASE("keys that contradict each other are an error") {
-  check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4, {"body.body0.total_stiffness", "can't be combined with stiffness"});
+  check_input_error(smallest + "stiffness = 1\ntotal_stiffness = 1\n", 4,
+                    {"body.body0.total_stiffness", "can't be combined with stiffness"});
   check_input_error("[simulation]\ntolerance = 1e-6\ntime_step = 0.1\n" + smallest, 2,
                     {"simulation.tolerance", "can't be combined with time_step", "keep one"});
-  check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3, {"body.body0.total_mass", "can't be combined with vertex_mass"});
+  check_input_error(smallest + "total_mass = 1\nvertex_mass = 1\n", 3,
+                    {"body.body0.total_mass", "can't be combined with vertex_mass"});
 }
 
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {
