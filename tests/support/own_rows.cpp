@@ -68,19 +68,31 @@ class Halt final : public Response {
 
 std::unique_ptr<Response> make_halt(const ResponseSetting& setting) { return std::make_unique<Halt>(setting.bodies); }
 
-void add_own_kernels() {
-  static const std::string chain = read_text(source_dir() + "/tests/support/chain_force.glsl");
-  static const std::string halt = read_text(source_dir() + "/tests/support/halt_response.glsl");
-  static const gl::ShaderFile files[] = {{"compute/kernels/chain_force.glsl", chain},
-                                         {"compute/kernels/halt_response.glsl", halt}};
-  add_kernels({files, own_kernels_32(), own_kernels_64()});
-}
+std::string text_beside_this(std::string_view name) { return read_text(source_dir() + "/tests/support/" + std::string(name)); }
+
+constexpr ForceExample all_examples[] = {{"springs", "springs", [](BodyDescription& body) { body.stiffness = 1; }},
+                                         {"pressure", "pressure of a gas", [](BodyDescription& body) { body.pressure = 3; }},
+                                         {"pressure", "constant pressure",
+                                          [](BodyDescription& body) {
+                                            body.pressure = 3;
+                                            body.pressure_law = PressureLaw::constant;
+                                          }},
+                                         {"chain", "chain", [](BodyDescription& body) { body.name = "chained"; }}};
 
 }  // namespace
 
+std::span<const ForceExample> force_examples() { return all_examples; }
+
+std::span<const gl::ShaderFile> own_kernel_files() {
+  static const std::string chain = text_beside_this("chain_force.glsl"), halt = text_beside_this("halt_response.glsl");
+  static const gl::ShaderFile files[] = {{"compute/kernels/chain_force.glsl", chain},
+                                         {"compute/kernels/halt_response.glsl", halt}};
+  return files;
+}
+
 void add_own_rows() {
   static const bool once = [] {
-    add_own_kernels();
+    add_kernels({own_kernel_files(), own_kernels_32(), own_kernels_64()});
     add_force({.name = "chain",
                .is_zero_at_rest = true,
                .acts_on = is_chained,
@@ -88,7 +100,7 @@ void add_own_rows() {
                .energy_scale = chain_energy_scale,
                .frequency_squared = chain_frequency_squared,
                .make = make_chain,
-               .warning = nullptr});
+               .warnings = nullptr});
     add_response({"halt", make_halt});
     return true;
   }();

@@ -14,12 +14,10 @@ namespace pliant {
 namespace {
 
 // A sphere on which this force acts alone. Springs act on every body, but their stiffness can be zero.
-BodySetup example_of(std::string_view force) {
+BodySetup setup_of(const ForceExample& example) {
   BodySetup setup = sphere(1);
-  setup.description.stiffness = force == "springs" ? 1 : 0;
-  if (force == "pressure") setup.description.pressure = 3;
-  if (force == "constant pressure") setup.description.pressure = 3, setup.description.pressure_law = PressureLaw::constant;
-  if (force == "chain") setup.description.name = "chained";
+  setup.description.stiffness = 0;
+  example.set(setup.description);
   return setup;
 }
 
@@ -32,8 +30,13 @@ struct Example {
 std::vector<Example> examples() {
   add_own_rows();
   std::vector<Example> all;
-  for (const Force& force : forces()) all.push_back({force.name, &force, built(example_of(force.name))});
-  all.push_back({"constant pressure", all[1].row, built(example_of("constant pressure"))});
+  for (const Force& force : forces()) {
+    const std::size_t before = all.size();
+    for (const ForceExample& example : force_examples())
+      if (example.force == force.name) all.push_back({example.name, &force, built(setup_of(example))});
+    if (all.size() == before)
+      FAIL("the force \"" << force.name << "\" has no example: add one to force_examples() in tests/support/own_rows.cpp");
+  }
   for (const Example& example : all) REQUIRE(example.row->acts_on(example.start.model.bodies.front()));
   return all;
 }
@@ -195,14 +198,55 @@ double stiffness_at(Device& device, const Model& model, const State& state) {
   return stiffness;
 }
 
-TEST_CASE("no small motion is stiffer than the forces say") {
+State stretched(const ModelAndState& start, const glm::dvec3& factors) {
+  State state = start.state;
+  for (std::size_t i = 0; i < start.model.vertex_count(); ++i)
+    for (int k = 0; k < 3; ++k)
+      state.motion[6 * i + static_cast<std::size_t>(k)] =
+          (factors[k] - 1) * static_cast<double>(start.model.rest_positions[i][k]);
+  return state;
+}
+
+constexpr double aside = 1e-10;  // so that rounding does not decide whether a volume is above the half
+const glm::dvec3 flattened(1, 1, 0.5 + aside), shrunk(std::cbrt(0.5) + aside), grown(1.5);
+
+TEST_CASE("no small motion is stiffer than the forces say down to half the volume, and the stiffest one is not far below") {
   const auto all = examples();  // before devices, which know the kernels of their time
   const auto device = make_cpu_device(2, 64);
   for (const auto& [name, row, start] : all) {
-    CAPTURE(name);
     const ModelBody& body = start.model.bodies.front();
-    CHECK(stiffness_at(*device, start.model, start.state) <= 1.0001 * row->frequency_squared(body) * body.vertex_mass);
+    const double said = row->frequency_squared(body) * body.vertex_mass;
+    double most = 0;
+    for (const glm::dvec3& factors : {glm::dvec3(1), flattened, shrunk, grown}) {
+      const State state = stretched(start, factors);
+      CAPTURE(name, factors.x, factors.z);
+      const double measured = stiffness_at(*device, start.model, state);
+      CHECK(measured <= 1.0001 * said);
+      if (row->warnings != nullptr) CHECK(row->warnings(start.model, state).empty());
+      most = std::max(most, measured);
+    }
+    CAPTURE(name, said, most);
+    CHECK(said < 5 * most);
   }
+}
+
+TEST_CASE("a force that warns does so of each shape in which it is stiffer than it says") {
+  const auto all = examples();  // before devices, which know the kernels of their time
+  const auto device = make_cpu_device(2, 64);
+  bool any = false;
+  for (const auto& [name, row, start] : all) {
+    if (row->warnings == nullptr) continue;
+    const ModelBody& body = start.model.bodies.front();
+    for (const glm::dvec3& factors :
+         {glm::dvec3(2, 2, 0.125 + aside), glm::dvec3(0.6, 0.6, 2), glm::dvec3(2.6), glm::dvec3(0.7)}) {
+      const State state = stretched(start, factors);
+      CAPTURE(name, factors.x, factors.z);
+      if (stiffness_at(*device, start.model, state) <= 1.0001 * row->frequency_squared(body) * body.vertex_mass) continue;
+      any = true;
+      CHECK(row->warnings(start.model, state).size() == 1);
+    }
+  }
+  CHECK(any);
 }
 
 }  // namespace
