@@ -11,7 +11,9 @@ namespace pliant {
 namespace {
 
 TEST_CASE("a response that there is not is an error that lists those there are") {
-  const Error error = error_of([] { return find_response({"bounce", {Origin::From::file, "scene.toml:2: collision.response"}}); });
+  const Error error = error_of([] {
+    return find_response({"bounce", {Origin::From::file, "scene.toml:2: collision.response"}});
+  });
   CHECK(error.kind() == ErrorKind::input);
   check_says(error, {"scene.toml:2: collision.response", "bounce", "none, reflect"});
 }
@@ -35,7 +37,7 @@ TEST_CASE("a response is found by its row's name, meets contacts, and gives the 
     CAPTURE(row.name);
     const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
     const Outcome first = after_collision(*one, row.name);
-    CHECK((first.report.contact_steps > 0 && first.report.reverted_vertices > 0));
+    CHECK(first.report.contact_steps > 0);
     const Outcome second = after_collision(*three, row.name);
     CHECK(first.state.motion == second.state.motion);
     CHECK(first.report == second.report);
@@ -43,13 +45,15 @@ TEST_CASE("a response is found by its row's name, meets contacts, and gives the 
   }
 }
 
-TEST_CASE("a response from outside acts alike on CPU and GPU", "[gl]") {
+TEST_CASE("a response acts alike on every device", "[gl]") {
   add_own_rows();
   const ModelAndState start = build_model(colliding_spheres(), glm::dvec3(0.0));
-  const auto expected = after_collision(*make_cpu_device(1, 32), "halt").state.world_positions(start.model);
-  for (const TestDevice& test : all_devices()) {
-    CAPTURE(test.name);
-    CHECK(distance(after_collision(*test.device, "halt").state.world_positions(start.model), expected) < 1e-4);
+  for (const ResponseRow& row : responses()) {
+    const auto expected = after_collision(*make_cpu_device(1, 32), row.name).state.world_positions(start.model);
+    for (const TestDevice& test : all_devices()) {
+      CAPTURE(row.name, test.name);
+      CHECK(distance(after_collision(*test.device, row.name).state.world_positions(start.model), expected) < 1e-4);
+    }
   }
 }
 
