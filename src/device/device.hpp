@@ -27,6 +27,7 @@ struct KernelSignature {
     std::string name;   // in the kernel: the array's own, or that of a view
     std::string array;  // of physics/arrays.glsl
     ArrayUse use = ArrayUse::read;
+    std::string view = {};  // the type of elements that READ_AS or WRITE_AS asks for. Empty: the list's
   };
   struct Number {
     std::string name;

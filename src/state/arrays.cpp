@@ -36,6 +36,25 @@ void expect_declared(std::string_view kernel, const KernelSignature& signature, 
       throw std::logic_error(fmt::format("{}: the kernel declares no parameter \"{}\"", kernel, name));
 }
 
+// The type of the numbers that an element consists of. A struct is its own.
+std::string_view number_of(std::string_view element) {
+  constexpr std::pair<std::string_view, std::string_view> vectors[] = {
+      {"vec", "float"}, {"uvec", "uint"}, {"dvec", "double"}, {"real", "real"}};
+  const std::size_t last = element.size() - 1;
+  if (element.find_first_of("234") != last) return element;
+  const auto* const found =
+      std::ranges::find(vectors, element.substr(0, last), &std::pair<std::string_view, std::string_view>::first);
+  return found == std::end(vectors) ? element : found->second;
+}
+
+// A view may take the same numbers in other groups, as placements are read four at a time.
+void expect_view(const KernelSignature::Array& declared) {
+  const std::string_view listed = find_array(declared.array)->element;
+  if (!declared.view.empty() && number_of(declared.view) != number_of(listed))
+    throw std::logic_error(
+        fmt::format("the array \"{}\" has elements {}, which no {} can view", declared.array, listed, declared.view));
+}
+
 }  // namespace
 
 DeviceArray<std::uint32_t>& Arrays::make_reals(std::string_view name, std::size_t count) {
@@ -85,7 +104,10 @@ Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Par
   expect_declared(name, signature, parameters);
   Pass pass{.name = name, .call = {.kernel = kernel, .buffers = {}, .parameters = {}}, .item_count = item_count};
   try {
-    for (const auto& array : signature.arrays) pass.call.buffers.push_back(arrays.buffer(array.array));
+    for (const auto& array : signature.arrays) {
+      pass.call.buffers.push_back(arrays.buffer(array.array));
+      expect_view(array);
+    }
   } catch (const std::logic_error& error) {
     throw std::logic_error(fmt::format("{}: {}", name, error.what()));
   }

@@ -123,8 +123,8 @@ using Parameters = std::initializer_list<std::pair<std::string_view, Parameter>>
 
 /// Returns a dispatch of a kernel, with the arrays that it names. The kernel's parameters are found by name: in `parameters`,
 /// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error if an array or a parameter
-/// is missing or of another type, or if the kernel does not declare a parameter. The error names the kernel and the array or
-/// parameter.
+/// is missing or of another type, or if the kernel does not declare a parameter. A view (READ_AS) is of another type if its
+/// numbers are of another type than the array's. The error names the kernel and the array or parameter.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, Parameters parameters, std::uint32_t item_count);
 /// Does the same for a kernel in a variant. `name` is for reports.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Parameters parameters,

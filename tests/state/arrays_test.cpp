@@ -8,6 +8,7 @@
 #include "gl/shader_source.hpp"
 #include "support/collision_scene.hpp"
 #include "support/has.hpp"
+#include "support/own_rows.hpp"
 #include "support/paths.hpp"
 
 namespace pliant {
@@ -56,6 +57,21 @@ TEST_CASE("an array has the elements of the list and no others") {
   CHECK_THROWS_WITH(arrays.get<double>("mark"), Contains("mark"));
 }
 
+TEST_CASE("a view of an array has numbers of the array's type", "[gl]") {
+  add_misread_kernel();  // before devices, which know the kernels of their time
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+    const DeviceBodies bodies(*test.device, start.model, start.state);
+    CHECK_THROWS_WITH(make_pass(bodies.arrays, "misread", {}, 1),
+                      Contains("misread") && Contains("motion") && Contains("double") && Contains("vec4"));
+    const KernelSignature& reads_four = test.device->signature(test.device->kernel("sum_volume"));
+    const auto view = std::ranges::find(reads_four.arrays, "placement", &KernelSignature::Array::array);
+    REQUIRE(view != reads_four.arrays.end());
+    CHECK(view->view == "real4");  // of numbers `real`, which pressure records
+  }
+}
+
 TEST_CASE("parameters go by name, and each has the kernel's type") {
   const auto device = make_cpu_device(1, 32);
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
@@ -81,7 +97,7 @@ TEST_CASE("bodies start moving, finite and, until their vertices are placed, und
 }
 
 TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU", "[gl]") {
-  if (!test::has_gl()) return;
+  if (test::lacks_gl()) return;
   const auto cpu = make_cpu_device(1, 32), gpu = make_gpu_device(0);
   const auto names = kernel_names();
   CHECK(names.size() > 20);
@@ -92,14 +108,23 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
       return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000)) : device.kernel(name));
     };
     const KernelSignature on_cpu = signature(*cpu), on_gpu = signature(*gpu);
+    const auto described = [](const KernelSignature::Array& array) {
+      constexpr std::string_view uses[] = {"reads", "writes", "has as constants"};
+      return std::string(uses[static_cast<std::size_t>(array.use)]) + " " + array.array + " " + array.view;
+    };
     std::vector<std::string> cpu_arrays, gpu_arrays, cpu_numbers, gpu_numbers;
-    for (const auto& array : on_cpu.arrays) cpu_arrays.push_back(array.array);
+    for (const auto& array : on_cpu.arrays) cpu_arrays.push_back(described(array));
     for (const auto& array : on_gpu.arrays)
-      if (array.array != "meeting" || !sums_springs) gpu_arrays.push_back(array.array);  // for all stages at once alone
+      if (array.array != "meeting" || !sums_springs) gpu_arrays.push_back(described(array));  // for all stages at once alone
+    if (sums_springs)  // all stages at once write through the view, too
+      std::ranges::replace(gpu_arrays, std::string("writes placement real4"), std::string("reads placement real4"));
     for (const auto& number : on_cpu.parameters) cpu_numbers.push_back(number.name + (number.is_double ? " double" : ""));
     for (const auto& number : on_gpu.parameters)
       if (number.name != "item_count") gpu_numbers.push_back(number.name + (number.is_double ? " double" : ""));
-    for (auto* list : {&cpu_arrays, &gpu_arrays, &cpu_numbers, &gpu_numbers}) std::ranges::sort(*list);
+    if (sums_springs)
+      for (auto* list : {&cpu_arrays, &gpu_arrays}) std::ranges::sort(*list);
+    std::ranges::sort(cpu_numbers);
+    std::ranges::sort(gpu_numbers);
     CHECK(cpu_arrays == gpu_arrays);
     CHECK(cpu_numbers == gpu_numbers);
     CHECK(on_gpu.arrays.size() <= max_arrays);

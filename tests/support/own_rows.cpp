@@ -10,6 +10,8 @@
 
 std::span<const pliant::cpu::KernelEntry> own_kernels_32();
 std::span<const pliant::cpu::KernelEntry> own_kernels_64();
+std::span<const pliant::cpu::KernelEntry> misread_kernel_32();
+std::span<const pliant::cpu::KernelEntry> misread_kernel_64();
 
 namespace pliant {
 namespace {
@@ -88,6 +90,16 @@ std::span<const gl::ShaderFile> own_kernel_files() {
   static const gl::ShaderFile files[] = {{"compute/kernels/chain_force.glsl", chain},
                                          {"compute/kernels/halt_response.glsl", halt}};
   return files;
+}
+
+void add_misread_kernel() {
+  static const std::string text = text_beside_this("misread.glsl");
+  static const gl::ShaderFile files[] = {{"compute/kernels/misread.glsl", text}};
+  static const bool once = [] {
+    add_kernels({files, misread_kernel_32(), misread_kernel_64()});
+    return true;
+  }();
+  static_cast<void>(once);
 }
 
 void add_own_rows() {

@@ -14,6 +14,8 @@ inline constexpr double chain_stiffness = 5;  // [N/m]
 void add_own_rows();
 /// The kernels of these rows.
 [[nodiscard]] std::span<const gl::ShaderFile> own_kernel_files();
+/// Adds a kernel "misread", whose view of an array does not fit. Later calls add nothing.
+void add_misread_kernel();
 
 /// A body on which a force of the list acts.
 struct ForceExample {

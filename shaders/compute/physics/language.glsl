@@ -31,11 +31,11 @@
   #define EXACT
   #define FUSED(a, b, c) ((a) * (b) + (c))
   // On the CPU a kernel's declarations are members of its struct. On a GPU the loader writes them out (kernel_source.hpp).
-  #define READ(name) READ_AS(name, array::name::element, name)
-  #define WRITE(name) WRITE_AS(name, array::name::element, name)
+  #define READ(name) const array::name::element* const name = arguments.read<array::name::element>(#name);
+  #define WRITE(name) array::name::element* const name = arguments.write<array::name::element>(#name);
   #define SHARED_WRITE(name) WRITE(name)
-  #define READ_AS(array_name, T, name) const T* const name = arguments.read<T>(#array_name);
-  #define WRITE_AS(array_name, T, name) T* const name = arguments.write<T>(#array_name);
+  #define READ_AS(array_name, T, name) const T* const name = arguments.read<T>(#array_name, #T);
+  #define WRITE_AS(array_name, T, name) T* const name = arguments.write<T>(#array_name, #T);
   #define SHARED_WRITE_AS(array_name, T, name) WRITE_AS(array_name, T, name)
   #define CONSTANTS(name, count) const array::name::element* const name = arguments.constants<array::name::element>(#name);
   #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);

@@ -24,16 +24,16 @@ class ArgumentReader {
   explicit ArgumentReader(const KernelArguments& arguments) : arguments_(arguments) {}
 
   template <class T>
-  [[nodiscard]] const T* read(std::string_view array) {
-    return static_cast<const T*>(next_buffer(array, ArrayUse::read));
+  [[nodiscard]] const T* read(std::string_view array, std::string_view view = {}) {
+    return static_cast<const T*>(next_buffer(array, ArrayUse::read, view));
   }
   template <class T>
-  [[nodiscard]] T* write(std::string_view array) {
-    return static_cast<T*>(next_buffer(array, ArrayUse::write));
+  [[nodiscard]] T* write(std::string_view array, std::string_view view = {}) {
+    return static_cast<T*>(next_buffer(array, ArrayUse::write, view));
   }
   template <class T>
   [[nodiscard]] const T* constants(std::string_view array) {
-    return static_cast<const T*>(next_buffer(array, ArrayUse::constants));
+    return static_cast<const T*>(next_buffer(array, ArrayUse::constants, {}));
   }
   template <class T>
   [[nodiscard]] T parameter(std::string_view name) {
@@ -43,9 +43,9 @@ class ArgumentReader {
   }
 
  private:
-  void* next_buffer(std::string_view array, ArrayUse use) {
+  void* next_buffer(std::string_view array, ArrayUse use, std::string_view view) {
     if (arguments_.declared == nullptr) return arguments_.buffers[buffer_++];
-    arguments_.declared->arrays.push_back({std::string(array), std::string(array), use});
+    arguments_.declared->arrays.push_back({std::string(array), std::string(array), use, std::string(view)});
     return nullptr;
   }
 

@@ -72,7 +72,7 @@ class Writer {
                   fmt::format("there is no array \"{}\"", arguments[0]), "add it to physics/arrays.glsl");
     if (word == "CONSTANTS") return constants(*array, arguments[1]) + std::string(rest);
     const bool has_view = arguments.size() == 3;
-    return block(word, *array, has_view ? arguments[1] : array->element, has_view ? arguments[2] : array->name) +
+    return block(word, *array, has_view ? arguments[1] : std::string_view(), has_view ? arguments[2] : array->name) +
            std::string(rest);
   }
 
@@ -82,17 +82,18 @@ class Writer {
     return fmt::format("layout(location = {}) uniform {} {};", location, type, name);
   }
 
-  std::string block(std::string_view word, const ArrayRow& array, std::string_view element, std::string_view name) {
+  std::string block(std::string_view word, const ArrayRow& array, std::string_view view, std::string_view name) {
     const bool is_read = word.starts_with("READ");
-    const std::size_t binding =
-        place_of(signature_.arrays, {std::string(name), std::string(array.name), is_read ? ArrayUse::read : ArrayUse::write});
+    const std::size_t binding = place_of(signature_.arrays, {std::string(name), std::string(array.name),
+                                                             is_read ? ArrayUse::read : ArrayUse::write, std::string(view)});
     const std::string_view qualifier = is_read ? "readonly " : word.starts_with("SHARED") ? "coherent " : "";
-    return fmt::format("layout(std430, binding = {}) {}buffer {}_block {{ {} {}[]; }};", binding, qualifier, name, element, name);
+    return fmt::format("layout(std430, binding = {}) {}buffer {}_block {{ {} {}[]; }};", binding, qualifier, name,
+                       view.empty() ? array.element : view, name);
   }
 
   std::string constants(const ArrayRow& array, std::string_view count) {
     const std::size_t binding =
-        place_of(signature_.arrays, {std::string(array.name), std::string(array.name), ArrayUse::constants});
+        place_of(signature_.arrays, {std::string(array.name), std::string(array.name), ArrayUse::constants, {}});
     return fmt::format("layout(std140, binding = {}) uniform {}_block {{ {} {}[{}]; }};", binding, array.name, array.element,
                        array.name, count);
   }
