@@ -27,8 +27,14 @@ State another_start(const ModelAndState& start) {
   return other;
 }
 
-void check_fixed(Device& device, const Method& method, const CollisionDescription& collision) {
-  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+ModelAndState colliding(double pressure) {
+  std::vector<BodySetup> setups = colliding_spheres();
+  for (BodySetup& setup : setups) setup.description.pressure = pressure;
+  return build_model(setups, {0, -1, 0});
+}
+
+void check_fixed(Device& device, const Method& method, const CollisionDescription& collision, double pressure = 0) {
+  const ModelAndState start = colliding(pressure);
   const TimePlan plan = plan_of(method);
   Simulation whole(device, start.model, start.state, plan, collision);
   whole.advance(25);
@@ -72,13 +78,14 @@ TEST_CASE("fixed steps go on from a saved state to the bit, with stages and kept
                                  Method{"srkn11b", 0.01}, Method{"dprkn8", 0.01, DampingLaw::constant}}) {
       CAPTURE(test.name, method.integrator);
       check_fixed(*test.device, method, {});
+      check_fixed(*test.device, method, {}, 3);
       if (test.name != "gpu") check_fixed(*test.device, method, by_force);
     }
 }
 
-void check_adaptive(Device& device, const Adaptive& adaptive) {
+void check_adaptive(Device& device, const Adaptive& adaptive, double pressure) {
   constexpr double duration = 1;  // [s]
-  const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
+  const ModelAndState start = colliding(pressure);
   const TimePlan plan = plan_of(adaptive, start.model);
   Simulation whole(device, start.model, start.state, plan, {});
   const StepReport end = whole.advance_to(duration);
@@ -102,7 +109,7 @@ TEST_CASE("steps of adaptive length go on from a saved state to the bit, with th
   for (const TestDevice& test : all_devices())
     for (const Adaptive& adaptive : {Adaptive{"dop853", 1e-6, {}, DampingLaw::adaptive}, Adaptive{"dprkn8", 1e-6}}) {
       CAPTURE(test.name, adaptive.integrator);
-      check_adaptive(*test.device, adaptive);
+      for (const double pressure : {0.0, 3.0}) check_adaptive(*test.device, adaptive, pressure);
     }
 }
 
