@@ -144,7 +144,7 @@ void check_momentum(const ModelAndState& start) {
 
 TEST_CASE("momentum and angular momentum are conserved without damping", "[gl]") { check_momentum(built(tumbling())); }
 
-TEST_CASE("pressure conserves momentum and angular momentum by every method", "[gl]") {
+TEST_CASE("pressure conserves momentum and angular momentum by every method", "[gl][long]") {
   check_momentum(built(tumbling_balloon()));
 }
 
