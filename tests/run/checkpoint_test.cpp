@@ -122,7 +122,7 @@ TEST_CASE("a body pressed below half its volume is named once, and a resumed run
   REQUIRE(begun.exit_code == 130);
   const ProgramResult resumed = run_program("run --resume " + checkpoint);
   REQUIRE(resumed.exit_code == 0);
-  const std::string told = account_in(folder.path)["warnings"].dump();
+  const std::string told = account_in(folder.path)["warnings"].text();
   for (const std::string body : {"left", "right"}) {
     CAPTURE(begun.output, resumed.output, told);
     const std::string warning = "body \"" + body + "\" was pressed below 0.5 of its rest volume";
