@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <map>
 #include <set>
 #include <span>
 #include <tuple>
@@ -69,7 +71,7 @@ void count_edges(const std::vector<Side>& sides, MeshReport& report) {
     ++report.edge_count;
     if (edge.size() == 1) ++report.boundary_edge_count;
     if (edge.size() > 2) ++report.non_manifold_edge_count;
-    if (edge.size() == 2 && edge[0].forward == edge[1].forward) ++report.inconsistent_edge_count;
+    if (edge.size() > 1 && 2 * std::ranges::count_if(edge, &Side::forward) != std::ssize(edge)) ++report.inconsistent_edge_count;
   });
 }
 
@@ -147,6 +149,28 @@ const char* yes_no(bool value) { return value ? "yes" : "no"; }
 std::size_t count_zero_area_triangles(const TriangleMesh& mesh) {
   return static_cast<std::size_t>(
       std::ranges::count_if(mesh.triangles, [&](const auto& triangle) { return has_zero_area(corners(mesh, triangle)); }));
+}
+
+ClosedParts count_closed_parts(const TriangleMesh& mesh) {
+  DisjointSets sets(mesh.triangles.size());
+  for_each_edge(sorted_sides(mesh), [&](std::span<const Side> edge) {
+    for (const Side& side : edge) sets.join(edge[0].low_corner / 3, side.low_corner / 3);
+  });
+  struct Volume {
+    double sum = 0, rounding = 0;
+  };
+  std::map<std::size_t, Volume> volumes;  // by one of the part's triangles
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::size_t part = sets.find(t);
+    const glm::dvec3 origin = mesh.positions[mesh.triangles[part][0]];  // volumes about it lose fewer digits
+    auto [a, b, c] = corners(mesh, mesh.triangles[t]);
+    a -= origin, b -= origin, c -= origin;
+    Volume& volume = volumes[part];
+    volume.sum += glm::dot(a, glm::cross(b, c));
+    volume.rounding += 1e-12 * glm::length(a) * glm::length(b) * glm::length(c);
+  }
+  const auto is_inward = [](const auto& volume) { return volume.second.sum < -volume.second.rounding; };
+  return {volumes.size(), static_cast<std::size_t>(std::ranges::count_if(volumes, is_inward))};
 }
 
 MeshReport report_mesh(const TriangleMesh& mesh) {

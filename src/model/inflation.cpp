@@ -20,15 +20,20 @@ void expect_encloses(const BodySetup& setup) {
     throw body_error(setup.description,
                      fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
                      "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
-  if (!report.volume)
+  if (report.inconsistent_edge_count > 0)
+    throw body_error(setup.description,
+                     fmt::format("pressure needs triangles that wind alike, but at {} edges not as many run forward as backward",
+                                 report.inconsistent_edge_count),
+                     "turn triangles that wind the other way, remove faces between parts of the mesh, or leave the pressure out");
+  const ClosedParts parts = count_closed_parts(setup.mesh);
+  if (parts.inward_count > 0)
     throw body_error(
         setup.description,
-        fmt::format("pressure needs triangles that wind alike, but at {} edges two do not", report.inconsistent_edge_count),
-        "turn these triangles, or leave the pressure out");
-  if (!(*report.volume > 0))
-    throw body_error(setup.description,
-                     "pressure needs triangles that wind counter-clockwise seen from outside, but these wind the other way",
-                     "turn all triangles, or leave the pressure out");
+        fmt::format("pressure needs triangles that wind counter-clockwise seen from outside, but in {} of {} closed parts they "
+                    "wind the other way",
+                    parts.inward_count, parts.count),
+        parts.inward_count == parts.count ? "turn all triangles, or leave the pressure out"
+                                          : "turn all triangles of these parts, remove cavities, or leave the pressure out");
 }
 
 // What two triangles at an edge add to the volume's second derivative.

@@ -95,6 +95,7 @@ TEST_CASE("a third triangle at an edge makes it non-manifold") {
   const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
   const MeshReport report = report_mesh(mesh);
   CHECK(report.non_manifold_edge_count == 1);
+  CHECK(report.inconsistent_edge_count == 1);
   CHECK(report.boundary_edge_count == 6);
   CHECK_FALSE(report.manifold);
 }
