@@ -36,6 +36,17 @@ void expect_encloses(const BodySetup& setup) {
                                           : "turn all triangles of these parts, remove cavities, or leave the pressure out");
 }
 
+// Below this share of radius^3, fp32 rest positions do not tell the volume from zero. The bound on steps divides by the volume.
+constexpr double least_rest_volume = 1e-6;
+
+void expect_volume(const BodyDescription& description, const Inflation& inside, double radius) {
+  if (!(inside.rest_volume > least_rest_volume * radius * radius * radius))
+    throw body_error(description,
+                     fmt::format("pressure needs a volume, but the mesh is flat: it encloses {:.3g} m^3 at a radius of {:.3g} m",
+                                 inside.rest_volume, radius),
+                     "use a thicker mesh, or leave the pressure out");
+}
+
 // What two triangles at an edge add to the volume's second derivative.
 struct EdgeTerm {
   std::uint32_t low, high;  // the edge's vertices
@@ -95,11 +106,13 @@ Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& b
   for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
     positions.push_back(model.rest_position(i));
   const VolumeAt rest = volume_at(model, body, positions);
-  return {.pressure = setup.description.pressure,
-          .law = setup.description.pressure_law,
-          .rest_volume = rest.volume,
-          .gradient_squared = rest.gradient_squared,
-          .curvature = rest.curvature};
+  const Inflation inside{.pressure = setup.description.pressure,
+                         .law = setup.description.pressure_law,
+                         .rest_volume = rest.volume,
+                         .gradient_squared = rest.gradient_squared,
+                         .curvature = rest.curvature};
+  expect_volume(setup.description, inside, body.radius);
+  return inside;
 }
 
 }  // namespace pliant

@@ -15,7 +15,7 @@ struct VolumeAt {
 [[nodiscard]] VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions);
 
 /// Returns the inflation of `body`. Expects its rest positions and triangles to be the model's last. Throws Error (input) if the
-/// mesh is open or not wound outward.
+/// mesh is open, not wound outward or flat.
 [[nodiscard]] Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& body);
 
 }  // namespace pliant

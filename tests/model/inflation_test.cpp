@@ -75,5 +75,24 @@ TEST_CASE("pressure takes no mesh with a part wound inward, at whatever place") 
   check_says(error_of([&] { return built(inflated(touching)); }), {"1 of 2 closed parts"});
 }
 
+TEST_CASE("pressure takes no mesh so flat that rounded positions enclose nothing, and bounds the step of all others") {
+  int flat = 0;
+  for (const double thickness : {0.0, 1e-12, 1e-9, 1e-8, 1e-7, 3e-7, 1e-6, 1e-4, 1e-2}) {
+    CAPTURE(thickness);
+    BodySetup setup = inflated(generate_mesh("icosphere:1"));
+    for (glm::dvec3& p : setup.mesh.positions)
+      p = p.x * glm::normalize(glm::dvec3(1, 2, 2)) + p.y * glm::normalize(glm::dvec3(2, 1, -2)) +
+          thickness * p.z * glm::normalize(glm::dvec3(-2, 2, -1));
+    if (thickness < 2.5e-7) {
+      ++flat;
+      check_says(error_of([&] { return built(setup); }), {"flat", "thicker mesh"});
+    } else {
+      const double bound = step_bound(find_integrator("cv8"), built(setup).model.bodies.front(), DampingLaw::none);
+      CHECK((bound > 0 && std::isfinite(bound)));
+    }
+  }
+  CHECK(flat == 5);
+}
+
 }  // namespace
 }  // namespace pliant
