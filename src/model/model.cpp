@@ -129,9 +129,20 @@ void check_start(std::span<const BodySetup> setups, const ModelAndState& built) 
   }
 }
 
+// Pressure turns infinite as the volume goes to zero.
+void expect_not_flattened(const BodyDescription& description) {
+  const glm::dvec3& stretch = description.stretch;
+  const double volume = stretch.x * stretch.y * stretch.z;
+  if (description.pressure > 0 && !(volume > 1e-6))
+    throw body_error(description,
+                     fmt::format("pressure needs a volume, but stretch brings the body to {:.3g} of its rest volume", volume),
+                     "use a stretch above zero along each axis, or leave the pressure out");
+}
+
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
   const BodyDescription& description = setup.description;
   if (setup.mesh.positions.empty()) throw body_error(description, "the mesh has no vertices", "use a mesh with a surface");
+  expect_not_flattened(description);
   const std::vector<glm::dvec3> positions = scaled_positions(setup);
   const glm::dvec3 centroid = mean(positions);
   const glm::dquat rotation = rotation_of(description.rotation);

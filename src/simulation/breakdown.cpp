@@ -5,7 +5,15 @@
 namespace pliant {
 namespace {
 
-std::string remedy(const TimePlan& plan) {
+// A step of such a body goes non-finite if its volume comes to zero or below. What is left of the state does not tell whether it
+// did.
+bool may_have_been_flattened(const ModelBody& body) { return body.inflation.pressure > 0; }
+
+std::string remedy(const TimePlan& plan, const ModelBody& body) {
+  if (may_have_been_flattened(body) && plan.tolerance)
+    return "lower its pressure or velocities, stiffen its springs, or loosen the tolerance";
+  if (may_have_been_flattened(body) && plan.time_step <= plan.step_bound)
+    return "shorten the time step, lower its pressure or velocities, or stiffen its springs";
   if (plan.tolerance) return "loosen the tolerance, or lower stiffness, damping or velocities";
   if (plan.time_step > plan.step_bound) return fmt::format("shorten the time step to {:.4g} s or less", plan.step_bound);
   return "shorten the time step, or lower stiffness, damping or velocities";
@@ -22,8 +30,9 @@ std::string reason(const NonFinite& where, const TimePlan& plan) {
 }  // namespace
 
 std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model) {
-  return fmt::format("{} in step {} at vertex {} of body \"{}\"; {}", reason(where, plan), where.step, where.vertex,
-                     model.bodies[where.body].name, remedy(plan));
+  const ModelBody& body = model.bodies[where.body];
+  return fmt::format("{} in step {} at vertex {} of body \"{}\"{}; {}", reason(where, plan), where.step, where.vertex, body.name,
+                     may_have_been_flattened(body) ? ", whose volume may have come to zero or below" : "", remedy(plan, body));
 }
 
 }  // namespace pliant

@@ -6,7 +6,8 @@
 
 namespace pliant {
 
-/// Returns "<what happened> in step <n> at vertex <v> of body "<name>"; <remedy>".
+/// Returns "<what happened> in step <n> at vertex <v> of body "<name>"; <remedy>". If there is pressure in that body, it says
+/// that its volume may have come to zero.
 [[nodiscard]] std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model);
 
 }  // namespace pliant

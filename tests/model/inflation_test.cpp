@@ -94,5 +94,22 @@ TEST_CASE("pressure takes no mesh so flat that rounded positions enclose nothing
   CHECK(flat == 5);
 }
 
+TEST_CASE("a body with pressure has to start with a volume") {
+  for (const PressureLaw law : {PressureLaw::gas, PressureLaw::constant})
+    for (const glm::dvec3& stretch :
+         {glm::dvec3(-1, 1, 1), glm::dvec3(1, 1, 0), glm::dvec3(-1, -1, -1), glm::dvec3(1, 1e-9, 1)}) {
+      BodySetup setup = inflated(generate_mesh("icosphere:1"));
+      setup.description.name = "balloon";
+      setup.description.pressure_law = law;
+      setup.description.stretch = stretch;
+      check_says(error_of([&] { return built(setup); }), {"balloon", "of its rest volume", "stretch above zero"});
+      setup.description.pressure = 0;
+      CHECK_NOTHROW(built(setup));
+    }
+  BodySetup turned = inflated(generate_mesh("icosphere:1"));
+  turned.description.stretch = {-1, -1, 1};  // a half turn
+  CHECK_NOTHROW(built(turned));
+}
+
 }  // namespace
 }  // namespace pliant

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "model/deform.hpp"
+#include "simulation/breakdown.hpp"
 #include "simulation/measure.hpp"
 #include "support/evolve.hpp"
 #include "support/expect_error.hpp"
@@ -113,8 +115,8 @@ TEST_CASE("splittings and methods with stages agree on a body with pressure") {
 TEST_CASE("a body turned inside out ends the run as non-finite, and is named") {
   BodySetup setups[] = {sphere(1), balloon(1, 5, PressureLaw::gas)};
   setups[0].description.position = {5, 0, 0};
-  setups[1].description.stretch = {-1, 1, 1};
-  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  displace(start.state, [&](std::size_t i) { return glm::dvec3(i < 42 ? 0 : -2 * start.model.rest_positions[i].x, 0, 0); });
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
     Simulation simulation(*test.device, start.model, start.state, plan_of(Method{"cv8", 1e-3}), {.response = {"none"}});
@@ -123,6 +125,22 @@ TEST_CASE("a body turned inside out ends the run as non-finite, and is named") {
     REQUIRE(end.has_value());
     CHECK((end->step == 1 && end->body == 1));
   }
+}
+
+TEST_CASE("a breakdown tells of the volume where there is pressure, and only there") {
+  BodySetup setups[] = {sphere(1), balloon(1, 5, PressureLaw::gas)};
+  const Model model = build_model(setups, glm::dvec3(0.0)).model;
+  TimePlan plan = plan_of(Method{"cv8", 1e-3});
+  plan.step_bound = 1e-2;
+  const std::string fixed = describe_breakdown({.step = 1, .body = 1}, plan, model);
+  CHECK_THAT(fixed, Catch::Contains("volume may have come to zero") && Catch::Contains("shorten the time step, lower") &&
+                        Catch::Contains("stiffen its springs"));
+  CHECK_THAT(describe_breakdown({.step = 1, .body = 0}, plan, model), !Catch::Contains("volume"));
+  plan.step_bound = 1e-4;
+  CHECK_THAT(describe_breakdown({.step = 1, .body = 1}, plan, model), Catch::Contains("0.0001 s or less"));
+  plan.tolerance = 1e-6;
+  CHECK_THAT(describe_breakdown({.step = 1, .body = 1, .failed_step = 7.4e-17}, plan, model),
+             Catch::Contains("volume may have come to zero") && Catch::Contains("loosen the tolerance"));
 }
 
 TEST_CASE("pressure in a mesh that is open or wound inward is an error that says what to do") {
