@@ -53,6 +53,32 @@ TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity
   CHECK_THAT(none, !Catch::Contains("energy"));
 }
 
+// Runs a body with pressure, at rest at the start. Returns the warnings in its summary.
+std::string warnings_of_balloon(const std::string& more) {
+  const ScratchFolder folder;
+  const auto path = folder.path / "balloon.toml";
+  std::ofstream(path) << "[simulation]\nintegrator = \"verlet\"\ndamping_law = \"none\"\n[[body]]\nname = \"balloon\"\n"
+                         "mesh = \"icosphere:1\"\nstiffness = 1\npressure = 5\n";
+  const ProgramResult result =
+      run_program("run " + path.string() + " --device cpu --quiet " + more + " --out " + folder.path.string());
+  REQUIRE(result.exit_code == 0);
+  return summary_in(folder.path)["warnings"].dump();
+}
+
+TEST_CASE("a body that pressure sets in motion has not grown in energy, unless its motion is unstable") {
+  for (const char* method : {"verlet", "cv8", "dop853"})
+    for (const char* law : {"gas", "constant"})
+      for (const char* steps : {"1", "40", "400"}) {
+        CAPTURE(method, law, steps);
+        CHECK_THAT(warnings_of_balloon(std::string("--time-step 0.01 --integrator ") + method + " --steps " + steps +
+                                       " --set body.balloon.pressure_law=" + law),
+                   !Catch::Contains("energy"));
+      }
+  const std::string warnings = warnings_of_balloon("--time-step 0.36 --steps 8 --set body.balloon.pressure=1e-6");
+  CHECK_THAT(warnings,
+             Catch::Contains("1.17 times the stability bound") && Catch::Contains("the energy has grown by 1 of the most"));
+}
+
 TEST_CASE("energy that gravity gives, wherever the world's origin is, is no growth") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
