@@ -53,16 +53,29 @@ TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity
   CHECK_THAT(none, !Catch::Contains("energy"));
 }
 
-// Runs a body with pressure, at rest at the start. Returns the warnings in its summary.
-std::string warnings_of_balloon(const std::string& more) {
-  const ScratchFolder folder;
+// Runs a body with pressure, at rest at the start.
+ProgramResult run_balloon(const ScratchFolder& folder, const std::string& more) {
   const auto path = folder.path / "balloon.toml";
   std::ofstream(path) << "[simulation]\nintegrator = \"verlet\"\ndamping_law = \"none\"\n[[body]]\nname = \"balloon\"\n"
                          "mesh = \"icosphere:1\"\nstiffness = 1\npressure = 5\n";
-  const ProgramResult result =
-      run_program("run " + path.string() + " --device cpu --quiet " + more + " --out " + folder.path.string());
-  REQUIRE(result.exit_code == 0);
+  return run_program("run " + path.string() + " --device cpu --quiet " + more + " --out " + folder.path.string());
+}
+
+std::string warnings_of_balloon(const std::string& more) {
+  const ScratchFolder folder;
+  REQUIRE(run_balloon(folder, more).exit_code == 0);
   return summary_in(folder.path)["warnings"].dump();
+}
+
+TEST_CASE("a body with pressure that comes to no volume ends the run, and its volume is named") {
+  const ScratchFolder folder;
+  const ProgramResult late = run_balloon(folder, "--time-step 0.36 --steps 8");
+  CHECK(late.exit_code == 5);
+  CHECK_THAT(late.output,
+             Catch::Contains("non-finite") && Catch::Contains("body \"balloon\", whose volume may have come to zero"));
+  const ProgramResult early = run_balloon(folder, "--time-step 0.01 --steps 8 --set body.balloon.stretch=[-1,1,1]");
+  CHECK(early.exit_code == 3);
+  CHECK_THAT(early.output, Catch::Contains("balloon.toml:4") && Catch::Contains("-1 of its rest volume"));
 }
 
 TEST_CASE("a body that pressure sets in motion has not grown in energy, unless its motion is unstable") {
