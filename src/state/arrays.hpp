@@ -30,7 +30,7 @@ struct CarriedArray {
   bool is_real = false;  // numbers of the device's precision. Others are the same on every device
 };
 
-/// The name of T in physics/arrays.glsl.
+/// The name of T in physics/arrays.glsl. Empty if T has none.
 template <class T>
 inline constexpr std::string_view element_name{};
 #define PLIANT_ELEMENT(T, name) \
@@ -56,6 +56,13 @@ PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT
 
+/// Returns the same name. Compiles only if there is one.
+template <class T>
+consteval std::string_view expected_element() {
+  static_assert(!element_name<T>.empty(), "physics/arrays.glsl has no name for this type: add a PLIANT_ELEMENT");
+  return element_name<T>;
+}
+
 /// Owns arrays. Throws std::logic_error, which names array and types, for these bugs of the caller:
 /// - The name is not in the list.
 /// - Nobody has made the array.
@@ -70,7 +77,7 @@ class Arrays {
   /// Makes a zero-filled array of `count` elements. It replaces an earlier one of that name and makes references to it invalid.
   template <class T>
   DeviceArray<T>& make(std::string_view name, std::size_t count) {
-    return hold(name, element_name<T>, std::make_shared<DeviceArray<T>>(device_, count, name));
+    return hold(name, expected_element<T>(), std::make_shared<DeviceArray<T>>(device_, count, name));
   }
   template <class T>
   DeviceArray<T>& make(std::string_view name, const std::vector<T>& values) {
@@ -83,7 +90,7 @@ class Arrays {
 
   template <class T>
   [[nodiscard]] DeviceArray<T>& get(std::string_view name) const {
-    return *static_cast<DeviceArray<T>*>(find(name, element_name<T>).array.get());
+    return *static_cast<DeviceArray<T>*>(find(name, expected_element<T>()).array.get());
   }
   [[nodiscard]] BufferId buffer(std::string_view name) const;
   [[nodiscard]] Device& device() const { return device_; }
