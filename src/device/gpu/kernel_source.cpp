@@ -101,6 +101,11 @@ class Writer {
   KernelSignature& signature_;
 };
 
+std::string_view kernel_file(std::span<const gl::Define> defines) {
+  const auto found = std::ranges::find(defines, "@kernel", &gl::Define::first);
+  return found == defines.end() ? std::string_view() : std::string_view(found->second);
+}
+
 }  // namespace
 
 KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_view frame, std::span<const gl::Define> defines) {
@@ -115,6 +120,10 @@ KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_vi
     text += declaration ? writer.write_out(*declaration, source.shader.origins[number]) : std::string(line);
     text += '\n';
   }
+  if (source.signature.arrays.size() > max_arrays)
+    throw Error(ErrorKind::device, std::string(kernel_file(defines)),
+                fmt::format("the kernel has {} arrays, but it may have {}", source.signature.arrays.size(), max_arrays),
+                "make two kernels of it");
   source.shader.text = std::move(text);
   return source;
 }

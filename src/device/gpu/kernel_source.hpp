@@ -15,7 +15,8 @@ struct KernelSource {
 };
 
 /// Flattens `frame`, and writes its declarations out. Array k of the signature has binding k, parameter k has location k. Throws
-/// Error (device) with file and line if a declaration names no array of physics/arrays.glsl.
+/// Error (device) with file and line if a declaration names no array of physics/arrays.glsl. Throws Error (device) with the file
+/// that "@kernel" stands for if there are more than max_arrays.
 [[nodiscard]] KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_view frame,
                                          std::span<const gl::Define> defines);
 
