@@ -48,8 +48,6 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
   List step;
   // length
   if (pacer != nullptr) step.add(pacer->beginning_pass());
-  // kick
-  if (searches) step.add(response->before_step(from_half));
   // integrate
   step.add(stepper.passes(from_half));
   // find contacts and let frames follow; with a tolerance frames follow after the judging, because it may undo the step

@@ -16,11 +16,6 @@ namespace pliant {
 class Response {
  public:
   virtual ~Response() = default;
-  /// Returns passes that run before the integrator's, with the state in `from_half`.
-  [[nodiscard]] virtual std::vector<Pass> before_step(std::uint32_t from_half) const {
-    static_cast<void>(from_half);
-    return {};
-  }
   /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs
   /// steps, they run after the verdict.
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
