@@ -26,13 +26,6 @@ void add_search_while_following(List& step, const Stepper& stepper, const Collid
   step.add(collider.testing_passes(half));
 }
 
-void add_search(List& step, const Collider& collider, std::uint32_t half) {
-  step.add(collider.pairing_passes());
-  step.add(collider.refitting_passes(half));
-  step.add(collider.finding_passes(half));
-  step.add(collider.testing_passes(half));
-}
-
 void add_following(List& step, const Stepper& stepper, std::uint32_t from_half) {
   step.add(stepper.following_pass(from_half));
   step.add(stepper.restating_pass(from_half));
@@ -53,14 +46,14 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
   // find contacts and let frames follow; with a tolerance frames follow after the judging, because it may undo the step
   if (pacer != nullptr) {
     step.add(pacer->estimating_pass());
-    if (searches) add_search(step, collider, half);
+    if (searches) step.add(collider.search_passes(half));
     if (searches) step.add(pacer->contact_pass(from_half));
     step.add(pacer->judging_passes(from_half));
     add_following(step, stepper, from_half);
   } else if (searches && collider.uses_trees()) {
     add_search_while_following(step, stepper, collider, from_half);
   } else {
-    if (searches) add_search(step, collider, half);
+    if (searches) step.add(collider.search_passes(half));
     add_following(step, stepper, from_half);
   }
   // answer contacts
