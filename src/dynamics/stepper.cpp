@@ -70,10 +70,10 @@ std::size_t Stepper::most_drags(const Integrator& integrator) {
   return physics::tableau_size / stage_rows(nystrom_tableau(integrator), true).size();
 }
 
-Stepper::Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step, Stages stages,
-                 const AddedForces* added_forces)
+Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& integrator, DampingLaw law, double time_step,
+                 Stages stages)
     : bodies_(bodies),
-      added_forces_(added_forces),
+      added_forces_(bodies, model),
       integrator_(integrator),
       law_(static_cast<std::uint32_t>(law)),
       time_step_(time_step) {
@@ -133,18 +133,13 @@ Pass Stepper::refresh_pass() const {
   return make_pass(bodies_.arrays, "refresh_force", kernel, {}, static_cast<std::uint32_t>(bodies_.shares.size()));
 }
 
-std::vector<Pass> Stepper::added_passes(std::uint32_t slot) const {
-  return added_forces_ == nullptr ? std::vector<Pass>{} : added_forces_->passes(slot);
-}
-
-std::uint32_t Stepper::adds_force() const { return added_forces_ != nullptr && added_forces_->any() ? 1 : 0; }
-
 std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const {
   const DeviceBodies& b = bodies_;
-  const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, b.all_stages_at_once);
+  const bool at_once = b.all_stages_at_once && !added_forces_.any();  // added forces come between stages
+  const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, at_once);
   std::vector<Pass> passes;
-  for (std::uint32_t stage = 0; stage < (b.all_stages_at_once ? 1 : stage_count_); ++stage) {
-    std::ranges::move(added_passes(slot_of_stage(stage)), std::back_inserter(passes));
+  for (std::uint32_t stage = 0; stage < (at_once ? 1 : stage_count_); ++stage) {
+    std::ranges::move(added_forces_.passes(slot_of_stage(stage)), std::back_inserter(passes));
     passes.push_back(make_pass(b.arrays, name, kernel,
                                {{"from_half", from_half},
                                 {"damping_law", law_},
@@ -161,7 +156,7 @@ std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32
     return static_cast<double>(fractions[0] * static_cast<long double>(time_step_));
   };
   std::vector<Pass> result = {refresh_pass()};
-  std::ranges::move(added_passes(physics::start_slot), std::back_inserter(result));
+  std::ranges::move(added_forces_.passes(physics::start_slot), std::back_inserter(result));
   result.push_back(make_pass(bodies_.arrays, "first_kick",
                              {{"from_half", from_half},
                               {"damping_law", law_},

@@ -16,11 +16,11 @@ class Stepper {
   /// Expects no splitting.
   [[nodiscard]] static std::size_t most_drags(const Integrator& integrator);
 
-  /// Expects allows_damping(integrator, law), and for a Nystrom method no more drags than most_drags. `bodies` and
-  /// `added_forces`, if not null, must outlive the stepper. A method with stages takes each step's length from the bodies'
-  /// `control`, which begins with `time_step`.
-  Stepper(DeviceBodies& bodies, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
-          Stages stages = Stages::of_result, const AddedForces* added_forces = nullptr);
+  /// Expects allows_damping(integrator, law), and for a Nystrom method no more drags than most_drags. `bodies` must outlive the
+  /// stepper. Makes the arrays of all forces that act on the model. A method with stages takes each step's length from the
+  /// bodies' `control`, which begins with `time_step`.
+  Stepper(DeviceBodies& bodies, const Model& model, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
+          Stages stages = Stages::of_result);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -40,16 +40,14 @@ class Stepper {
  private:
   /// Makes the method's tableau, or one for each rate of damping among the bodies.
   void use_tableaus(Stages stages);
-  /// Returns a pass for each stage, or one for all stages if the bodies are small enough.
+  /// Returns a pass for each stage, or one for all stages if the bodies are small enough and springs are their only forces.
   using SlotOfStage = std::uint32_t (*)(std::uint32_t stage);
   [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const;
-  /// Returns the passes that set the forces beside the springs.
-  [[nodiscard]] std::vector<Pass> added_passes(std::uint32_t slot) const;
-  [[nodiscard]] std::uint32_t adds_force() const;
+  [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
   DeviceBodies& bodies_;
-  const AddedForces* added_forces_;
+  AddedForces added_forces_;
   const Integrator& integrator_;
   std::uint32_t law_;
   double time_step_;

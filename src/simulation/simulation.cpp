@@ -52,9 +52,8 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     : device_(device),
       model_(model),
       bodies_(device, model, start),
-      added_forces_(bodies_, model),
-      stepper_(bodies_, *plan.integrator, plan.damping_law, plan.time_step,
-               plan.tolerance ? Stages::of_estimates : Stages::of_result, &added_forces_),
+      stepper_(bodies_, model, *plan.integrator, plan.damping_law, plan.time_step,
+               plan.tolerance ? Stages::of_estimates : Stages::of_result),
       collider_(bodies_, model, collision),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {

@@ -121,7 +121,6 @@ class Simulation {
   Device& device_;
   const Model& model_;
   DeviceBodies bodies_;
-  AddedForces added_forces_;
   Stepper stepper_;
   Collider collider_;
   std::optional<Grip> grip_;                       // of the latest pull

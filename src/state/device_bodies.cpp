@@ -99,7 +99,6 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make<std::uint32_t>("meeting", body_count);
-  arrays.make<double>("added_force", 1);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
   make_placements();

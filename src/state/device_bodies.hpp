@@ -22,7 +22,7 @@ struct DeviceBodies {
 
   std::uint32_t vertex_count = 0, body_count = 0;
   std::size_t force_variant;
-  bool all_stages_at_once = false;  // whether force kernels run all stages of a step in one dispatch
+  bool all_stages_at_once = false;  // whether bodies are small enough for all stages of a step in one dispatch
   Arrays arrays;                    // these, and those that others make for the same simulation
   DeviceArray<physics::Share>& shares;
   DeviceArray<physics::Pose>& poses;

@@ -23,8 +23,7 @@ struct Bench {
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        added_forces(bodies, start.model),
-        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_result, &added_forces),
+        stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step),
         collider(bodies, start.model, collision, 256),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
@@ -36,8 +35,7 @@ struct Bench {
         double tolerance)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
-        added_forces(bodies, start.model),
-        stepper(bodies, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates, &added_forces),
+        stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
         collider(bodies, start.model, collision, 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
@@ -63,7 +61,6 @@ struct Bench {
 
   std::unique_ptr<Device> device;
   DeviceBodies bodies;
-  AddedForces added_forces;
   Stepper stepper;
   Collider collider;
   Grip grip;
@@ -301,7 +298,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
 
 std::vector<double> spring_forces(Device& device, const ModelAndState& start, std::size_t variant) {
   DeviceBodies bodies(device, start.model, start.state, variant);
-  const Stepper stepper(bodies, find_integrator("verlet"), DampingLaw::none, 0.01);
+  const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 0.01);
   device.run(stepper.first_passes());
   const Pass pass = stepper.refresh_pass();
   device.run({&pass, 1});

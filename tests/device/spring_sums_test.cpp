@@ -251,7 +251,7 @@ std::vector<double> motion_after(unsigned threads, int precision, std::string_vi
   REQUIRE(found != device->force_variants().end());
   const ModelAndState start = build_model(three_spheres(), glm::dvec3(0));
   DeviceBodies bodies(*device, start.model, start.state, static_cast<std::size_t>(found - device->force_variants().begin()));
-  const Stepper stepper(bodies, find_integrator(integrator), DampingLaw::none, 0.01);
+  const Stepper stepper(bodies, start.model, find_integrator(integrator), DampingLaw::none, 0.01);
   device->run(stepper.first_passes());
   for (std::uint32_t step = 0; step < 6; ++step) device->run(stepper.passes(step % 2));
   const std::vector<physics::Tally> tallies = bodies.tallies.download();

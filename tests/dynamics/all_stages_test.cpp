@@ -36,7 +36,7 @@ Outcome outcome_of(const DeviceBodies& bodies, std::uint32_t half) {
 Outcome after_five_steps(Device& device, const ModelAndState& start, const Method& method, std::size_t variant, bool all_stages) {
   DeviceBodies bodies(device, start.model, start.state, variant);
   bodies.all_stages_at_once = all_stages;
-  const Stepper stepper(bodies, find_integrator(method.integrator), method.law, method.time_step);
+  const Stepper stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step);
   device.run(stepper.first_passes());
   const std::size_t passes = stepper.passes(0).size();
   CHECK((all_stages ? passes <= 3 : passes >= stepper.stage_count()));
@@ -60,7 +60,7 @@ AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start,
   const TimePlan plan = plan_of(Adaptive{"vern8", 1e-5, 4 / omega, DampingLaw::constant}, start.model);
   DeviceBodies bodies(device, start.model, start.state, variant);
   bodies.all_stages_at_once = all_stages;
-  const Stepper stepper(bodies, *plan.integrator, plan.damping_law, plan.time_step, Stages::of_estimates);
+  const Stepper stepper(bodies, start.model, *plan.integrator, plan.damping_law, plan.time_step, Stages::of_estimates);
   Pacer pacer(bodies, start.model, stepper, *plan.integrator, plan.damping_law,
               {.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
   const Collider collider(bodies, start.model, {.response = {"none"}});

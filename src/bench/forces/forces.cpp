@@ -99,7 +99,7 @@ class ForcesAt {
 
   Timing seconds_of_forces(const ModelAndState& body, std::size_t variant) {
     DeviceBodies bodies(*device_, body.model, body.state, variant);
-    const Stepper stepper(bodies, find_integrator("verlet"), DampingLaw::none, 1e-3);
+    const Stepper stepper(bodies, body.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
     device_->run(stepper.first_passes());
     const Pass pass = stepper.refresh_pass();  // kept forces stay marked as stale, so it sums them every time
     return seconds_each(*device_, effort_, [&] { device_->run({&pass, 1}); });

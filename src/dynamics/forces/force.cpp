@@ -31,11 +31,10 @@ void add_force(const Force& force) { rows().push_back(force); }
 AddedForces::AddedForces(DeviceBodies& bodies, const Model& model) {
   for (const Force& force : forces()) {
     if (force.make == nullptr || !acts_on_any(force, model)) continue;
-    if (!any()) bodies.arrays.make<double>("added_force", std::size_t{3} * bodies.vertex_count);
     forces_.push_back(force.make(bodies, model));
     count_as_deformed(bodies, force, model);
   }
-  if (any()) bodies.all_stages_at_once = false;  // these forces come between stages
+  bodies.arrays.make<double>("added_force", any() ? std::size_t{3} * bodies.vertex_count : 1);
 }
 
 std::vector<Pass> AddedForces::passes(std::uint32_t slot) const {

@@ -54,13 +54,14 @@ struct Force {
 /// Adds another program's row. Simulations that are made from then on have it.
 void add_force(const Force& force);
 
-/// The forces beside the springs that act on any body of a scene. Makes their arrays. Bodies that feel one at rest count as
-/// deformed.
+/// The forces beside the springs that act on any body of a scene. Makes their arrays, and `added_force` in any case, because
+/// stages name it. Bodies that feel one at rest count as deformed.
 class AddedForces {
  public:
   /// `bodies` must outlive this.
   AddedForces(DeviceBodies& bodies, const Model& model);
   [[nodiscard]] bool any() const { return !forces_.empty(); }
+  /// Returns passes that set `added_force` at the placements in a slot.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t slot) const;
 
  private:

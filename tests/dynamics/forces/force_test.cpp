@@ -53,8 +53,7 @@ State deformed(const ModelAndState& start, double size) {
 // All of a body's forces at a state, by a method's first stage.
 std::vector<glm::dvec3> forces_at(Device& device, const Model& model, const State& state) {
   DeviceBodies bodies(device, model, state);
-  const AddedForces added(bodies, model);
-  const Stepper stepper(bodies, find_integrator("rk4"), DampingLaw::none, 1e-3, Stages::of_result, &added);
+  const Stepper stepper(bodies, model, find_integrator("rk4"), DampingLaw::none, 1e-3);
   device.run(stepper.first_passes());
   device.run(stepper.passes(0));
   const std::vector<double> a = bodies.arrays.get<double>("acceleration").download();
