@@ -109,8 +109,8 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.
 void DeviceBodies::make_placements() {
   const std::size_t slot_size = std::size_t{8} * vertex_count;
-  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", (physics::rounding_slot + 1) * slot_size);
-  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / (physics::rounding_slot + 1);
+  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", physics::slot_count * slot_size);
+  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / physics::slot_count;
   arrays.carry_part("placement", physics::start_slot * slot_bytes, slot_bytes);
 }
 

@@ -16,10 +16,10 @@ FN uint velocity_of(uint place) { return 6u * place + 3u; }
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 
-// `placement` has three slots of all vertices. Stages use the first two in turn. A fourth slot notes what rounding has done.
-const uint start_slot = 2u;  // the step's start, which the end of the step before writes
-const uint slot_count = 3u;
-const uint rounding_slot = 3u;
+// `placement` has four slots of all vertices. Stages use the first two in turn.
+const uint start_slot = 2u;     // the step's start, which the end of the step before writes
+const uint rounding_slot = 3u;  // notes what rounding has done
+const uint slot_count = 4u;
 
 // Where the position and the displacement of vertex i stand in `placement`, counted in vectors of four.
 FN uint position_at(uint slot, uint vertex_count, uint i) { return 2u * slot * vertex_count + i; }
