@@ -116,13 +116,14 @@ std::vector<double> numbers_of(const physics::Control& control) {
 }
 
 std::vector<double> numbers_of(const physics::Pace& pace) {
+  static_assert(sizeof(physics::Pace) == offsetof(physics::Pace, error) + 16 * sizeof(std::uint32_t));  // all of them are below
   std::vector<double> numbers(offsetof(physics::Pace, error) / sizeof(double));
   std::memcpy(numbers.data(), &pace, numbers.size() * sizeof(double));
-  numbers.push_back(std::bit_cast<float>(pace.error));
+  for (const std::uint32_t error : {pace.error, pace.lowest_error}) numbers.push_back(std::bit_cast<float>(error));
   for (const std::uint32_t side : {pace.least_x, pace.least_y, pace.least_z, pace.most_x, pace.most_y, pace.most_z})
     numbers.push_back(side);
-  for (const std::uint32_t count :
-       {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.rejected_in_contact, pace.rejected_before})
+  for (const std::uint32_t count : {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.rejected_in_contact,
+                                    pace.rejected_before, pace.failure, pace.is_too_slow})
     numbers.push_back(count);
   return numbers;
 }
