@@ -55,7 +55,7 @@ void Grip::aim_at(const glm::dvec3& target, double seconds) {
 }
 
 std::vector<Pass> Grip::passes(std::uint32_t half) const {
-  const std::uint32_t first_vertex = half * bodies_.vertex_count;
+  const std::uint32_t first_vertex = bodies_.first_of_half(half);
   return {make_pass(bodies_.arrays, "aim_pull", {{"first_vertex", first_vertex}}, 1),
           make_pass(bodies_.arrays, "pull_grip", {{"first_vertex", first_vertex}}, aim_.grip_count)};
 }

@@ -3,9 +3,10 @@
 namespace pliant {
 
 void displace(State& state, const std::function<glm::dvec3(std::size_t vertex)>& by) {
-  for (std::size_t vertex = 0; 6 * vertex < state.motion.size(); ++vertex) {
-    const glm::dvec3 moved = by(vertex);
-    for (std::size_t k = 0; k < 3; ++k) state.motion[6 * vertex + k] += moved[static_cast<glm::length_t>(k)];
+  const std::size_t vertex_count = state.motion.size() / physics::motion_size;
+  for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+    const glm::dvec3 moved = state.displacement(vertex) + by(vertex);
+    STORE3(state.motion, physics::displacement_of(static_cast<std::uint32_t>(vertex)), moved)
   }
 }
 

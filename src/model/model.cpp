@@ -21,10 +21,6 @@ namespace {
 constexpr double largest_coordinate = 1e9;  // [m]
 constexpr double smallest_radius = 1e-6;    // [m]
 
-glm::dvec3 load(const std::vector<double>& array, std::size_t first) {
-  return {array[first], array[first + 1], array[first + 2]};
-}
-
 glm::dvec3 mean(const std::vector<glm::dvec3>& points) {
   glm::dvec3 sum(0.0);
   for (const glm::dvec3& point : points) sum += point;
@@ -173,7 +169,7 @@ std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
     const physics::Pose& pose = poses[model.body_index(vertex)];
-    positions.push_back(physics::to_world(pose, model.rest_position(vertex) + load(motion, 6 * vertex)));
+    positions.push_back(physics::to_world(pose, model.rest_position(vertex) + displacement(vertex)));
   }
   return positions;
 }
@@ -182,7 +178,7 @@ std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   std::vector<glm::dvec3> velocities;
   for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
     const physics::Pose& pose = poses[model.body_index(vertex)];
-    velocities.push_back(physics::rotate(pose, load(motion, 6 * vertex + 3)));
+    velocities.push_back(physics::rotate(pose, velocity(vertex)));
   }
   return velocities;
 }

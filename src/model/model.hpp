@@ -10,6 +10,7 @@
 
 #include "mesh/triangle_mesh.hpp"
 #include "physics/body.glsl"
+#include "physics/layout.glsl"
 #include "scene/scene_description.hpp"
 
 namespace pliant {
@@ -67,9 +68,19 @@ struct State {
   std::vector<physics::Pose> poses;  // one for each body
   std::vector<double> motion;        // 6 for each vertex: u [m], w [m/s]
 
+  /// Return u [m] and w [m/s] of a vertex.
+  [[nodiscard]] glm::dvec3 displacement(std::size_t vertex) const {
+    return load(physics::displacement_of(static_cast<std::uint32_t>(vertex)));
+  }
+  [[nodiscard]] glm::dvec3 velocity(std::size_t vertex) const {
+    return load(physics::velocity_of(static_cast<std::uint32_t>(vertex)));
+  }
   /// Return the world position [m] and velocity [m/s] of every vertex, in fp64.
   [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;
   [[nodiscard]] std::vector<glm::dvec3> world_velocities(const Model& model) const;
+
+ private:
+  [[nodiscard]] glm::dvec3 load(std::size_t first) const { return {motion[first], motion[first + 1], motion[first + 2]}; }
 };
 
 /// One body's mesh with its place and material.

@@ -106,7 +106,7 @@ class Simulation {
 
   /// The device's buffer of world positions, for drawing. The current ones begin at element first_position().
   [[nodiscard]] BufferId position_buffer() const { return bodies_.world_positions.id(); }
-  [[nodiscard]] std::uint32_t first_position() { return half() * bodies_.vertex_count; }
+  [[nodiscard]] std::uint32_t first_position() { return bodies_.first_of_half(half()); }
   /// The device's buffer of motions: 6 doubles a vertex. The current ones also begin at vertex first_position().
   [[nodiscard]] BufferId motion_buffer() const { return bodies_.motions.id(); }
   [[nodiscard]] const Collider& collider() const { return collider_; }

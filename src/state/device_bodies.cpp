@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "physics/layout.glsl"
-
 namespace pliant {
 namespace {
 
@@ -90,7 +88,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       poses(arrays.make("pose", state.poses)),
       statuses(arrays.make("status", std::vector(body_count, first_status()))),
       tallies(arrays.make<physics::Tally>("tally", body_count)),
-      motions(arrays.make<double>("motion", std::size_t{2} * 6 * vertex_count)),
+      motions(arrays.make<double>("motion", std::size_t{2} * physics::motion_size * vertex_count)),
       world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
       control(arrays.make("control", std::vector{first_control()})) {
   all_stages_at_once = runs_all_stages(device, model, variant);
@@ -108,7 +106,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.
 void DeviceBodies::make_placements() {
-  const std::size_t slot_size = std::size_t{8} * vertex_count;
+  const std::size_t slot_size = std::size_t{4} * physics::slot_vectors * vertex_count;
   const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", physics::slot_count * slot_size);
   const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / physics::slot_count;
   arrays.carry_part("placement", physics::start_slot * slot_bytes, slot_bytes);
@@ -136,7 +134,8 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
 
 State DeviceBodies::download(std::uint32_t half) const {
   return {.poses = poses.download(),
-          .motion = motions.download(std::size_t{6} * half * vertex_count, std::size_t{6} * vertex_count)};
+          .motion =
+              motions.download(physics::displacement_of(first_of_half(half)), std::size_t{physics::motion_size} * vertex_count)};
 }
 
 }  // namespace pliant

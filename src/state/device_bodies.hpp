@@ -7,6 +7,7 @@
 #include "model/model.hpp"
 #include "physics/body.glsl"
 #include "physics/control.glsl"
+#include "physics/layout.glsl"
 #include "state/arrays.hpp"
 
 namespace pliant {
@@ -32,6 +33,8 @@ struct DeviceBodies {
   DeviceArray<glm::vec4>& world_positions;
   DeviceArray<physics::Control>& control;
 
+  /// Returns the place of a half's first vertex in motions and in world positions.
+  [[nodiscard]] std::uint32_t first_of_half(std::uint32_t half) const { return physics::in_half(half, vertex_count, 0); }
   /// Returns the state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
   /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, as follow_bodies does, and sets

@@ -95,8 +95,8 @@ Rounding rounding_so_far(uint i, uint k) {
   Rounding rounding;
   rounding.of_position = rounding.of_displacement = real(0);
   if (!CANCELS_ROUNDING || stage_index == 0u || is_last()) return rounding;
-  rounding.of_position = placement[4u * position_at(rounding_slot, vertex_count, i) + k];
-  rounding.of_displacement = placement[4u * displacement_at(rounding_slot, vertex_count, i) + k];
+  rounding.of_position = placement[number_of(position_at(rounding_slot, vertex_count, i), k)];
+  rounding.of_displacement = placement[number_of(displacement_at(rounding_slot, vertex_count, i), k)];
   return rounding;
 }
 
@@ -110,10 +110,10 @@ void place_against(real so_far, dvec2 weight, double exact, uint at, uint noted_
 
 void place_next(uint i, uint k, double inverse_unit, double rest, double relative, IN(Rounding) so_far, dvec2 weight) {
   uint slot = slot_after_stage(stage_index);
-  place_against(so_far.of_position, weight, inverse_unit * (rest + relative), 4u * position_at(slot, vertex_count, i) + k,
-                4u * position_at(rounding_slot, vertex_count, i) + k);
-  place_against(so_far.of_displacement, weight, inverse_unit * relative, 4u * displacement_at(slot, vertex_count, i) + k,
-                4u * displacement_at(rounding_slot, vertex_count, i) + k);
+  place_against(so_far.of_position, weight, inverse_unit * (rest + relative), number_of(position_at(slot, vertex_count, i), k),
+                number_of(position_at(rounding_slot, vertex_count, i), k));
+  place_against(so_far.of_displacement, weight, inverse_unit * relative, number_of(displacement_at(slot, vertex_count, i), k),
+                number_of(displacement_at(rounding_slot, vertex_count, i), k));
 }
 
 Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {

@@ -25,7 +25,7 @@ void undo_step(uint i) {
   if (pace[0].verdict != step_rejected && pace[0].verdict != step_empty) return;
   uint b = uint(rest_position[i].w);
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
-  for (uint k = 0u; k < 6u; ++k) motion[displacement_of(after) + k] = motion[displacement_of(before) + k];
+  for (uint k = 0u; k < motion_size; ++k) motion[displacement_of(after) + k] = motion[displacement_of(before) + k];
   world_position[after] = world_position[before];
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]),

@@ -9,12 +9,16 @@ FN uint in_half(uint half_index, uint vertex_count, uint i) { return half_index 
 FN uint other_half(uint half_index) { return 1u - half_index; }
 
 // The first of the three numbers in `motion`. `place` is the vertex's, from in_half().
-FN uint displacement_of(uint place) { return 6u * place; }
-FN uint velocity_of(uint place) { return 6u * place + 3u; }
+const uint motion_size = 6u;  // numbers of a vertex
+FN uint displacement_of(uint place) { return motion_size * place; }
+FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 
 // The first of the three numbers of vertex i: in `kept_force` and `added_force`, and in `acceleration`.
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
+
+// Where the k-th number of a vector of four stands in an array that a kernel uses as single numbers.
+FN uint number_of(uint vector, uint k) { return 4u * vector + k; }
 
 // `placement` has four slots of all vertices. Stages use the first two in turn.
 const uint start_slot = 2u;     // the step's start, which the end of the step before writes
@@ -22,8 +26,9 @@ const uint rounding_slot = 3u;  // notes what rounding has done
 const uint slot_count = 4u;
 
 // Where the position and the displacement of vertex i stand in `placement`, counted in vectors of four.
-FN uint position_at(uint slot, uint vertex_count, uint i) { return 2u * slot * vertex_count + i; }
-FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (2u * slot + 1u) * vertex_count + i; }
+const uint slot_vectors = 2u;  // of each vertex in a slot
+FN uint position_at(uint slot, uint vertex_count, uint i) { return slot_vectors * slot * vertex_count + i; }
+FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (slot_vectors * slot + 1u) * vertex_count + i; }
 // slot_of_stage() is the slot that a stage reads, slot_of_force() the one that a stage of a splitting reads after its first kick.
 // slot_after_stage() is the one that either writes for the next stage.
 FN uint slot_of_stage(uint stage) { return stage == 0u ? start_slot : stage & 1u; }

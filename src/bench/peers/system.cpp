@@ -25,8 +25,8 @@ std::vector<double> PeerSystem::numbers_of(const State& state) const {
   std::vector<double> numbers(size());
   for (std::size_t i = 0; i < vertex_count_; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      numbers[3 * i + k] = state.motion[6 * i + k];
-      numbers[3 * (vertex_count_ + i) + k] = state.motion[6 * i + 3 + k] / omega_;
+      numbers[3 * i + k] = state.displacement(i)[static_cast<int>(k)];
+      numbers[3 * (vertex_count_ + i) + k] = state.velocity(i)[static_cast<int>(k)] / omega_;
     }
   return numbers;
 }
@@ -35,8 +35,9 @@ State PeerSystem::state_of(const std::vector<double>& numbers, const State& star
   State state = start;
   for (std::size_t i = 0; i < vertex_count_; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      state.motion[6 * i + k] = numbers[3 * i + k];
-      state.motion[6 * i + 3 + k] = omega_ * numbers[3 * (vertex_count_ + i) + k];
+      const auto vertex = static_cast<std::uint32_t>(i);
+      state.motion[physics::displacement_of(vertex) + k] = numbers[3 * i + k];
+      state.motion[physics::velocity_of(vertex) + k] = omega_ * numbers[3 * (vertex_count_ + i) + k];
     }
   return state;
 }

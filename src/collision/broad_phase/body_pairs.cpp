@@ -11,7 +11,7 @@ BodyPairs::BodyPairs(DeviceBodies& bodies)
 }
 
 Pass BodyPairs::bounding_pass(std::uint32_t half) const {
-  return make_pass(bodies_.arrays, "bound_bodies", {{"first_position", half * bodies_.vertex_count}}, bodies_.vertex_count);
+  return make_pass(bodies_.arrays, "bound_bodies", {{"first_position", bodies_.first_of_half(half)}}, bodies_.vertex_count);
 }
 
 Pass BodyPairs::pairing_pass() const {

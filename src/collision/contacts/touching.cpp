@@ -34,7 +34,7 @@ Touching::Touching(DeviceBodies& bodies, const Model& model, TriangleTest test, 
 Pass Touching::testing_pass(std::uint32_t half) const {
   const std::uint32_t pairs = std::clamp(parallel_items_, least_threads, most_threads) / physics::threads_per_leaf_pair;
   return make_pass(bodies_.arrays, "test_pairs",
-                   {{"first_position", half * bodies_.vertex_count},
+                   {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", triangle_test_},
                     {"leaf_pair_capacity", leaf_pair_capacity},
                     {"pairs_at_once", pairs}},
@@ -44,7 +44,7 @@ Pass Touching::testing_pass(std::uint32_t half) const {
 Pass Touching::brute_force_pass(std::uint32_t half) const {
   const std::uint32_t pairs = pairs_at_once(parallel_items_, largest_body_, most_near_pairs_);
   return make_pass(bodies_.arrays, "test_all_pairs",
-                   {{"first_position", half * bodies_.vertex_count},
+                   {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", triangle_test_},
                     {"threads_per_pair", largest_body_},
                     {"pairs_at_once", pairs}},

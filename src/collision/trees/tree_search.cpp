@@ -66,14 +66,14 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t
 }
 
 Pass TreeSearch::refitting_pass(std::uint32_t half) const {
-  return make_pass(bodies_.arrays, "refit", {{"first_position", half * bodies_.vertex_count}}, leaf_count_);
+  return make_pass(bodies_.arrays, "refit", {{"first_position", bodies_.first_of_half(half)}}, leaf_count_);
 }
 
 Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const {
   const std::uint32_t starts = 1u << start_depth_;
   const std::uint32_t pairs = pairs_at_once(parallel_items_, starts * starts, most_near_pairs_);
   return make_pass(bodies_.arrays, "find_pairs",
-                   {{"first_position", half * bodies_.vertex_count},
+                   {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", static_cast<std::uint32_t>(test_beyond_capacity)},
                     {"leaf_pair_capacity", leaf_pair_capacity},
                     {"first_start", node_count_},

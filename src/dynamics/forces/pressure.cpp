@@ -105,8 +105,7 @@ std::unique_ptr<AddedForce> make(DeviceBodies& bodies, const Model& model) {
 std::vector<glm::dvec3> positions_of(const Model& model, const State& state) {
   std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; i < model.rest_positions.size(); ++i)
-    positions.push_back(glm::dvec3(model.rest_positions[i]) +
-                        glm::dvec3(state.motion[6 * i], state.motion[6 * i + 1], state.motion[6 * i + 2]));
+    positions.push_back(model.rest_position(i) + state.displacement(i));
   return positions;
 }
 

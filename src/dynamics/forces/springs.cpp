@@ -17,7 +17,7 @@ struct Coordinates {
       moved[axis].resize(model.vertex_count());
       for (std::uint32_t i = 0; i < model.vertex_count(); ++i) {
         rest[axis][i] = static_cast<double>(model.rest_positions[i][axis]);
-        moved[axis][i] = state.motion[std::size_t{6} * i + static_cast<std::size_t>(axis)];
+        moved[axis][i] = state.displacement(i)[axis];
       }
     }
   }

@@ -15,6 +15,6 @@ void end_in_world(uint i, uint k, uint b, dvec3 position) {
       row_times(pose[b].rotation[3u * k], pose[b].rotation[3u * k + 1u], pose[b].rotation[3u * k + 2u], position);
   EXACT double coordinate = turned + pose[b].origin[k];
   uint after = in_half(other_half(from_half), vertex_count, i);
-  world_coordinate[4u * after + k] = float(coordinate);
+  world_coordinate[number_of(after, k)] = float(coordinate);
   bound(i, b, k, float(coordinate));
 }

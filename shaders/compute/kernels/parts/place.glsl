@@ -3,6 +3,6 @@
 // `rest` is the rest position, `relative` the displacement less the reference [m]. The array is of single numbers because shaders
 // branch to reach a component of a vector.
 void place(uint slot, uint i, uint k, double inverse_unit, double rest, double relative) {
-  placement[4u * position_at(slot, vertex_count, i) + k] = real(inverse_unit * (rest + relative));
-  placement[4u * displacement_at(slot, vertex_count, i) + k] = real(inverse_unit * relative);
+  placement[number_of(position_at(slot, vertex_count, i), k)] = real(inverse_unit * (rest + relative));
+  placement[number_of(displacement_at(slot, vertex_count, i), k)] = real(inverse_unit * relative);
 }
