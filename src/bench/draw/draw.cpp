@@ -16,6 +16,7 @@ namespace {
 
 constexpr int marked_frames = 21, quick_marked_frames = 3;
 constexpr double a_sixtieth = 1.0 / 60;  // [s]
+constexpr double warming_time = 0.3;     // [s]; clocks rise under load
 
 // A scene that is drawn from the buffers in which it is simulated.
 class Drawing {
@@ -91,13 +92,23 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
   return share_lost(median(std::move(with)), median(std::move(without)));
 }
 
-DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options) {
+void warm_up(Device& device, Drawing& drawing) {
+  Stopwatch watch;
+  while (watch.seconds() < warming_time)
+    watch.time([&] {
+      drawing.draw();
+      device.finish();
+    });
+}
+
+DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options, bool is_cold) {
   const Model& model = what.start.model;
   const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
   Drawing drawing(device, what, render::live_options(model, what.start.state, what.output, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
   seconds_of(device, drawing, 1, true);  // builds the kernels
   drawing.restart();
+  if (is_cold) warm_up(device, drawing);
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   PassTimes passes = median_passes(device, drawing, frames);
   return {.scene = what.name,
@@ -127,8 +138,7 @@ DrawResult bench_draw(const DrawOptions& options, const Progress& progress) {
     const double part = static_cast<double>(result.rows.size()) / static_cast<double>(all.cases.size());
     result.interrupted = !progress(part, what.name);
     if (result.interrupted) return result;
-    if (result.rows.empty() && !options.quick) measure(*device, what, options);  // clocks rise under load
-    result.rows.push_back(measure(*device, what, options));
+    result.rows.push_back(measure(*device, what, options, result.rows.empty()));
   }
   progress(1, "");
   return result;

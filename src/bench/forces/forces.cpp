@@ -44,7 +44,7 @@ class ForcesAt {
         all_variants_(options.all_variants),
         effort_(options.quick ? quick_effort : Effort{}),
         device_(open(place)) {
-    if (!options.quick) warm_up();
+    warm_up();
   }
 
   // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
