@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <string>
 
-#include "bench/common/report.hpp"
 #include "bench/common/step_cases.hpp"
+#include "bench/draw/report.hpp"
+#include "bench/forces/report.hpp"
 #include "bench/precision/report.hpp"
 #include "bench/stability/report.hpp"
+#include "bench/steps/report.hpp"
 #include "output/file.hpp"
 #include "run/choose_device.hpp"
 #include "run/interrupts.hpp"

@@ -42,4 +42,11 @@ Machine describe_machine(int gpu_index) {
   return machine;
 }
 
+std::string to_text(const Machine& machine) {
+  std::string text = fmt::format("pliant {} (commit {}), {}, {}\n{}, {} threads", machine.version, machine.commit,
+                                 machine.compiler, machine.date, machine.cpu, machine.cpu_threads);
+  if (machine.gpu) text += fmt::format("; {}, {}", *machine.gpu, machine.driver.value_or(""));
+  return text;
+}
+
 }  // namespace pliant::bench

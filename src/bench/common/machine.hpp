@@ -17,4 +17,7 @@ struct Machine {
 /// `gpu_index` is an index of gl::list_adapters().
 [[nodiscard]] Machine describe_machine(int gpu_index);
 
+/// Returns two lines for the top of a table: the build, and the hardware.
+[[nodiscard]] std::string to_text(const Machine& machine);
+
 }  // namespace pliant::bench

@@ -1,5 +1,7 @@
 #include "bench/common/report_parts.hpp"
 
+#include <utility>
+
 namespace pliant::bench {
 namespace {
 
@@ -30,6 +32,16 @@ Json options_json(const Selection& devices, bool quick) {
 Json suite_json(const char* suite, const Json& options, bool interrupted, const Machine& machine) {
   return {{"suite", suite}, {"options", options}, {"interrupted", interrupted}, {"machine", machine_json(machine)}};
 }
+
+Json results_json(const char* suite, const Machine& machine, const Json& options, bool interrupted, Json rows,
+                  const std::vector<std::string>& notes) {
+  Json file = suite_json(suite, options, interrupted, machine);
+  file.add("rows", std::move(rows));
+  file.add("notes", notes);
+  return file;
+}
+
+std::string threads_text(const std::string& device, unsigned threads) { return device == "gpu" ? "-" : std::to_string(threads); }
 
 Json threads_json(const std::string& device, unsigned threads) { return device == "gpu" ? Json(nullptr) : Json(threads); }
 

@@ -7,8 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "bench/common/report.hpp"
 #include "bench/common/step_cases.hpp"
+#include "bench/draw/report.hpp"
+#include "bench/forces/report.hpp"
+#include "bench/steps/report.hpp"
 #include "simulation/simulation.hpp"
 #include "support/expect_error.hpp"
 #include "support/has.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/common/report.hpp"
+#include "bench/steps/report.hpp"
 #include "bench/steps/steps.hpp"
 
 namespace pliant::bench {

@@ -1,0 +1,54 @@
+#include "bench/draw/report.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/common/report_parts.hpp"
+
+namespace pliant::bench {
+namespace {
+
+Json row_json(const DrawRow& row) {
+  Json json = {{"scene", row.scene},
+               {"device", "gpu"},
+               {"vertices", row.vertices},
+               {"triangles", row.triangles},
+               {"bodies", row.bodies},
+               {"detail", row.detail},
+               {"width", row.width},
+               {"height", row.height},
+               {"milliseconds_per_frame", row.milliseconds_per_frame},
+               {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame},
+               {"steps_lost", row.steps_lost}};
+  for (const auto& [pass, milliseconds] : row.milliseconds) json.add(pass + "_milliseconds", milliseconds);
+  return json;
+}
+
+}  // namespace
+
+std::string to_table(const DrawResult& result) {
+  const std::size_t width = width_of(result.rows, &DrawRow::scene);
+  std::string table =
+      fmt::format("{:<{}} {:>9} {:>11} {:>9} {:>10}", "scene", width, "triangles", "pixels", "ms/frame", "steps lost");
+  if (!result.rows.empty())
+    for (const auto& [pass, milliseconds] : result.rows.front().milliseconds) table += fmt::format(" {:>9}", pass);
+  for (const DrawRow& row : result.rows) {
+    table += fmt::format("\n{:<{}} {:>9} {:>11} {:>9.4g} {:>10}", row.scene, width, row.triangles,
+                         fmt::format("{} x {}", row.width, row.height), row.milliseconds_per_frame,
+                         row.steps_lost ? fmt::format("{:.1f} %", 100 * *row.steps_lost) : "-");
+    for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
+  }
+  table += '\n';
+  for (const std::string& note : result.notes) table += note + '\n';
+  return table;
+}
+
+std::string to_json(const Machine& machine, const DrawOptions& options, const DrawResult& result) {
+  const Json asked = {{"gpu_index", options.gpu_index},
+                      {"scenes", options.scenes.string()},
+                      {"width", options.size.x},
+                      {"height", options.size.y},
+                      {"quick", options.quick}};
+  return text_of(results_json("draw", machine, asked, result.interrupted, list_of(result.rows, row_json), result.notes));
+}
+
+}  // namespace pliant::bench
