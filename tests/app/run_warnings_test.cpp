@@ -64,7 +64,7 @@ ProgramResult run_balloon(const ScratchFolder& folder, const std::string& more) 
 std::string warnings_of_balloon(const std::string& more) {
   const ScratchFolder folder;
   REQUIRE(run_balloon(folder, more).exit_code == 0);
-  return summary_in(folder.path)["warnings"].dump();
+  return summary_in(folder.path)["warnings"].text();
 }
 
 TEST_CASE("a body with pressure that comes to no volume ends the run, and its volume is named") {
@@ -128,16 +128,6 @@ TEST_CASE("a run that goes non-finite says where, writes what there is and exits
   CHECK(summary_in(folder.path)["energy"]["final"].is_null());
   CHECK(summary_in(folder.path)["final_intersecting_pairs"].is_null());
   CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
-}
-
-TEST_CASE("a body with pressure that is turned inside out ends the run with 5, and is named") {
-  const ScratchFolder folder;
-  const ProgramResult result = run_program(
-      "run " + small_scene(folder).string() +
-      " --device cpu --steps 3 --set body.right.pressure=5 --set body.right.stretch=[-1,1,1]" + " --out " + folder.path.string());
-  CHECK(result.exit_code == 5);
-  CHECK_THAT(result.output, Catch::Contains("non-finite in step 1") && Catch::Contains("body \"right\""));
-  CHECK(summary_in(folder.path)["non_finite"] == true);
 }
 
 TEST_CASE("pressure in an open mesh is an error with the body's file and line") {
