@@ -1,4 +1,5 @@
 # Script: writes OUTPUT, a C++ file that defines pliant::gl::embedded_shaders() from every file under SHADER_DIR.
+cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE names RELATIVE ${SHADER_DIR} ${SHADER_DIR}/*.glsl ${SHADER_DIR}/*.comp
                                                ${SHADER_DIR}/*.vert ${SHADER_DIR}/*.frag)
 list(SORT names)

@@ -1,4 +1,5 @@
 # Script: writes OUTPUT, a header that names the commit of SOURCE_DIR, unless it says so already.
+cmake_minimum_required(VERSION 3.25)
 set(commit unknown)
 if(EXISTS ${SOURCE_DIR}/.git)
   execute_process(COMMAND git describe --always --dirty --abbrev=12 --exclude=* WORKING_DIRECTORY ${SOURCE_DIR}

@@ -5,14 +5,14 @@
 namespace pliant {
 namespace {
 
-// A step of such a body goes non-finite if its volume comes to zero or below. What is left of the state does not tell whether it
-// did.
-bool may_have_been_flattened(const ModelBody& body) { return body.inflation.pressure > 0; }
+// A step of such a body goes non-finite if its volume comes to zero or below, or if no springs hold the pressure. What is left of
+// the state does not tell whether it did.
+bool may_have_lost_its_volume(const ModelBody& body) { return body.inflation.pressure > 0; }
 
 std::string remedy(const TimePlan& plan, const ModelBody& body) {
-  if (may_have_been_flattened(body) && plan.tolerance)
+  if (may_have_lost_its_volume(body) && plan.tolerance)
     return "lower its pressure or velocities, stiffen its springs, or loosen the tolerance";
-  if (may_have_been_flattened(body) && plan.time_step <= plan.step_bound)
+  if (may_have_lost_its_volume(body) && plan.time_step <= plan.step_bound)
     return "shorten the time step, lower its pressure or velocities, or stiffen its springs";
   if (plan.tolerance) return "loosen the tolerance, or lower stiffness, damping or velocities";
   if (plan.time_step > plan.step_bound) return fmt::format("shorten the time step to {:.4g} s or less", plan.step_bound);
@@ -32,7 +32,8 @@ std::string reason(const NonFinite& where, const TimePlan& plan) {
 std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model) {
   const ModelBody& body = model.bodies[where.body];
   return fmt::format("{} in step {} at vertex {} of body \"{}\"{}; {}", reason(where, plan), where.step, where.vertex, body.name,
-                     may_have_been_flattened(body) ? ", whose volume may have come to zero or below" : "", remedy(plan, body));
+                     may_have_lost_its_volume(body) ? ", whose volume may have come to zero or grown without end" : "",
+                     remedy(plan, body));
 }
 
 }  // namespace pliant

@@ -71,8 +71,8 @@ TEST_CASE("a body with pressure that comes to no volume ends the run, and its vo
   const ScratchFolder folder;
   const ProgramResult late = run_balloon(folder, "--time-step 0.36 --steps 8");
   CHECK(late.exit_code == 5);
-  CHECK_THAT(late.output,
-             Catch::Contains("non-finite") && Catch::Contains("body \"balloon\", whose volume may have come to zero"));
+  CHECK_THAT(late.output, Catch::Contains("non-finite") &&
+                              Catch::Contains("body \"balloon\", whose volume may have come to zero or grown without end"));
   const ProgramResult early = run_balloon(folder, "--time-step 0.01 --steps 8 --set body.balloon.stretch=[-1,1,1]");
   CHECK(early.exit_code == 3);
   CHECK_THAT(early.output, Catch::Contains("balloon.toml:4") && Catch::Contains("-1 of its rest volume"));
