@@ -84,8 +84,17 @@ double curvature_of_volume(const Model& model, const ModelBody& body, std::span<
 
 }  // namespace
 
+double volume_of(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  double volume = 0;
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    const auto corner = [&](int k) { return positions[model.triangles[t][k] - body.first_vertex]; };
+    volume += physics::volume_below(corner(0), corner(1), corner(2));
+  }
+  return volume;
+}
+
 VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
-  VolumeAt at;
+  VolumeAt at{.volume = volume_of(model, body, positions)};
   std::vector<glm::dvec3> gradients(body.vertex_count, glm::dvec3(0.0));
   for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -93,7 +102,6 @@ VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const gl
       const glm::dvec3 a = positions[corner], b = positions[model.triangles[t][(k + 1) % 3] - body.first_vertex],
                        c = positions[model.triangles[t][(k + 2) % 3] - body.first_vertex];
       gradients[corner] += physics::volume_gradient(a, b, c);
-      if (k == 0) at.volume += physics::volume_below(a, b, c);
     }
   for (const glm::dvec3& gradient : gradients) at.gradient_squared += glm::dot(gradient, gradient);
   at.curvature = curvature_of_volume(model, body, positions);

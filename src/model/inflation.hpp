@@ -11,6 +11,9 @@ struct VolumeAt {
   double curvature = 0;         // at least the norm of the second derivative [m]
 };
 
+/// Returns the volume that the body's triangles enclose [m^3]. `positions` are those of the body's vertices, in its frame or any
+/// other [m].
+[[nodiscard]] double volume_of(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions);
 /// `positions` are those of the body's vertices, in its frame [m].
 [[nodiscard]] VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions);
 

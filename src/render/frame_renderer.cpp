@@ -12,8 +12,8 @@
 
 #include "core/expect.hpp"
 #include "gl/targets.hpp"
+#include "mesh/incident_triangles.hpp"
 #include "render/studio.hpp"
-#include "render/surface_topology.hpp"
 
 namespace pliant::render {
 namespace {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "mesh/incident_triangles.hpp"
 #include "model/inflation.hpp"
 #include "physics/forces/pressure.glsl"
 
@@ -31,7 +32,7 @@ std::uint32_t part_length(std::uint32_t triangle_count) {
   return std::max<std::uint32_t>(8, static_cast<std::uint32_t>(std::sqrt(triangle_count)) / 4);
 }
 
-void add_parts(Shells& shells, std::uint32_t index, const ModelBody& body) {
+void add_parts(Shells& shells, std::uint32_t index, const ModelBody& body, std::uint32_t end) {
   physics::Pressure& pressure = shells.pressures[index];
   pressure = {.at_rest = body.inflation.pressure,
               .rest_volume = body.inflation.rest_volume,
@@ -39,39 +40,27 @@ void add_parts(Shells& shells, std::uint32_t index, const ModelBody& body) {
               .first_part = static_cast<std::uint32_t>(shells.parts.size()),
               .part_count = 0,
               .padding = 0};
-  const auto end = static_cast<std::uint32_t>(shells.triangles.size() / 3);
   const std::uint32_t length = part_length(body.triangle_count);
   for (std::uint32_t first = end - body.triangle_count; first < end; first += length)
     shells.parts.emplace_back(index, first, std::min(first + length, end), 0);
   pressure.part_count = static_cast<std::uint32_t>(shells.parts.size()) - pressure.first_part;
 }
 
-std::vector<std::vector<glm::uvec2>> fans_of(const Model& model) {
-  std::vector<std::vector<glm::uvec2>> fans(model.vertex_count());
-  for (const ModelBody& body : model.bodies)
-    for (std::uint32_t t = body.first_triangle; has_pressure(body) && t < body.first_triangle + body.triangle_count; ++t)
-      for (int k = 0; k < 3; ++k) {
-        const auto& corners = model.triangles[t];
-        fans[corners[k]].emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3]);
-      }
-  return fans;
-}
-
 Shells shells_of(const Model& model) {
   Shells shells;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of bodies with pressure
   shells.pressures.resize(model.bodies.size());
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const ModelBody& body = model.bodies[b];
     if (!has_pressure(body)) continue;
-    for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
-      shells.triangles.insert(shells.triangles.end(), model.triangles[t].begin(), model.triangles[t].end());
-    add_parts(shells, b, body);
+    const auto first = model.triangles.begin() + body.first_triangle;
+    triangles.insert(triangles.end(), first, first + body.triangle_count);
+    add_parts(shells, b, body, static_cast<std::uint32_t>(triangles.size()));
   }
-  for (const auto& fan : fans_of(model)) {
-    shells.fan_begins.push_back(static_cast<std::uint32_t>(shells.fans.size()));
-    shells.fans.insert(shells.fans.end(), fan.begin(), fan.end());
-  }
-  shells.fan_begins.push_back(static_cast<std::uint32_t>(shells.fans.size()));
+  for (const auto& corners : triangles) shells.triangles.insert(shells.triangles.end(), corners.begin(), corners.end());
+  IncidentTriangles fans = incident_triangles(model.vertex_count(), triangles);
+  shells.fan_begins = std::move(fans.first);
+  for (const auto& [next, after] : fans.others) shells.fans.emplace_back(next, after);
   return shells;
 }
 
@@ -109,6 +98,10 @@ std::vector<glm::dvec3> positions_of(const Model& model, const State& state) {
   return positions;
 }
 
+std::span<const glm::dvec3> of_body(const ModelBody& body, std::span<const glm::dvec3> positions) {
+  return positions.subspan(body.first_vertex, body.vertex_count);
+}
+
 double energy_at(const Inflation& inside, double volume) {
   if (!(volume > 0)) return std::numeric_limits<double>::quiet_NaN();
   if (inside.law == PressureLaw::constant) return -inside.pressure * (volume - inside.rest_volume);
@@ -119,7 +112,7 @@ double pressure_energy(const EnergyQuestion& question) {
   const std::vector<glm::dvec3> positions = positions_of(question.model, question.state);
   double sum = 0;
   for (const ModelBody& body : question.model.bodies)
-    if (has_pressure(body)) sum += energy_at(body.inflation, volume_of(question.model, body, positions));
+    if (has_pressure(body)) sum += energy_at(body.inflation, volume_of(question.model, body, of_body(body, positions)));
   return sum;
 }
 
@@ -152,11 +145,11 @@ double pressure_frequency_squared(const ModelBody& body) { return highest_stiffn
 std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at) {
   if (at.volume < least_volume * body.inflation.rest_volume)
     return fmt::format(
-        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps",
+        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps or a smaller tolerance",
         body.name, least_volume);
   if (stiffness_at(body.inflation, at) > highest_stiffness(body.inflation))
     return fmt::format(
-        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps",
+        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps or a smaller tolerance",
         body.name);
   return {};
 }
@@ -166,22 +159,13 @@ std::vector<std::string> warnings(const Model& model, const State& state) {
   std::vector<std::string> all;
   for (const ModelBody& body : model.bodies) {
     if (!has_pressure(body)) continue;
-    const VolumeAt at = volume_at(model, body, std::span(positions).subspan(body.first_vertex, body.vertex_count));
+    const VolumeAt at = volume_at(model, body, of_body(body, positions));
     if (const auto warning = warning_of(body, at)) all.push_back(*warning);
   }
   return all;
 }
 
 }  // namespace
-
-double volume_of(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
-  double volume = 0;
-  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-    const auto& [a, b, c] = model.triangles[t];
-    volume += physics::volume_below(positions[a], positions[b], positions[c]);
-  }
-  return volume;
-}
 
 Force pressure() {
   return {.name = "pressure",

@@ -1,11 +1,11 @@
-// Finds the triangles around each vertex. The renderer uploads them once.
+// Finds the triangles around each vertex.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace pliant::render {
+namespace pliant {
 
 struct IncidentTriangles {
   std::vector<std::uint32_t> first;                  // [vertex + 1] where each vertex's triangles begin in `others`
@@ -16,4 +16,4 @@ struct IncidentTriangles {
 [[nodiscard]] IncidentTriangles incident_triangles(std::uint32_t vertex_count,
                                                    std::span<const std::array<std::uint32_t, 3>> triangles);
 
-}  // namespace pliant::render
+}  // namespace pliant

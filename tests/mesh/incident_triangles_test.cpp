@@ -1,5 +1,5 @@
 // Which triangles meet at each vertex.
-#include "render/surface_topology.hpp"
+#include "mesh/incident_triangles.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@ using namespace pliant;
 TEST_CASE("every triangle is found at each of its corners, with the others in winding order") {
   const TriangleMesh mesh = generate_mesh("icosphere:2");
   const auto vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto around = render::incident_triangles(vertex_count, mesh.triangles);
+  const auto around = incident_triangles(vertex_count, mesh.triangles);
   REQUIRE(around.first.size() == vertex_count + 1);
   REQUIRE(around.first.back() == mesh.triangles.size() * 3);
   std::vector<std::array<std::uint32_t, 3>> found;
@@ -28,6 +28,6 @@ TEST_CASE("every triangle is found at each of its corners, with the others in wi
 
 TEST_CASE("a vertex in no triangle has an empty range") {
   const std::array<std::uint32_t, 3> triangle[] = {{0, 1, 3}};
-  CHECK(render::incident_triangles(5, triangle).first == std::vector<std::uint32_t>{0, 1, 2, 2, 3, 3});
-  CHECK(render::incident_triangles(0, {}).first == std::vector<std::uint32_t>{0});
+  CHECK(incident_triangles(5, triangle).first == std::vector<std::uint32_t>{0, 1, 2, 2, 3, 3});
+  CHECK(incident_triangles(0, {}).first == std::vector<std::uint32_t>{0});
 }

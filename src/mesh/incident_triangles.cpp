@@ -1,9 +1,9 @@
 // Sorts triangle corners by vertex with a counting sort.
-#include "render/surface_topology.hpp"
+#include "mesh/incident_triangles.hpp"
 
 #include <numeric>
 
-namespace pliant::render {
+namespace pliant {
 
 IncidentTriangles incident_triangles(std::uint32_t vertex_count, std::span<const std::array<std::uint32_t, 3>> triangles) {
   IncidentTriangles incident;
@@ -20,4 +20,4 @@ IncidentTriangles incident_triangles(std::uint32_t vertex_count, std::span<const
   return incident;
 }
 
-}  // namespace pliant::render
+}  // namespace pliant
