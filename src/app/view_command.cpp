@@ -22,8 +22,8 @@ void view(const ViewOptions& options) {
   static_cast<void>(plan_time(scene.description, scene.start.model));
   view::Window window(scene.description.output.size, scene.description.title);
   std::unique_ptr<Device> device = choose_device(options.device, window.context());
-  const auto make_device = [&](std::string_view kind) {
-    return kind == "gpu" ? make_gpu_device(window.context()) : make_cpu_device(options.device.threads, 32);
+  const auto make_device = [&](DeviceKind kind) {
+    return kind == DeviceKind::gpu ? make_gpu_device(window.context()) : make_cpu_device(options.device.threads, 32);
   };
   view::Viewer viewer(window, std::move(device), std::move(scene),
                       {.pace = {.speed = options.speed},

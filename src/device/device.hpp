@@ -62,8 +62,12 @@ struct ForceVariant {
   bool all_stages = false;       // whether its kernels can run every stage of a step in one dispatch
 };
 
+enum class DeviceKind { cpu, gpu };
+/// Returns "cpu" or "gpu".
+[[nodiscard]] constexpr std::string_view name_of(DeviceKind kind) { return kind == DeviceKind::cpu ? "cpu" : "gpu"; }
+
 struct DeviceInfo {
-  std::string kind;      // "cpu" or "gpu"
+  DeviceKind kind = DeviceKind::cpu;
   std::string name;      // model, and what its bits depend on
   unsigned threads = 1;  // of the CPU that run kernels
 };

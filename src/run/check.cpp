@@ -78,7 +78,7 @@ void show_check(const PreparedRun& run) {
   fmt::print("stability bound:  {:.6g} s\n", run.plan.step_bound);
   fmt::print("time step:        {}\n", length_of_steps(run.plan));
   fmt::print("steps:            {}\n", count_of_steps(run.plan, estimate));
-  fmt::print("device:           {} ({})\n", run.device->info().kind, run.device->info().name);
+  fmt::print("device:           {} ({})\n", name_of(run.device->info().kind), run.device->info().name);
   fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
   fmt::print("stepping time:    {}\n", time_of_steps(estimate));
 }

@@ -137,7 +137,7 @@ void take_device(RunOptions& run, const RunOptions& given) {
   if (!given.device.kind && !given.device.gpu_index) return;
   run.device.kind = given.device.kind;
   run.device.gpu_index = given.device.gpu_index;
-  if (given.device.kind == DeviceKind::gpu || given.device.gpu_index) run.device.precision.reset();  // a GPU has only one
+  if (given.device.kind == DeviceWish::gpu || given.device.gpu_index) run.device.precision.reset();  // a GPU has only one
 }
 
 void take_threads(RunOptions& run, const RunOptions& given) {
@@ -172,7 +172,7 @@ Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunP
                         .progress = progress,
                         .history = history,
                         .simulation = run.simulation->save()};
-  checkpoint.options.device.kind = run.device->info().kind == "gpu" ? DeviceKind::gpu : DeviceKind::cpu;
+  checkpoint.options.device.kind = run.device->info().kind == DeviceKind::gpu ? DeviceWish::gpu : DeviceWish::cpu;
   checkpoint.options.device.precision = run.device->precision();
   return checkpoint;
 }

@@ -84,7 +84,7 @@ Summary summary_of(const RunStatus& status) {
   const RunTimes& times = progress.times;
   Summary s;
   s.scene = run.scene.file.string();
-  s.device = {run.device->info().kind, run.device->info().name};
+  s.device = {std::string(name_of(run.device->info().kind)), run.device->info().name};
   s.precision = run.device->precision();
   s.threads = run.device->info().threads;
   s.integrator = run.plan.integrator->name;
@@ -148,8 +148,8 @@ void show_end(const RunStatus& status) {
   const RunTimes& times = progress.times;
   fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", is_interrupted() ? "interrupted after " : "",
              report.steps, length_of_steps(run.plan, report), run.plan.integrator->name, times.stepping.seconds(),
-             report.steps == 0 ? 0.0 : static_cast<double>(report.steps) / times.stepping.seconds(), run.device->info().kind,
-             run.device->info().name);
+             report.steps == 0 ? 0.0 : static_cast<double>(report.steps) / times.stepping.seconds(),
+             name_of(run.device->info().kind), run.device->info().name);
   const double beside = times.measuring.seconds() + times.writing.seconds() + times.saving.seconds();
   if (beside > 0.1 && 9 * beside > times.stepping.seconds())  // over a tenth of the whole
     fmt::print("besides stepping: {:.2f} s for measuring the state and {:.2f} s for frames{}\n", times.measuring.seconds(),

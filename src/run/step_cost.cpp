@@ -50,7 +50,7 @@ ModelAndState sphere(int level) {
 }
 
 double seconds_by_springs(const PreparedRun& run) {
-  const bool is_cpu = run.device->info().kind == "cpu";
+  const bool is_cpu = run.device->info().kind == DeviceKind::cpu;
   const auto own = is_cpu ? make_cpu_device(run.device->info().threads, run.device->precision()) : nullptr;
   TimePlan plan = run.plan;
   plan.time_step = 1e-6;  // stable for every sphere
@@ -70,7 +70,7 @@ double seconds_per_step(const PreparedRun& run) {
 
 std::size_t bytes_of_run(const PreparedRun& run) {
   std::size_t bytes = run.device->allocated_bytes();
-  if (run.device->info().kind != "cpu") return bytes;
+  if (run.device->info().kind != DeviceKind::cpu) return bytes;
   for (const ModelBody& body : run.start.model.bodies)
     bytes += run.device->precision() == 64 ? cpu::SpringSums<double>::scratch_bytes_of(body.vertex_count)
                                            : cpu::SpringSums<float>::scratch_bytes_of(body.vertex_count);

@@ -264,12 +264,12 @@ void Viewer::restart() {
 // The picture does not change, because the positions on the other device are the same.
 void Viewer::switch_device() {
   if (device_->precision() != 32) throw Error(ErrorKind::command_line, "", "fp64 forces run on the CPU alone", "");
-  std::unique_ptr<Device> other = make_device_(device_->info().kind == "gpu" ? "cpu" : "gpu");
+  std::unique_ptr<Device> other = make_device_(is_on_gpu() ? DeviceKind::cpu : DeviceKind::gpu);
   session_->move_to(*other);
   device_ = std::move(other);
   observer_.count_anew();
   playback_.restart();
-  message_ = fmt::format("on the {}: {}", device_->info().kind == "gpu" ? "GPU" : "CPU", device_->info().name);
+  message_ = fmt::format("on the {}: {}", is_on_gpu() ? "GPU" : "CPU", device_->info().name);
 }
 
 // Frames the bodies where they are, not where they started. Reads the state back to the CPU.
@@ -363,7 +363,7 @@ Facts Viewer::facts() const {
 Wishes Viewer::wishes() const {
   return {.is_paused = playback_.is_paused(),
           .times_passes = times_passes_,
-          .is_on_gpu = device_->info().kind == "gpu",
+          .is_on_gpu = is_on_gpu(),
           .speed = playback_.speed(),
           .settings = session_->settings(),
           .shows = shows_,
@@ -417,7 +417,7 @@ void Viewer::tell() {
                      {"time", session_->time()},
                      {"paused", playback_.is_paused()},
                      {"speed", playback_.speed()},
-                     {"device", device_->info().kind},
+                     {"device", name_of(device_->info().kind)},
                      {"pulls", pull_.has_value()},
                      {"wireframe", shows_.wireframe},
                      {"panel", shows_panel_},

@@ -22,7 +22,7 @@ namespace pliant::view {
 
 struct ViewerOptions {
   Pace pace;
-  std::function<std::unique_ptr<Device>(std::string_view kind)> make_device;  // "cpu" or "gpu", with the same precision
+  std::function<std::unique_ptr<Device>(DeviceKind kind)> make_device;  // with the same precision
   bool starts_paused = false;
   std::filesystem::path report;  // gets a line of JSON for each picture; empty: none
 };
@@ -70,6 +70,7 @@ class Viewer {
   void save_picture();
   void close();
   void open_file(const std::filesystem::path& file);
+  [[nodiscard]] bool is_on_gpu() const { return device_->info().kind == DeviceKind::gpu; }
   [[nodiscard]] bool is_overlaid() const { return shows_panel_ || shows_help_; }
   [[nodiscard]] Look look() const;
   void draw();
@@ -84,7 +85,7 @@ class Viewer {
 
   Window& window_;
   std::unique_ptr<Device> device_;
-  std::function<std::unique_ptr<Device>(std::string_view)> make_device_;
+  std::function<std::unique_ptr<Device>(DeviceKind)> make_device_;
   Playback playback_;
   BatchSize batch_;
   std::unique_ptr<Session> session_;

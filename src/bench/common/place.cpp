@@ -7,11 +7,11 @@
 namespace pliant::bench {
 
 std::unique_ptr<Device> open(const Place& place) {
-  return place.device == "gpu" ? make_gpu_device(place.gpu_index) : make_cpu_device(place.threads, place.precision);
+  return place.device == DeviceKind::gpu ? make_gpu_device(place.gpu_index) : make_cpu_device(place.threads, place.precision);
 }
 
 std::string name_of(const Place& place) {
-  if (place.device == "gpu") return "gpu";
+  if (place.device == DeviceKind::gpu) return "gpu";
   return fmt::format("cpu, {} thread{}, fp{}", place.threads, place.threads == 1 ? "" : "s", place.precision);
 }
 
@@ -20,11 +20,11 @@ std::vector<Place> places_of(const Selection& selection, std::span<const int> cp
   if (selection.cpu) {
     const unsigned most = thread_count(selection.threads);
     for (const int precision : cpu_precisions) {
-      places.push_back({.device = "cpu", .precision = precision, .threads = 1});
-      if (most > 1) places.push_back({.device = "cpu", .precision = precision, .threads = most});
+      places.push_back({.device = DeviceKind::cpu, .precision = precision, .threads = 1});
+      if (most > 1) places.push_back({.device = DeviceKind::cpu, .precision = precision, .threads = most});
     }
   }
-  if (selection.gpu) places.push_back({.device = "gpu", .gpu_index = selection.gpu_index});
+  if (selection.gpu) places.push_back({.device = DeviceKind::gpu, .gpu_index = selection.gpu_index});
   return places;
 }
 

@@ -12,7 +12,7 @@
 namespace pliant::bench {
 
 struct Place {
-  std::string device = "cpu";  // or "gpu"
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   unsigned threads = 1;  // of the CPU
   int gpu_index = 0;     // of gl::list_adapters()

@@ -41,9 +41,11 @@ Json results_json(const char* suite, const Machine& machine, const Json& options
   return file;
 }
 
-std::string threads_text(const std::string& device, unsigned threads) { return device == "gpu" ? "-" : std::to_string(threads); }
+std::string threads_text(DeviceKind device, unsigned threads) {
+  return device == DeviceKind::gpu ? "-" : std::to_string(threads);
+}
 
-Json threads_json(const std::string& device, unsigned threads) { return device == "gpu" ? Json(nullptr) : Json(threads); }
+Json threads_json(DeviceKind device, unsigned threads) { return device == DeviceKind::gpu ? Json(nullptr) : Json(threads); }
 
 std::string text_of(const Json& object) {
   std::string text;

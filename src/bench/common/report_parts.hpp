@@ -18,9 +18,9 @@ namespace pliant::bench {
 [[nodiscard]] Json results_json(const char* suite, const Machine& machine, const Json& options, bool interrupted, Json rows,
                                 const std::vector<std::string>& notes);
 /// Returns the CPU's threads, or null for the GPU.
-[[nodiscard]] Json threads_json(const std::string& device, unsigned threads);
+[[nodiscard]] Json threads_json(DeviceKind device, unsigned threads);
 /// Returns the CPU's threads, or "-" for the GPU.
-[[nodiscard]] std::string threads_text(const std::string& device, unsigned threads);
+[[nodiscard]] std::string threads_text(DeviceKind device, unsigned threads);
 /// Returns a width for the longest text in a column.
 template <class Row>
 std::size_t width_of(const std::vector<Row>& rows, std::string Row::*text) {

@@ -133,7 +133,7 @@ double share_lost(double seconds_with_picture, double seconds_without) {
 DrawResult bench_draw(const DrawOptions& options, const Progress& progress) {
   StepCases all = load_step_cases(options.scenes, options.quick);
   DrawResult result{.rows = {}, .notes = std::move(all.notes), .interrupted = false};
-  const auto device = open({.device = "gpu", .gpu_index = options.gpu_index});
+  const auto device = open({.device = DeviceKind::gpu, .gpu_index = options.gpu_index});
   for (const StepCase& what : all.cases) {
     const double part = static_cast<double>(result.rows.size()) / static_cast<double>(all.cases.size());
     result.interrupted = !progress(part, what.name);

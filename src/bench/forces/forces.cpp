@@ -90,7 +90,7 @@ class ForcesAt {
   }
 
  private:
-  bool on_cpu() const { return place_.device == "cpu"; }
+  bool on_cpu() const { return place_.device == DeviceKind::cpu; }
 
   // Raises the device's clocks by load.
   void warm_up() {

@@ -17,7 +17,7 @@ struct ForcesOptions {
 
 /// The members' names are the keys of the file.
 struct ForcesRow {
-  std::string device;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   unsigned threads = 1;  // of the CPU; null in the file for the GPU
   std::string isa;       // instruction set; "opengl" on the GPU

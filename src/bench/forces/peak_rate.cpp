@@ -6,7 +6,7 @@
 namespace pliant::bench {
 
 double multiply_adds_per_second(Device& device, const Place& place, std::optional<cpu::Isa> isa, const Effort& effort) {
-  if (place.device == "gpu") {
+  if (place.device == DeviceKind::gpu) {
     gpu::Peak peak(device);
     return static_cast<double>(peak.multiply_adds()) / seconds_each(device, effort, [&] { peak.run(); }).fastest;
   }

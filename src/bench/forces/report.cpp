@@ -10,7 +10,7 @@ namespace pliant::bench {
 namespace {
 
 Json row_json(const ForcesRow& row) {
-  return {{"device", row.device},
+  return {{"device", name_of(row.device)},
           {"precision", row.precision},
           {"threads", threads_json(row.device, row.threads)},
           {"isa", row.isa},
@@ -40,8 +40,8 @@ std::string to_table(const ForcesResult& result) {
   std::string table = fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12} {:>13} {:>13} {:>7}\n", "device", "bits", "threads",
                                   "variant", width, "vertices", "us a sum", "pairs/s", "bound", "ratio");
   for (const ForcesRow& row : result.rows)
-    table += fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12.2f} {:>13.4g} {:>13.4g} {:>7.3f}\n", row.device, row.precision,
-                         threads_text(row.device, row.threads), row.variant, width, row.vertices,
+    table += fmt::format("{:<6} {:>4} {:>7}  {:<{}} {:>8} {:>12.2f} {:>13.4g} {:>13.4g} {:>7.3f}\n", name_of(row.device),
+                         row.precision, threads_text(row.device, row.threads), row.variant, width, row.vertices,
                          1e6 * row.seconds_per_evaluation, row.pairs_per_second, row.bound_pairs_per_second, row.ratio_to_bound);
   for (const std::string& note : notes_of(result)) table += note + '\n';
   return table;

@@ -27,7 +27,7 @@ void keep_least(std::optional<double>& least, std::optional<double> cost) {
 PrecisionPlace place_of(const PrecisionRow& row) { return {row.library, row.device, row.precision, row.threads}; }
 
 bool is_one_thread_of(std::string_view library, const PrecisionPlace& place) {
-  return place == PrecisionPlace{std::string(library), "cpu", 64, 1};
+  return place == PrecisionPlace{std::string(library), DeviceKind::cpu, 64, 1};
 }
 
 Admission one_thread_of(std::string_view library) {
@@ -136,7 +136,7 @@ std::string name_of_method(const Contender& contender) { return contender.method
 
 std::string name_of_place(const PrecisionPlace& place) {
   if (place.library != "pliant") return place.library;
-  return place.device == "gpu" ? "gpu" : fmt::format("cpu x {}, fp{}", place.threads, place.precision);
+  return place.device == DeviceKind::gpu ? "gpu" : fmt::format("cpu x {}, fp{}", place.threads, place.precision);
 }
 
 std::optional<Winner> find_winner(double error, const PrecisionResult& result, const std::string& case_name,

@@ -29,7 +29,8 @@ struct ErrorCost {
 
 /// The library and the machine part of a row.
 struct PrecisionPlace {
-  std::string library, device;
+  std::string library;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 64;
   unsigned threads = 1;
 

@@ -54,7 +54,8 @@ class Suite {
   static std::vector<Place> choose_places(const PrecisionOptions& options) {
     constexpr int precisions[] = {64, 32};
     std::vector<Place> places = places_of(options.devices, precisions);
-    if (options.quick) std::erase_if(places, [](const Place& place) { return place.device == "cpu" && place.threads > 1; });
+    if (options.quick)
+      std::erase_if(places, [](const Place& place) { return place.device == DeviceKind::cpu && place.threads > 1; });
     return places;
   }
 
@@ -75,7 +76,7 @@ class Suite {
       static_cast<void>(run_steps(*devices_[p], what, find_integrator("dop853"), 1));  // builds the kernels
       if (!sweeps.steps(*devices_[p], places_[p])) return false;
       if (what.with_tolerances && !sweeps.tolerances(*devices_[p], places_[p])) return false;
-      if (p > 0 || !what.with_peers || places_[p].device != "cpu") continue;
+      if (p > 0 || !what.with_peers || places_[p].device != DeviceKind::cpu) continue;
       if (!sweeps.peers()) return false;
       result_.cases.back().seconds_of_rates = sweeps.seconds_of_rates();
     }

@@ -24,7 +24,7 @@ struct PrecisionRow {
   std::string library;    // "pliant" or one of peer_libraries
   std::string method;
   bool adaptive = false;  // the library chose its steps by `tolerance`
-  std::string device = "cpu";
+  DeviceKind device = DeviceKind::cpu;
   int precision = 64;
   unsigned threads = 1;             // of the CPU; null in the file for the GPU
   double tolerance = 0;             // null in the file for fixed steps

@@ -20,7 +20,7 @@ Json row_json(const PrecisionRow& row) {
           {"library", row.library},
           {"method", row.method},
           {"adaptive", row.adaptive},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"threads", threads_json(row.device, row.threads)},
           {"tolerance", row.adaptive ? Json(row.tolerance) : Json(nullptr)},
@@ -84,7 +84,7 @@ std::vector<double> rounded(std::vector<double> values) {
 Json curve_json(const CostCurve& curve) {
   return {{"case", curve.case_name},
           {"library", curve.place.library},
-          {"device", curve.place.device},
+          {"device", name_of(curve.place.device)},
           {"precision", curve.place.precision},
           {"threads", threads_json(curve.place.device, curve.place.threads)},
           {"errors", rounded(curve.errors)},
@@ -117,7 +117,7 @@ std::string table_of_methods(const PrecisionResult& result, const std::string& c
   table += '\n';
   for (const Contender& contender : contenders_of(result, case_name)) {
     const PrecisionPlace& place = contender.place;
-    if (place.device != "gpu" && (place.precision != 64 || place.threads != 1)) continue;
+    if (place.device != DeviceKind::gpu && (place.precision != 64 || place.threads != 1)) continue;
     table += fmt::format("{:<14} {:<30}", name_of_place(place), name_of_method(contender));
     for (const double error : asked_errors())
       table += fmt::format(" {:>7}", milliseconds(seconds_to_reach(error, result, case_name, contender)));

@@ -20,7 +20,7 @@ constexpr double largest_error = 0.1;     // a run with a larger error failed
 constexpr double most_doubled = 8;        // most steps tried by doubling, over the number of steps of 1 rad
 constexpr double falling = 0.8;           // an error falls if it is below this part of the best before
 
-bool is_of_contest(const Place& place) { return place.device == "cpu" && place.precision == 64 && place.threads == 1; }
+bool is_of_contest(const Place& place) { return place.device == DeviceKind::cpu && place.precision == 64 && place.threads == 1; }
 
 std::vector<const Integrator*> adaptive_methods(DampingLaw law, int precision) {
   std::vector<const Integrator*> methods{&find_integrator("dop853")};

@@ -15,7 +15,7 @@ constexpr double errors_omega_step = 0.5;  // step times the stiffest mode's fre
 std::vector<Place> places_of_errors(const StabilityTasks& tasks) {
   std::vector<Place> places = tasks.places();
   std::erase_if(places, [](const Place& place) { return place.precision == 64; });
-  places.insert(places.begin(), {.device = "cpu", .precision = 64});
+  places.insert(places.begin(), {.device = DeviceKind::cpu, .precision = 64});
   return places;
 }
 

@@ -18,21 +18,21 @@ const char* name_of(Outcome outcome) {
 std::string line(const LimitRow& row) {
   const std::string step = row.measured_step ? fmt::format("{:.5g}", 1e3 * *row.measured_step) : "-";
   const std::string ratio = row.measured_step ? fmt::format("{:.3f}", *row.measured_step / row.predicted_step) : "-";
-  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8.4g} {:>9} {:>6} {:>13.5g} {:>12} {:>7}\n", row.integrator, row.device,
-                     row.precision, row.vertices, row.stiffness, row.damping, row.amplitude, row.steps, 1e3 * row.predicted_step,
-                     step, ratio);
+  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>7} {:>8.4g} {:>9} {:>6} {:>13.5g} {:>12} {:>7}\n", row.integrator,
+                     name_of(row.device), row.precision, row.vertices, row.stiffness, row.damping, row.amplitude, row.steps,
+                     1e3 * row.predicted_step, step, ratio);
 }
 
 std::string line(const DriftRow& row) {
-  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>8} {:>13.3g} {:>13.3g}\n", row.integrator, row.device, row.precision,
+  return fmt::format("{:<10} {:<6} {:>4} {:>8} {:>8} {:>13.3g} {:>13.3g}\n", row.integrator, name_of(row.device), row.precision,
                      row.vertices, row.steps, row.energy_drift, row.predicted_drift);
 }
 
 std::string line(const ErrorRow& row) {
   const std::string error = row.error ? fmt::format("{:.2e}", *row.error) : "-";
   return fmt::format("{:<10} {:<8} {:<6} {:>4} {:>8} {:>9} {:>8} {:>6} {:>6} {:>9} {:>10.2e} {:>10.2e} {:>7}\n", row.family,
-                     row.integrator, row.device, row.precision, row.vertices, row.amplitude, row.distance, row.turns, row.steps,
-                     error, row.energy_change, row.angular_momentum_change, row.frame_changes);
+                     row.integrator, name_of(row.device), row.precision, row.vertices, row.amplitude, row.distance, row.turns,
+                     row.steps, error, row.energy_change, row.angular_momentum_change, row.frame_changes);
 }
 
 template <class Row>
@@ -73,7 +73,7 @@ std::string maps(const StabilityResult& result) {
 Json row_json(const LimitRow& row) {
   return {{"kind", "limit"},
           {"integrator", row.integrator},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"vertices", row.vertices},
           {"stiffness", row.stiffness},
@@ -87,7 +87,7 @@ Json row_json(const LimitRow& row) {
 Json row_json(const MapRow& row) {
   return {{"kind", "map"},
           {"integrator", row.integrator},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"vertices", row.vertices},
           {"stiffness", row.stiffness},
@@ -104,7 +104,7 @@ Json row_json(const MapRow& row) {
 Json row_json(const DriftRow& row) {
   return {{"kind", "drift"},
           {"integrator", row.integrator},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"vertices", row.vertices},
           {"omega_step", row.omega_step},
@@ -117,7 +117,7 @@ Json row_json(const ErrorRow& row) {
   return {{"kind", "error"},
           {"family", row.family},
           {"integrator", row.integrator},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"vertices", row.vertices},
           {"amplitude", row.amplitude},

@@ -25,7 +25,8 @@ struct StabilityOptions {
 /// amplitudes it is the shortest step at which an undamped squashed body blows up. The prediction holds for small amplitudes
 /// only.
 struct LimitRow {
-  std::string integrator, device;
+  std::string integrator;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 64;
   std::uint32_t vertices = 0;
   double stiffness = 0;                 // k [N/m]
@@ -38,7 +39,8 @@ struct LimitRow {
 
 /// One cell of the map: how a squashed body that also drifts ends after some hundred steps.
 struct MapRow {
-  std::string integrator, device;
+  std::string integrator;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   std::uint32_t vertices = 0;
   double stiffness = 0;        // k [N/m]
@@ -54,7 +56,8 @@ struct MapRow {
 
 /// Energy of an undamped breathing body. Compares the mean over the last thousand steps with that over the first.
 struct DriftRow {
-  std::string integrator, device;
+  std::string integrator;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   std::uint32_t vertices = 0;
   double omega_step = 0;  // step times the stiffest mode's frequency
@@ -66,7 +69,8 @@ struct DriftRow {
 /// One undamped run. `error` says how far it strays from the same run in fp64 on the CPU.
 struct ErrorRow {
   std::string family;  // "far", "amplitude", "size" or "tumble"
-  std::string integrator = {}, device = {};
+  std::string integrator = {};
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   std::uint32_t vertices = 0;
   double amplitude = 0;  // how much the body is squashed at the start

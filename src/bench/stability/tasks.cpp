@@ -21,14 +21,14 @@ Device& StabilityDevices::at(const Place& place, std::uint32_t vertices) {
 
 std::vector<Place> StabilityDevices::all() const {
   std::vector<Place> places;
-  if (selection_.cpu) places = {{.device = "cpu", .precision = 64}, {.device = "cpu", .precision = 32}};
-  if (selection_.gpu) places.push_back({.device = "gpu", .precision = 32, .gpu_index = selection_.gpu_index});
+  if (selection_.cpu) places = {{.device = DeviceKind::cpu, .precision = 64}, {.device = DeviceKind::cpu, .precision = 32}};
+  if (selection_.gpu) places.push_back({.device = DeviceKind::gpu, .precision = 32, .gpu_index = selection_.gpu_index});
   return places;
 }
 
 void StabilityTasks::add(const std::string& what, const Integrator& integrator, const Place& place, std::uint32_t vertices,
                          double steps, std::function<StabilityRow(Device&)> measure) {
-  tasks_.push_back({fmt::format("{}, {}, {} {}", what, integrator.name, place.device, place.precision),
+  tasks_.push_back({fmt::format("{}, {}, {} {}", what, integrator.name, name_of(place.device), place.precision),
                     cost_of(integrator, vertices, steps),
                     [=, &devices = devices_] { return measure(devices.at(place, vertices)); }});
 }

@@ -10,7 +10,7 @@ namespace {
 Json row_json(const StepsRow& row) {
   return {{"scene", row.scene},
           {"family", row.family},
-          {"device", row.device},
+          {"device", name_of(row.device)},
           {"precision", row.precision},
           {"threads", threads_json(row.device, row.threads)},
           {"vertices", row.vertices},
@@ -37,9 +37,9 @@ std::string to_table(const StepsResult& result) {
   std::string table = fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12} {:>10} {:>6} {:>8}\n", "scene", width, "device",
                                   "threads", "vertices", "bodies", "ms/step", "steps/s", "steps", "contacts");
   for (const StepsRow& row : result.rows)
-    table += fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12.4g} {:>10.4g} {:>6} {:>8}\n", row.scene, width, row.device,
-                         threads_text(row.device, row.threads), row.vertices, row.bodies, row.milliseconds_per_step,
-                         row.steps_per_second, row.steps, row.contact_steps);
+    table += fmt::format("{:<{}} {:<6} {:>7} {:>8} {:>6} {:>12.4g} {:>10.4g} {:>6} {:>8}\n", row.scene, width,
+                         name_of(row.device), threads_text(row.device, row.threads), row.vertices, row.bodies,
+                         row.milliseconds_per_step, row.steps_per_second, row.steps, row.contact_steps);
   for (const std::string& note : result.notes) table += note + '\n';
   for (const FamilyCrossover& crossover : result.crossovers) table += to_text(crossover) + '\n';
   return table;

@@ -180,7 +180,7 @@ std::vector<FamilyCrossover> find_crossovers(const std::vector<StepsRow>& rows) 
   std::map<std::pair<std::string, unsigned>, std::vector<SizedTime>> cpu;
   for (const StepsRow& row : rows) {
     if (row.family.empty()) continue;
-    auto& times = row.device == "gpu" ? gpu[row.family] : cpu[{row.family, row.threads}];
+    auto& times = row.device == DeviceKind::gpu ? gpu[row.family] : cpu[{row.family, row.threads}];
     times.push_back({static_cast<double>(row.vertices), row.milliseconds_per_step});
   }
   std::vector<FamilyCrossover> crossovers;

@@ -21,7 +21,7 @@ struct StepsOptions {
 struct StepsRow {
   std::string scene;
   std::string family;  // name of cases that differ only by their density; empty for a scene as it is
-  std::string device;
+  DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   unsigned threads = 1;        // of the CPU; null in the file for the GPU
   std::uint32_t vertices = 0;  // of all bodies

@@ -48,7 +48,7 @@ class CpuDevice final : public Device {
         sums_32_.emplace_back(isa);
     }
     for (const cpu::KernelEntry& entry : kernels_) signatures_.push_back(entry.signature());
-    info_ = {.kind = "cpu", .name = cpu::device_name(), .threads = pool_.size()};
+    info_ = {.kind = DeviceKind::cpu, .name = cpu::device_name(), .threads = pool_.size()};
   }
 
   const DeviceInfo& info() const override { return info_; }

@@ -18,6 +18,13 @@
 namespace pliant {
 namespace {
 
+// A shader that calls a kernel for each of its items.
+struct Frame {
+  std::string_view file;
+  bool items_are_groups;  // or threads
+};
+constexpr Frame thread_frame = {"compute/main.comp", false}, group_frame = {"compute/force.comp", true};
+
 // How force.comp cuts its work.
 struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
@@ -49,7 +56,7 @@ class GpuDevice final : public Device {
                   fmt::format("its driver has {} storage blocks for a compute shader, but pliant needs {}",
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
-    info_ = {.kind = "gpu", .name = adapter.renderer + ", " + adapter.version, .threads = 1};
+    info_ = {.kind = DeviceKind::gpu, .name = adapter.renderer + ", " + adapter.version, .threads = 1};
     for (const Lanes& choice : lane_choices)
       variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
                                        choice.vertices == 1 ? "vertex" : "vertices"),
@@ -80,7 +87,7 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override {
-    return build(std::string(name), "compute/main.comp",
+    return build(std::string(name), thread_frame,
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
@@ -95,8 +102,7 @@ class GpuDevice final : public Device {
                                        {"UNROLL", std::to_string(lanes.unroll)},
                                        {"PLAINLY", std::to_string(lanes.plainly)}};
     if (all_stages) defines.push_back({"TILE", std::to_string(lanes.tile)});
-    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), "compute/force.comp",
-                 defines);
+    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), group_frame, defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it
@@ -147,12 +153,11 @@ class GpuDevice final : public Device {
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
   };
 
-  KernelId build(const std::string& name, std::string_view frame, const std::vector<gl::Define>& defines) {
+  KernelId build(const std::string& name, const Frame& frame, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
-    gpu::KernelSource source = gpu::kernel_source(files_, frame, defines);
-    Kernel made{name, frame == "compute/force.comp", std::move(source.signature), gl::Program::compute(source.shader, name), {},
-                {}};
+    gpu::KernelSource source = gpu::kernel_source(files_, frame.file, defines);
+    Kernel made{name, frame.items_are_groups, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
     for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
       made.parameter_is_used.push_back(has_location(made.program.id(), slot));
     made.parameters.resize(made.signature.parameters.size());

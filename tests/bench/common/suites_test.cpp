@@ -48,14 +48,14 @@ void check_forces(const ForcesOptions& options, const std::set<std::pair<int, un
   std::set<std::pair<int, unsigned>> covered;
   const std::string table = to_table(result);
   for (const ForcesRow& row : rows) {
-    CAPTURE(row.device, row.variant, row.vertices);
+    CAPTURE(name_of(row.device), row.variant, row.vertices);
     covered.emplace(row.precision, row.threads);
     CHECK(row.fastest_seconds_per_evaluation <= row.seconds_per_evaluation);
     for (const double rate : {row.pairs_per_second, row.bound_pairs_per_second, row.ratio_to_bound}) {
       CHECK(std::isfinite(rate));
       CHECK(rate > 0);
     }
-    CHECK(mentions(table, {row.device, row.variant, std::to_string(row.vertices)}));
+    CHECK(mentions(table, {std::string(name_of(row.device)), row.variant, std::to_string(row.vertices)}));
     CHECK(std::ranges::any_of(told.next, [&](const std::string& next) {
       return next.find(row.variant) != std::string::npos && next.find(std::to_string(row.vertices)) != std::string::npos;
     }));
@@ -193,7 +193,7 @@ TEST_CASE("steps are measured on one thread and all, and every row is told") {
     CHECK(std::isfinite(row.steps_per_second));
     CHECK((row.runs >= 1 && row.runs <= 5));
     CHECK(row.contact_steps <= row.steps);
-    CHECK(mentions(table, {row.scene, row.device, std::to_string(row.vertices)}));
+    CHECK(mentions(table, {row.scene, std::string(name_of(row.device)), std::to_string(row.vertices)}));
     CHECK(std::ranges::any_of(told.next, [&](const std::string& next) { return next.find(row.scene) != std::string::npos; }));
   }
   CHECK(threads == std::set<unsigned>{1, 2});

@@ -194,11 +194,11 @@ TEST_CASE("an adaptive row's error is near what its tolerance asks") {
 }
 
 TEST_CASE("no adaptive row asks more than fp32 carries of it, on any device", "[gl]") {
-  for (const char* device : {"cpu", "gpu"}) {
-    if (device == std::string("gpu") && !test::has_gl()) continue;
+  for (const DeviceKind device : {DeviceKind::cpu, DeviceKind::gpu}) {
+    if (device == DeviceKind::gpu && !test::has_gl()) continue;
     double tightest = 1;
     for (const PrecisionRow& row : rows_of_tolerances(squashed_sphere(DampingLaw::none), {.device = device, .precision = 32})) {
-      CAPTURE(device, row.method, row.tolerance);
+      CAPTURE(name_of(device), row.method, row.tolerance);
       CHECK(row.device == device);
       CHECK(row.error < 5 * row.tolerance + 1e-6);
       tightest = std::min(tightest, row.tolerance);

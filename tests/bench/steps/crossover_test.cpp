@@ -51,7 +51,7 @@ TEST_CASE("sizes that only one device was measured at don't take part") {
 TEST_CASE("each family has a crossover for every number of CPU threads, and each is told") {
   std::vector<StepsRow> rows;
   for (const double vertices : sizes) {
-    const auto row = [&](const char* family, const char* device, unsigned threads, double milliseconds) {
+    const auto row = [&](const char* family, DeviceKind device, unsigned threads, double milliseconds) {
       rows.push_back({.scene = "s",
                       .family = family,
                       .device = device,
@@ -59,12 +59,12 @@ TEST_CASE("each family has a crossover for every number of CPU threads, and each
                       .vertices = static_cast<std::uint32_t>(vertices),
                       .milliseconds_per_step = milliseconds});
     };
-    row("spheres", "cpu", 1, 1e-3 * vertices);
-    row("spheres", "cpu", 8, 1e-4 * vertices);
-    row("spheres", "gpu", 1, 0.2);
-    row("cubes", "cpu", 1, 1e-9 * vertices);
-    row("", "cpu", 1, 1);
-    row("", "gpu", 1, 1);
+    row("spheres", DeviceKind::cpu, 1, 1e-3 * vertices);
+    row("spheres", DeviceKind::cpu, 8, 1e-4 * vertices);
+    row("spheres", DeviceKind::gpu, 1, 0.2);
+    row("cubes", DeviceKind::cpu, 1, 1e-9 * vertices);
+    row("", DeviceKind::cpu, 1, 1);
+    row("", DeviceKind::gpu, 1, 1);
   }
   const std::vector<FamilyCrossover> crossovers = find_crossovers(rows);
   REQUIRE(crossovers.size() == 2);  // none for the family that the GPU lacks, none for scenes as they are
