@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <system_error>
 
 #include "core/checksum.hpp"
@@ -71,8 +73,11 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
 void warn_of_overlap(PreparedRun& run) {
   const Intersections overlap = run.simulation->intersections();
   if (overlap.pairs == 0) return;
+  constexpr std::size_t most_names = 8;
   std::string names;
-  for (const std::uint32_t body : overlap.bodies) names += (names.empty() ? "" : ", ") + run.start.model.bodies[body].name;
+  for (const std::uint32_t body : std::span(overlap.bodies).first(std::min(most_names, overlap.bodies.size())))
+    names += (names.empty() ? "" : ", ") + run.start.model.bodies[body].name;
+  if (overlap.bodies.size() > most_names) names += fmt::format(" and {} more", overlap.bodies.size() - most_names);
   run.warnings.push_back(fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names));
 }
 

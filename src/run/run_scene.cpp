@@ -17,6 +17,7 @@
 #include "dynamics/forces/force.hpp"
 #include "output/csv.hpp"
 #include "output/file.hpp"
+#include "output/file_lock.hpp"
 #include "run/check.hpp"
 #include "run/checkpoint.hpp"
 #include "run/frame_sink.hpp"
@@ -40,11 +41,12 @@ class Run {
         folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
         progress_(from ? from->checkpoint.progress : RunProgress()),
+        checkpoints_(options, from ? std::move(from->lock) : nullptr),
+        reserved_(folder_ / history_name),
         frames_(prepared, {.format = options.frames,
                            .folder = folder_ / "frames",
                            .video = options.video,
                            .first = static_cast<int>(progress_.frames_written)}),
-        checkpoints_(options, from ? std::move(from->lock) : nullptr),
         history_(from ? HistoryFile(folder_ / history_name, std::move(from->checkpoint.history))
                       : HistoryFile(folder_ / history_name)),
         before_row_{progress_, history_.text().size()} {
@@ -211,9 +213,17 @@ class Run {
   void show_frames() const {
     if (options_.quiet || frames_.count() == 0) return;
     if (options_.video.empty())
-      fmt::print("frames:  {} ({})\n", (folder_ / "frames").string(), counted(frames_.count(), "file"));
+      fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(frames_.count(), "file"), told_earlier_frames());
     else
       fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
+  }
+
+  // Later frames in the folder would end up in a video that someone makes of all of them.
+  std::string told_earlier_frames() const {
+    const std::filesystem::path next = frame_path(folder_ / "frames", frames_.count(), options_.frames);
+    std::error_code unknown;  // counts as none
+    if (!std::filesystem::exists(next, unknown)) return "";
+    return fmt::format("; {} and later are of an earlier run", next.filename().string());
   }
 
   // If a file can't be written, files of an earlier run may stand beside those of this run. Returns which.
@@ -257,8 +267,9 @@ class Run {
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
   RunProgress progress_;
-  FrameSink frames_;  // made before any file is touched, because drawing may be impossible here
   CheckpointKeeper checkpoints_;
+  FileLock reserved_;  // one run at a time writes into the folder
+  FrameSink frames_;   // made before any file is replaced, because drawing may be impossible here
   HistoryFile history_;
   struct {
     RunProgress progress;

@@ -75,7 +75,7 @@ toml::table& table_of(toml::table& root, const std::string& key, const std::stri
   const std::size_t last_dot = key.rfind('.');
   if (last_dot == std::string::npos) return root;
   if (key.starts_with("body.")) {
-    if (last_dot < 5) fail_override(place, "names no body", override_form);
+    if (last_dot < 5) fail_override(place, "names no body or no key of one", override_form);
     return find_body(root, key.substr(5, last_dot - 5), place);
   }
   toml::table* table = &root;

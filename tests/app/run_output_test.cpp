@@ -192,6 +192,32 @@ TEST_CASE("Ctrl-C and SIGTERM end a run early and write what there is") {
   }
 }
 
+TEST_CASE("two runs do not write into one folder: the second exits with 2 and changes no file") {
+  const ScratchFolder folder;
+  const std::string scene = small_scene(folder).string(), out = (folder.path / "out").string(),
+                    video = (folder.path / "second.mp4").string();
+  REQUIRE(run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out).exit_code == 0);
+  const std::string before = read_text(folder.path / "out/summary.json");
+  ProgramInTerminal program({"run", scene, "--device", "cpu", "--steps", "100000000", "--out", out});
+  REQUIRE(program.has_shown_progress(1));
+  const ProgramResult second = run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out + " --video " + video);
+  CAPTURE(second.output);
+  CHECK(second.exit_code == 2);
+  CHECK_THAT(second.output, Catch::Contains("out/history.csv: is in use by another run"));
+  CHECK(read_text(folder.path / "out/summary.json") == before);
+  CHECK_FALSE(std::filesystem::exists(video));
+  program.end_by(SIGKILL);
+  CHECK(run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out).exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(out + "/history.csv.lock"));
+}
+
+TEST_CASE("frames that an earlier, longer run left are told") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --frames obj --out " + folder.path.string();
+  CHECK_THAT(run_program(run + " --steps 6").output, Catch::Contains("frames:") && !Catch::Contains("earlier"));
+  CHECK_THAT(run_program(run + " --steps 4").output, Catch::Contains("frame_0003.obj and later are of an earlier run"));
+}
+
 TEST_CASE("each format of frames has a file a frame") {
   const ScratchFolder folder;
   for (const std::string format : {"obj", "ply", "vtk"}) {
