@@ -74,7 +74,7 @@ void add_choice(CLI::App& app, const char* name, T& value, const std::vector<std
 }
 
 void add_device(CLI::App& command, DeviceChoice& choice) {
-  add_choice<std::optional<DeviceWish>>(command, "--device", choice.kind,
+  add_choice<std::optional<DeviceWish>>(command, "--device", choice.wish,
                                         {{"auto", DeviceWish::automatic}, {"cpu", DeviceWish::cpu}, {"gpu", DeviceWish::gpu}},
                                         "Where to simulate (default auto: a hardware GPU, else the CPU)");
   command.add_option("--precision", choice.precision, "Bits of the forces; 64 needs the CPU")->check(CLI::IsMember({32, 64}));

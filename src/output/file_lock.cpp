@@ -55,12 +55,23 @@ int locked(const std::filesystem::path& lock, const std::filesystem::path& path,
 
 }  // namespace
 
+std::filesystem::path FileLock::place_of(const std::filesystem::path& path) {
+  std::error_code failure;
+  std::filesystem::path place =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(place_behind(path), failure), failure);
+  if (failure) return {};                                  // a link to itself, or too long a name
+  if (!place.has_filename()) place = place.parent_path();  // a folder's name may end with a slash
+  return place += ".lock";
+}
+
 FileLock::FileLock(const std::filesystem::path& path, For use) {
   std::error_code failure;
-  if (std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure)) return;
-  lock_ = std::filesystem::weakly_canonical(place_behind(path), failure);
-  if (failure) return;  // the path is a link to itself or too long a name, so no file can exist there
-  lock_ += ".lock";
+  const std::filesystem::file_type type = std::filesystem::status(path, failure).type();
+  if (type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::regular &&
+      type != std::filesystem::file_type::directory)
+    return;
+  lock_ = place_of(path);
+  if (lock_.empty()) return;
   std::filesystem::create_directories(lock_.parent_path(), failure);
   const int operation = use == For::writing ? LOCK_EX : LOCK_SH;
   file_ = locked(lock_, path, operation);

@@ -15,7 +15,8 @@ struct Summary {
 
   std::string scene;  // the file's name
   struct {
-    std::string kind, name;  // "cpu" or "gpu"
+    std::string_view kind;  // "cpu" or "gpu"
+    std::string name;
   } device;
   int precision = 32;  // of the forces [bits]
   unsigned threads = 1;

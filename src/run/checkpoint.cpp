@@ -51,7 +51,7 @@ bool is_here_or_gone(const std::filesystem::path& folder) {
   return folder == std::filesystem::current_path(failure) || !std::filesystem::is_directory(folder, failure);
 }
 
-bool names_device(const RunOptions& given) { return given.device.kind || given.device.gpu_index || given.device.precision; }
+bool names_device(const RunOptions& given) { return given.device.wish || given.device.gpu_index || given.device.precision; }
 
 void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
   const std::vector<std::uint64_t>&before = checkpoint.mesh_checksums, &now = run.mesh_checksums;
@@ -108,7 +108,7 @@ Checkpoint load_checkpoint(const std::filesystem::path& file) {
 // Works for files that do not exist yet, too.
 std::filesystem::path full_place(const std::filesystem::path& path) {
   std::error_code failure;
-  return std::filesystem::weakly_canonical(place_behind(path), failure);
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(place_behind(path), failure), failure);
 }
 
 // Also finds that two names are hard links to one file.
@@ -125,6 +125,7 @@ void expect_no_output(const std::filesystem::path& file, const RunOptions& optio
   };
   const std::filesystem::path folder = folder_of(options);
   for (const char* name : output_names) expect_other(!is_same_place(file, folder / name), name);
+  expect_other(!is_same_place(file, FileLock::place_of(folder)), "its lock");
   expect_other(options.frames == FrameFormat::none || full_place(file).parent_path() != full_place(folder / "frames"),
                "its frames");
 }
@@ -134,10 +135,10 @@ void take_out(RunOptions& run, const RunOptions& given) {
 }
 
 void take_device(RunOptions& run, const RunOptions& given) {
-  if (!given.device.kind && !given.device.gpu_index) return;
-  run.device.kind = given.device.kind;
+  if (!given.device.wish && !given.device.gpu_index) return;
+  run.device.wish = given.device.wish;
   run.device.gpu_index = given.device.gpu_index;
-  if (given.device.kind == DeviceWish::gpu || given.device.gpu_index) run.device.precision.reset();  // a GPU has only one
+  if (given.device.wish == DeviceWish::gpu || given.device.gpu_index) run.device.precision.reset();  // a GPU has only one
 }
 
 void take_threads(RunOptions& run, const RunOptions& given) {
@@ -172,7 +173,7 @@ Checkpoint checkpoint_of(const RunOptions& options, PreparedRun& run, const RunP
                         .progress = progress,
                         .history = history,
                         .simulation = run.simulation->save()};
-  checkpoint.options.device.kind = run.device->info().kind == DeviceKind::gpu ? DeviceWish::gpu : DeviceWish::cpu;
+  checkpoint.options.device.wish = run.device->info().kind == DeviceKind::gpu ? DeviceWish::gpu : DeviceWish::cpu;
   checkpoint.options.device.precision = run.device->precision();
   return checkpoint;
 }

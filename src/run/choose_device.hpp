@@ -11,7 +11,7 @@ namespace pliant {
 enum class DeviceWish { automatic, cpu, gpu };
 
 struct DeviceChoice {
-  std::optional<DeviceWish> kind;  // empty: automatic, or what a resumed run had before
+  std::optional<DeviceWish> wish;  // empty: automatic, or what a resumed run had before
   std::optional<int> gpu_index;    // of gl::list_adapters()
   std::optional<int> precision;    // of the forces [bits]; empty: 32
   unsigned threads = 0;            // 0: one a processor

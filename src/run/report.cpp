@@ -84,7 +84,7 @@ Summary summary_of(const RunStatus& status) {
   const RunTimes& times = progress.times;
   Summary s;
   s.scene = run.scene.file.string();
-  s.device = {std::string(name_of(run.device->info().kind)), run.device->info().name};
+  s.device = {name_of(run.device->info().kind), run.device->info().name};
   s.precision = run.device->precision();
   s.threads = run.device->info().threads;
   s.integrator = run.plan.integrator->name;

@@ -42,7 +42,8 @@ class Run {
         measuring_pool_(options.device.threads),
         progress_(from ? from->checkpoint.progress : RunProgress()),
         checkpoints_(options, from ? std::move(from->lock) : nullptr),
-        reserved_(folder_ / history_name),
+        folder_lock_(folder_),
+        video_lock_(options.video.empty() ? nullptr : std::make_unique<FileLock>(options.video)),
         frames_(prepared, {.format = options.frames,
                            .folder = folder_ / "frames",
                            .video = options.video,
@@ -211,34 +212,33 @@ class Run {
   }
 
   void show_frames() const {
-    if (options_.quiet || frames_.count() == 0) return;
-    if (options_.video.empty())
-      fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(frames_.count(), "file"), told_earlier_frames());
-    else
-      fmt::print("video:   {} ({})\n", options_.video.string(), counted(frames_.count(), "frame"));
+    const int written = frames_.count() - first_frame_;
+    if (options_.quiet || written == 0) return;
+    if (!options_.video.empty()) {
+      fmt::print("video:   {} ({})\n", options_.video.string(), counted(written, "frame"));
+      return;
+    }
+    const std::string left = earlier_frame();
+    fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(written, "file"),
+               left.empty() ? "" : fmt::format("; {} and later are of an earlier run", left));
   }
 
-  // Later frames in the folder would end up in a video that someone makes of all of them.
-  std::string told_earlier_frames() const {
-    const std::filesystem::path next = frame_path(folder_ / "frames", frames_.count(), options_.frames);
+  // Returns the name of the next frame, if an earlier run has left it. It would end up in a video that someone makes of all
+  // frames.
+  std::string earlier_frame() const {
+    const auto next = frame_path(folder_ / "frames", static_cast<int>(progress_.frames_written), options_.frames);
     std::error_code unknown;  // counts as none
-    if (!std::filesystem::exists(next, unknown)) return "";
-    return fmt::format("; {} and later are of an earlier run", next.filename().string());
+    return std::filesystem::exists(next, unknown) ? next.filename().string() : "";
   }
 
   // If a file can't be written, files of an earlier run may stand beside those of this run. Returns which.
   std::string told_earlier_files() const {
     std::string names;
+    const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
     std::error_code unknown;  // counts as none
-    const auto add = [&](const std::filesystem::path& path, const char* more) {
-      if (std::filesystem::exists(path, unknown))
-        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", path.filename().string(), more);
-    };
-    if (!has_state_) add(folder_ / final_state_name, "");
-    if (!has_summary_) add(folder_ / summary_name, "");
-    const int next_frame = static_cast<int>(progress_.frames_written);
-    if (options_.frames != FrameFormat::none)
-      add(frame_path(folder_ / "frames", next_frame, options_.frames), " and later frames");
+    if (!has_state_ && std::filesystem::exists(folder_ / final_state_name, unknown)) add(final_state_name);
+    if (!has_summary_ && std::filesystem::exists(folder_ / summary_name, unknown)) add(summary_name);
+    if (options_.frames != FrameFormat::none && !earlier_frame().empty()) add(earlier_frame() + " and later frames");
     return names.empty() ? "" : fmt::format("left there by an earlier run: {}; all else is of this one", names);
   }
 
@@ -268,14 +268,16 @@ class Run {
   ThreadPool measuring_pool_;
   RunProgress progress_;
   CheckpointKeeper checkpoints_;
-  FileLock reserved_;  // one run at a time writes into the folder
-  FrameSink frames_;   // made before any file is replaced, because drawing may be impossible here
+  FileLock folder_lock_;  // one run at a time writes into the folder
+  std::unique_ptr<FileLock> video_lock_;
+  FrameSink frames_;  // made before any file is touched, because drawing may be impossible here
   HistoryFile history_;
   struct {
     RunProgress progress;
     std::size_t history_length;
   } before_row_;  // as they were before the latest row
   StepReport report_;
+  int first_frame_ = frames_.count();
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
   bool has_state_ = false, has_summary_ = false;  // this run has written them

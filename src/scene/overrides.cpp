@@ -35,6 +35,7 @@ std::optional<toml::table> parse_value(const std::string& text, const std::strin
 toml::table parse_value_or_word(const std::string& text, const std::string& place) {
   std::optional<toml::table> parsed = parse_value(text, place);
   if (!parsed && is_bare_word(text)) parsed = parse_value("'" + text + "'", place);
+  if (text.empty()) fail_override(place, "has no value", override_form);
   if (!parsed)
     fail_override(place, "the value is no TOML", "put text with spaces in quotation marks, for the shell and for TOML");
   return std::move(*parsed);
@@ -75,7 +76,7 @@ toml::table& table_of(toml::table& root, const std::string& key, const std::stri
   const std::size_t last_dot = key.rfind('.');
   if (last_dot == std::string::npos) return root;
   if (key.starts_with("body.")) {
-    if (last_dot < 5) fail_override(place, "names no body or no key of one", override_form);
+    if (last_dot < 5) fail_override(place, "names no body, or no key of it", override_form);
     return find_body(root, key.substr(5, last_dot - 5), place);
   }
   toml::table* table = &root;

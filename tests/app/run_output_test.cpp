@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/read_text.hpp"
+#include "output/file_lock.hpp"
 #include "support/has.hpp"
 #include "support/program.hpp"
 #include "support/runs.hpp"
@@ -197,18 +198,47 @@ TEST_CASE("two runs do not write into one folder: the second exits with 2 and ch
   const std::string scene = small_scene(folder).string(), out = (folder.path / "out").string(),
                     video = (folder.path / "second.mp4").string();
   REQUIRE(run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out).exit_code == 0);
-  const std::string before = read_text(folder.path / "out/summary.json");
   ProgramInTerminal program({"run", scene, "--device", "cpu", "--steps", "100000000", "--out", out});
   REQUIRE(program.has_shown_progress(1));
+  const std::string summary = read_text(folder.path / "out/summary.json"), history = read_text(folder.path / "out/history.csv");
   const ProgramResult second = run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out + " --video " + video);
   CAPTURE(second.output);
   CHECK(second.exit_code == 2);
-  CHECK_THAT(second.output, Catch::Contains("out/history.csv: is in use by another run"));
-  CHECK(read_text(folder.path / "out/summary.json") == before);
+  CHECK_THAT(second.output, Catch::Contains("/out: is in use by another run"));
+  CHECK(read_text(folder.path / "out/summary.json") == summary);
+  CHECK_THAT(read_text(folder.path / "out/history.csv"), Catch::StartsWith(history));
   CHECK_FALSE(std::filesystem::exists(video));
   program.end_by(SIGKILL);
   CHECK(run_program("run --quiet --device cpu --steps 2 " + scene + " --out " + out).exit_code == 0);
-  CHECK_FALSE(std::filesystem::exists(out + "/history.csv.lock"));
+  CHECK_FALSE(std::filesystem::exists(out + ".lock"));
+}
+
+TEST_CASE("two runs do not write one video: the second exits with 2") {
+  const ScratchFolder folder;
+  const std::string video = (folder.path / "film.mp4").string();
+  const FileLock first(video);
+  const ProgramResult second = run_program("run --quiet --device cpu --steps 2 " + small_scene(folder).string() + " --out " +
+                                           (folder.path / "out").string() + " --video " + video);
+  CAPTURE(second.output);
+  if (second.exit_code == 0) return test::skip("there is no ffmpeg, so there is no video");
+  CHECK(second.exit_code == 2);
+  CHECK_THAT(second.output, Catch::Contains("film.mp4: is in use by another run"));
+}
+
+TEST_CASE("a folder has one lock, by whatever name, and a foreign file in its place is kept") {
+  const ScratchFolder folder;
+  const std::string scene = small_scene(folder).string(), out = (folder.path / "out").string();
+  const std::string run = "run --quiet --device cpu --steps 1 " + scene + " --out ";
+  REQUIRE(run_program(run + out).exit_code == 0);
+  std::filesystem::create_directory_symlink("out", folder.path / "link");
+  {
+    const FileLock taken(out);
+    for (const char* name : {"/out/", "/./out", "/link"}) CHECK(run_program(run + folder.path.string() + name).exit_code == 2);
+  }
+  CHECK(run_program(run + out + "/").exit_code == 0);
+  std::ofstream(out + ".lock") << "mine";
+  CHECK(run_program(run + out).exit_code == 2);
+  CHECK(read_text(out + ".lock") == "mine");
 }
 
 TEST_CASE("frames that an earlier, longer run left are told") {

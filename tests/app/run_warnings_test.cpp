@@ -113,6 +113,18 @@ TEST_CASE("bodies that overlap at the start are named in a warning") {
   CHECK_THAT(result.output, Catch::Contains("left, right"));
 }
 
+TEST_CASE("of many bodies that overlap some are named, and the rest counted") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "many.toml";
+  std::ofstream file(scene);
+  for (int k = 0; k < 12; ++k) file << "[[body]]\nmesh = \"icosphere:0\"\n";
+  file.close();
+  const ProgramResult result =
+      run_program("run " + scene.string() + " --device cpu --steps 0 --out " + folder.path.string() + "/out");
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("body7 and 4 more") && !Catch::Contains("body8"));
+}
+
 TEST_CASE("a run that goes non-finite says where, writes what there is and exits with 5") {
   const ScratchFolder folder;
   const ProgramResult result =

@@ -5,24 +5,17 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 
 #include "core/read_text.hpp"
-#include "core/version.hpp"
-#include "output/checkpoint_file.hpp"
 #include "output/file_lock.hpp"
 #include "support/checkpointed_runs.hpp"
-#include "support/has.hpp"
-#include "support/json.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
 
-using test::account_in;
 using test::Begun;
-using test::ReadJson;
 using test::scene_in;
 using test::ScratchFolder;
 using test::verlet;
@@ -42,6 +35,14 @@ TEST_CASE("a checkpoint in the place of one of the run's outputs exits with 2, b
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.output, Catch::Contains("is where the run writes"));
     CHECK_FALSE(std::filesystem::exists(out));
+  }
+  for (const std::string& name : {std::string("./out/summary.json"), out + ".lock", out + "/./final_state.csv"}) {
+    const ProgramResult relative =
+        run_program("run " + scene + " --device cpu --quiet --duration 0.1 --out out --checkpoint " + name,
+                    "cd " + folder.path.string() + " && ");
+    CAPTURE(name, relative.output);
+    CHECK(relative.exit_code == 2);
+    CHECK_THAT(relative.output, Catch::Contains("is where the run writes"));
   }
   std::filesystem::create_symlink("out/history.csv", folder.path / "link");
   const ProgramResult result = run_program("run " + scene + " --device cpu --quiet --duration 0.1 --out " + out +

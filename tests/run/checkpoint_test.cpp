@@ -1,7 +1,4 @@
 // Runs that are killed, interrupted or copied, and taken up again.
-#include <sys/stat.h>
-
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>

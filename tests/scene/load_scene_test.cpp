@@ -335,7 +335,7 @@ TEST_CASE("a faulty override is a command line error that repeats it") {
   check_override_error(two_named, "simulation.time_step", {"no \"=\""});
   check_override_error(two_named, "=3", {"no key"});
   check_override_error(two_named, "", {"no key"});
-  check_override_error(two_named, "simulation.time_step=", {"no TOML"});
+  check_override_error(two_named, "simulation.time_step=", {"has no value"});
   check_override_error(two_named, "title=two words", {"no TOML"});
   check_override_error(two_named, "title=\xff\xfe", {"no TOML"});
   check_override_error(two_named, "simulation.gravity=[1,2", {"no TOML"});

@@ -1,4 +1,4 @@
-// Runs with checkpoints, for tests that interrupt them.
+// Runs with checkpoints, and what tests look at in them.
 #pragma once
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -19,11 +19,11 @@ namespace pliant {
 namespace {
 
 // A shader that calls a kernel for each of its items.
-struct Frame {
+struct Caller {
   std::string_view file;
   bool items_are_groups;  // or threads
 };
-constexpr Frame thread_frame = {"compute/main.comp", false}, group_frame = {"compute/force.comp", true};
+constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/force.comp", true};
 
 // How force.comp cuts its work.
 struct Lanes {
@@ -87,7 +87,7 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override {
-    return build(std::string(name), thread_frame,
+    return build(std::string(name), thread_caller,
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
@@ -102,7 +102,7 @@ class GpuDevice final : public Device {
                                        {"UNROLL", std::to_string(lanes.unroll)},
                                        {"PLAINLY", std::to_string(lanes.plainly)}};
     if (all_stages) defines.push_back({"TILE", std::to_string(lanes.tile)});
-    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), group_frame, defines);
+    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), group_caller, defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it
@@ -153,11 +153,11 @@ class GpuDevice final : public Device {
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
   };
 
-  KernelId build(const std::string& name, const Frame& frame, const std::vector<gl::Define>& defines) {
+  KernelId build(const std::string& name, const Caller& caller, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
-    gpu::KernelSource source = gpu::kernel_source(files_, frame.file, defines);
-    Kernel made{name, frame.items_are_groups, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
+    gpu::KernelSource source = gpu::kernel_source(files_, caller.file, defines);
+    Kernel made{name, caller.items_are_groups, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
     for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
       made.parameter_is_used.push_back(has_location(made.program.id(), slot));
     made.parameters.resize(made.signature.parameters.size());

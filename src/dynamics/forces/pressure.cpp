@@ -145,11 +145,15 @@ double pressure_frequency_squared(const ModelBody& body) { return highest_stiffn
 std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at) {
   if (at.volume < least_volume * body.inflation.rest_volume)
     return fmt::format(
-        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps or a smaller tolerance",
+        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps, "
+        "or a "
+        "smaller tolerance if one governs them",
         body.name, least_volume);
   if (stiffness_at(body.inflation, at) > highest_stiffness(body.inflation))
     return fmt::format(
-        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps or a smaller tolerance",
+        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps, or "
+        "a "
+        "smaller tolerance if one governs them",
         body.name);
   return {};
 }
