@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <glm/geometric.hpp>
 #include <map>
@@ -72,12 +73,64 @@ TriangleMesh icosphere(std::string_view description, std::string_view argument) 
   return mesh;
 }
 
+// Places a number of vertices on a grid of cells once each, wherever faces of the cube share them.
+class CubeGrid {
+ public:
+  explicit CubeGrid(unsigned cells) : cells_(cells) {}
+
+  std::uint32_t vertex(const std::array<unsigned, 3>& at) {
+    const auto [entry, is_new] = vertices_.try_emplace(at, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (is_new) mesh.positions.emplace_back(coordinate(at[0]), coordinate(at[1]), coordinate(at[2]));
+    return entry->second;
+  }
+
+  // Adds the face at the lower (0) or upper end (1) of an axis.
+  void add_face(std::size_t axis, unsigned end) {
+    for (unsigned row = 0; row < cells_; ++row)
+      for (unsigned column = 0; column < cells_; ++column) {
+        const auto corner = [&](unsigned r, unsigned c) {
+          std::array<unsigned, 3> at{};
+          at[axis] = end * cells_;
+          at[(axis + 1) % 3] = row + r;
+          at[(axis + 2) % 3] = column + c;
+          return vertex(at);
+        };
+        const std::uint32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+        if (end == 1)
+          mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+        else
+          mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
+      }
+  }
+
+  TriangleMesh mesh;
+
+ private:
+  double coordinate(unsigned place) const { return static_cast<double>(place) / cells_ - 0.5; }
+  unsigned cells_;
+  std::map<std::array<unsigned, 3>, std::uint32_t> vertices_;
+};
+
+constexpr unsigned max_cells = 100;
+
+TriangleMesh cube(std::string_view description, std::string_view argument) {
+  unsigned cells = 0;
+  const auto [end, status] = std::from_chars(argument.data(), argument.data() + argument.size(), cells);
+  if (status != std::errc() || end != argument.data() + argument.size() || cells < 1 || cells > max_cells)
+    throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description), fmt::format("\"{}\" is no number of cells", argument),
+                fmt::format("write cube:n with a whole number n from 1 to {}", max_cells));
+  CubeGrid grid(cells);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (unsigned side = 0; side < 2; ++side) grid.add_face(axis, side);
+  return std::move(grid.mesh);
+}
+
 struct Generator {
   std::string_view name, form;
   TriangleMesh (*generate)(std::string_view description, std::string_view argument);
 };
 
-constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere}};
+constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere}, {"cube", "cube:n", cube}};
 
 }  // namespace
 

@@ -52,12 +52,24 @@ TEST_CASE("the icosahedron's corners are the cyclic permutations of (0, +-1, +-g
 }
 
 TEST_CASE("an unknown generator or a bad argument is an input error that lists what exists") {
-  for (const char* description : {"cube:3", "icosphere:", "icosphere:8", "icosphere:-1", "icosphere:2.5", "icosphere:two",
-                                  "icosphere:3 ", "icosphere:99999999999", "icosphere"}) {
+  for (const char* description : {"cube:0", "cube:101", "cube:", "box:3", "icosphere:", "icosphere:8", "icosphere:-1",
+                                  "icosphere:2.5", "icosphere:two", "icosphere:3 ", "icosphere:99999999999", "icosphere"}) {
     CAPTURE(description);
     const Error error = error_of([&] { return generate_mesh(description); });
     CHECK(error.kind() == ErrorKind::input);
-    check_says(error, {description, "icosphere:n"});
+    check_says(error, {description, description[0] == 'c' ? "cube:n" : "icosphere:n"});
+  }
+}
+
+TEST_CASE("a cube is closed, of side 1, and has each vertex once") {
+  for (const int n : {1, 2, 10}) {
+    const TriangleMesh mesh = generate_mesh("cube:" + std::to_string(n));
+    CHECK(mesh.positions.size() == static_cast<std::size_t>(6 * n * n + 2));
+    CHECK(mesh.triangles.size() == static_cast<std::size_t>(12 * n * n));
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      volume += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c])) / 6;
+    CHECK(volume == Approx(1));
   }
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("a warning begins with its body's name") {
 }
 
 TEST_CASE("a mesh that can't be had is an input error that names the body's place in the scene") {
-  for (const char* mesh : {"no/such.obj", "cube:3", "icosphere:9"}) {
+  for (const char* mesh : {"no/such.obj", "box:3", "icosphere:9"}) {
     CAPTURE(mesh);
     const Error error = error_of([&] { return load_bodies(scene_with(mesh)); });
     CHECK(error.kind() == ErrorKind::input);
@@ -65,7 +65,7 @@ TEST_CASE("a mesh that an option names is that option's fault") {
 }
 
 TEST_CASE("a mesh that is no file is told what else a mesh can be") {
-  check_says(error_of([&] { return load_bodies(scene_with("cube")); }), {"cube", "no such file", "icosphere:n"});
+  check_says(error_of([&] { return load_bodies(scene_with("cone")); }), {"cone", "no such file", "icosphere:n"});
 }
 
 TEST_CASE("welding everything into one vertex is an input error") {
