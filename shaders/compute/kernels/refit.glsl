@@ -1,5 +1,4 @@
-// One thread fits one leaf's box to its triangles, then goes up the leaf's subtree. The second of two siblings to arrive goes on to
-// the parent. So no thread ever waits, and one dispatch refits every tree.
+// One thread fits one leaf's box to its triangles where they stand, and its part of the boxes above.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -14,45 +13,6 @@ READ(partner_step)
 PARAMETER(uint, first_position)
 
 #include "parts/box_of_triangle.glsl"
+#include "parts/refit.glsl"
 
-Box joined(Box a, Box b) { return grow(grow(a, b.lower), b.upper); }
-
-Box box_of_triangles(uint begin, uint end) {
-  Box box = empty_box();
-  for (uint t = begin; t < end; t += 4u) {
-    FourBoxes four = four_boxes(t, end);
-    box = joined(box, joined(joined(four.first, four.second), joined(four.third, four.fourth)));
-  }
-  return box;
-}
-
-void store_box(uint n, Box box) {
-  node_box[lower_of(n)] = vec4(box.lower, 0);
-  node_box[upper_of(n)] = vec4(box.upper, 0);
-}
-
-Box box_of_children(uint left) {
-  Box box;
-  box.lower = vec3(node_box[lower_of(left)]);
-  box.upper = vec3(node_box[upper_of(left)]);
-  return grow(grow(box, vec3(node_box[lower_of(left + 1u)])), vec3(node_box[upper_of(left + 1u)]));
-}
-
-void refit(uint item) {
-  if (partner_step[leaf[item].y] != control[0].step) return;
-  uint n = leaf[item].x;
-  store_box(n, box_of_triangles(node[n].z, node[n].w));
-  uint refitted = 1u;
-  uint parent = node[n].y;
-  while (parent != no_node) {
-    memoryBarrierBuffer();
-    if (atomicAdd(arrival[parent], 1u) == 0u) break;
-    memoryBarrierBuffer();
-    arrival[parent] = 0u;
-    store_box(parent, box_of_children(node[parent].x));
-    ++refitted;
-    parent = node[parent].y;
-  }
-  if (item == 0u || leaf[item - 1u].y != leaf[item].y) atomicAdd(control[0].count[trees_refitted], 1u);
-  atomicAdd(control[0].count[nodes_refitted], refitted);
-}
+void refit(uint item) { refit_tree(item); }

@@ -1,0 +1,54 @@
+// descend_trees() takes one subtree of either tree of two near bodies. It descends both together, down to pairs of leaves whose boxes
+// overlap, and hands these pairs to found_leaves(). Many threads serve one pair of bodies.
+Box box_of_node(uint n) {
+  Box box;
+  box.lower = vec3(node_box[lower_of(n)]);
+  box.upper = vec3(node_box[upper_of(n)]);
+  return box;
+}
+
+// The wider node opens first. A leaf never opens.
+bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
+  if (b.x == 0u) return true;
+  if (a.x == 0u) return false;
+  vec3 size_a = box_a.upper - box_a.lower;
+  vec3 size_b = box_b.upper - box_b.lower;
+  return (size_a.x + size_a.y) + size_a.z >= (size_b.x + size_b.y) + size_b.z;
+}
+
+// Returns how many pairs of nodes it tested.
+uint descend(uvec2 start) {
+  uvec2 stack[130];  // a descent opens one node and pushes two, so it needs at most the depths of both trees, 64 each, and one
+  int top = 0;
+  stack[0] = start;
+  uint tests = 0u;
+  while (top >= 0) {
+    uvec2 at = stack[top--];
+    uvec4 a = node[at.x], b = node[at.y];
+    Box box_a = box_of_node(at.x);
+    Box box_b = box_of_node(at.y);
+    ++tests;
+    if (!overlaps(box_a, box_b)) continue;
+    if (a.x == 0u && b.x == 0u) {
+      found_leaves(at);
+    } else if (opens_first(a, b, box_a, box_b)) {
+      stack[++top] = uvec2(a.x, at.y);
+      stack[++top] = uvec2(a.x + 1u, at.y);
+    } else {
+      stack[++top] = uvec2(at.x, b.x);
+      stack[++top] = uvec2(at.x, b.x + 1u);
+    }
+  }
+  return tests;
+}
+
+void descend_trees(uint item) {
+  uint tests = 0u;
+  uint subtree = item % (start_count * start_count);
+  for (uint k = item / (start_count * start_count); k < control[0].near_pair_count; k += pairs_at_once) {
+    uvec2 start = uvec2(node[first_start + near_pair[k].x * start_count + subtree % start_count].x,
+                        node[first_start + near_pair[k].y * start_count + subtree / start_count].x);
+    if (start.x != no_node && start.y != no_node) tests += descend(start);
+  }
+  if (tests != 0u) atomicAdd(control[0].count[node_tests], tests);
+}
