@@ -22,7 +22,8 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_(make_response({bodies, model, description})) {}
+      response_(searches() || !model.grounds.empty() ? make_response({bodies, model, description, forest_, body_pairs_, trees_})
+                                                     : nullptr) {}
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
 

@@ -6,6 +6,7 @@
 
 #include "core/expect.hpp"
 #include "dynamics/stability.hpp"
+#include "model/mean_edge.hpp"
 
 namespace pliant {
 namespace {
@@ -24,15 +25,6 @@ std::vector<double> error_scales(const Model& model, DampingLaw law) {
     scales.push_back(rate > 0 ? 1 / (radius * rate) : 0);  // without springs and damping there is no error
   }
   return scales;
-}
-
-double mean_edge(const Model& model, const ModelBody& body) {
-  double sum = 0;
-  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
-    for (int k = 0; k < 3; ++k)
-      sum += glm::length(
-          glm::vec3(model.rest_positions[model.triangles[t][k]] - model.rest_positions[model.triangles[t][(k + 1) % 3]]));
-  return sum / (3.0 * body.triangle_count);
 }
 
 double largest_contact_motion(const Model& model) {

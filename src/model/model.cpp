@@ -66,6 +66,10 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.stiffness = description.total_stiffness ? *description.total_stiffness / (n * n) : description.stiffness;
   body.vertex_mass = description.total_mass ? *description.total_mass / n : description.vertex_mass;
   body.damping = description.damping;
+  body.is_static = description.kind == BodyKind::immovable;
+  if (body.is_static) body.stiffness = body.damping = 0;
+  body.elasticity = description.elasticity;
+  body.friction = description.friction;
   body.color = description.color;
   return body;
 }
@@ -135,6 +139,14 @@ void expect_not_flattened(const BodyDescription& description) {
                      "use a stretch above zero along each axis, or leave the pressure out");
 }
 
+Ground make_ground(const GroundDescription& description) {
+  const glm::dvec3 normal = glm::normalize(description.normal);
+  return {.normal = normal,
+          .offset = glm::dot(normal, description.point),
+          .elasticity = description.elasticity,
+          .friction = description.friction};
+}
+
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
   const BodyDescription& description = setup.description;
   if (setup.mesh.positions.empty()) throw body_error(description, "the mesh has no vertices", "use a mesh with a surface");
@@ -158,6 +170,7 @@ Model with_materials(Model model, std::span<const Material> materials) {
   PLIANT_EXPECT(materials.size() == model.bodies.size());
   for (std::size_t b = 0; b < materials.size(); ++b) {
     ModelBody& body = model.bodies[b];
+    if (body.is_static) continue;
     body.stiffness = materials[b].stiffness;
     body.vertex_mass = materials[b].vertex_mass;
     body.damping = materials[b].damping;
@@ -183,8 +196,10 @@ std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   return velocities;
 }
 
-ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity) {
+ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
+                          std::span<const GroundDescription> grounds) {
   ModelAndState built;
+  for (const GroundDescription& ground : grounds) built.model.grounds.push_back(make_ground(ground));
   for (const BodySetup& setup : setups) append_body(setup, gravity, built);
   check_start(setups, built);
   return built;

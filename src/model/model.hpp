@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,8 +25,16 @@ struct Inflation {
   double curvature = 0;         // at least the norm of the volume's second derivative [m]
 };
 
+/// A half-space that bodies stay out of: all points x with normal . x < offset.
+struct Ground {
+  glm::dvec3 normal{0.0, 1.0, 0.0};            // of length 1
+  double offset = 0;                           // [m]
+  std::optional<double> elasticity, friction;  // those of the scene if empty
+};
+
 struct ModelBody {
   std::string name;
+  bool is_static = false;  // keeps its place and shape, and has no springs
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
   double stiffness = 0;    // k of every pair's spring [N/m]
@@ -33,7 +42,8 @@ struct ModelBody {
   double damping = 0;      // c [kg/s]
   double radius = 0;       // largest distance of a rest position from the centroid [m]
   Inflation inflation;
-  glm::dvec3 color{1.0};  // linear RGB
+  std::optional<double> elasticity, friction;  // of contacts, those of the scene if empty
+  glm::dvec3 color{1.0};                       // linear RGB
 
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are
   /// exact.
@@ -44,6 +54,7 @@ struct ModelBody {
 
 struct Model {
   std::vector<ModelBody> bodies;
+  std::vector<Ground> grounds;
   std::vector<glm::vec4> rest_positions;  // xyz: relative to the centroid, in the body's frame, rounded once [m], w: body index
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into rest_positions
 
@@ -101,6 +112,7 @@ struct ModelAndState {
 /// - a mesh with pressure inside is open, not wound outward or flat, or is stretched to 1e-6 of its volume or inside out,
 /// - a body's radius is above 0 but below 1e-6 m,
 /// - a vertex stands beyond 1e9 m, moves faster than 1e9 m/s, or is not finite.
-[[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity);
+[[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
+                                        std::span<const GroundDescription> grounds = {});
 
 }  // namespace pliant

@@ -32,7 +32,8 @@ OutputFile file_with(const std::filesystem::path& path, const std::string& text)
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& path) : file_(path) {
-  add("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices\n");
+  add("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices,outside_px,outside_py,"
+      "outside_pz\n");
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, std::string so_far)
@@ -50,7 +51,9 @@ void HistoryFile::append(const HistoryRow& row) {
     append_number(line, value);
   append_vector(line, row.momentum);
   append_vector(line, row.angular_momentum);
-  add(fmt::format("{},{},{}\n", line, row.contact_steps, row.reverted_vertices));
+  fmt::format_to(std::back_inserter(line), ",{},{}", row.contact_steps, row.reverted_vertices);
+  append_vector(line, row.outside_impulse);
+  add(line += '\n');
   file_.flush();
 }
 

@@ -22,6 +22,7 @@ struct HistoryRow {
   glm::dvec3 angular_momentum{0.0};     // about the world's origin [kg m^2/s]
   std::uint64_t contact_steps = 0;      // since the start
   std::uint64_t reverted_vertices = 0;  // since the start
+  glm::dvec3 outside_impulse{0.0};      // that static bodies and grounds gave since the start [Ns]
 };
 
 /// history.csv, which can be read while it grows. All functions but text() throw Error (command_line) if it can't be written.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <span>
 #include <system_error>
 
 #include "core/checksum.hpp"
@@ -11,6 +9,7 @@
 #include "core/read_text.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "simulation/start_check.hpp"
 
 namespace pliant {
 namespace {
@@ -71,14 +70,8 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
 }
 
 void warn_of_overlap(PreparedRun& run) {
-  const Intersections overlap = run.simulation->intersections();
-  if (overlap.pairs == 0) return;
-  constexpr std::size_t most_names = 8;
-  std::string names;
-  for (const std::uint32_t body : std::span(overlap.bodies).first(std::min(most_names, overlap.bodies.size())))
-    names += (names.empty() ? "" : ", ") + run.start.model.bodies[body].name;
-  if (overlap.bodies.size() > most_names) names += fmt::format(" and {} more", overlap.bodies.size() - most_names);
-  run.warnings.push_back(fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names));
+  if (const std::string overlap = told_overlap(*run.simulation, run.start.model); !overlap.empty())
+    run.warnings.push_back(overlap);
 }
 
 }  // namespace
@@ -93,7 +86,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.scene = describe_scene(run.scene_text, options);
   const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings);
   for (const BodySetup& setup : setups) run.mesh_checksums.push_back(checksum_of(setup.mesh));
-  run.start = build_model(setups, run.scene.simulation.gravity);
+  run.start = build_model(setups, run.scene.simulation.gravity, run.scene.grounds);
   run.plan = plan_time(run.scene, run.start.model, options.steps);
   run.load_time.stop();
   run.build_time.start();
@@ -103,6 +96,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);
+  expect_apart(*run.simulation, run.start.model, run.scene.file.string());
   warn_of_overlap(run);
   run.build_time.stop();
   return prepared;

@@ -79,6 +79,12 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   return {};
 }
 
+std::optional<std::string> lost_time_of(const StepReport& report) {
+  if (report.time_lost == 0) return {};
+  return fmt::format("bodies came near each other so fast that {:.3g} s were lost in steps; shorten the time step",
+                     report.time_lost);
+}
+
 Summary summary_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   const RunTimes& times = progress.times;
@@ -100,7 +106,7 @@ Summary summary_of(const RunStatus& status) {
   s.energy = {progress.first.energy(), progress.latest.energy(), {}};
   if (run.plan.damping_law == DampingLaw::none && report.contact_steps == 0)
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
-  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices};
+  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices, report.substeps, report.time_lost};
   if (report.non_finite)
     s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   else
@@ -120,6 +126,7 @@ Summary summary_of(const RunStatus& status) {
   for (const auto& [pass, seconds] : run.simulation->pass_seconds())
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
+  if (const auto lost = lost_time_of(report)) s.warnings.push_back(*lost);
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
   s.version = version();
   return s;

@@ -88,11 +88,17 @@ class Run {
 
   void run_fixed() {
     std::uint64_t step = progress_.recorded_steps;
-    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= run_.plan.steps) {
+    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= last_step()) {
       advance_to(step);
       if (report_.steps == step) write_frame();
     }
-    advance_to(run_.plan.steps);
+    advance_to(last_step());
+  }
+
+  // Steps that lost time are made up for by more of them, unless the command line asks for so many steps.
+  std::uint64_t last_step() const {
+    if (options_.steps) return run_.plan.steps;
+    return run_.plan.steps + static_cast<std::uint64_t>(std::llround(report_.time_lost / run_.plan.time_step));
   }
 
   void run_adaptive() {
@@ -169,7 +175,8 @@ class Run {
                      .momentum = now.momentum,
                      .angular_momentum = now.angular_momentum,
                      .contact_steps = report_.contact_steps,
-                     .reverted_vertices = report_.reverted_vertices});
+                     .reverted_vertices = report_.reverted_vertices,
+                     .outside_impulse = report_.outside_impulse});
   }
 
   void warn_of_forces() {
@@ -249,6 +256,7 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
+    if (const auto lost_time = lost_time_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *lost_time);
     if (const auto what = instability_of(status()))
       fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
     if (lost) throw *lost;

@@ -174,6 +174,7 @@ class TableReader {
 const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none), DampingLaw::none},
                                                       {name_of(DampingLaw::constant), DampingLaw::constant},
                                                       {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
+const std::vector<Choice<BodyKind>> kinds = {{"soft", BodyKind::soft}, {"static", BodyKind::immovable}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
@@ -206,6 +207,7 @@ void read_table(TableReader& table, TreeDescription& tree) {
 void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("response", collision.response);
   table.read("elasticity", collision.elasticity, fraction);
+  table.read("friction", collision.friction, not_negative);
   table.read("search", collision.search, searches);
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
@@ -230,9 +232,17 @@ void read_table(TableReader& table, OutputDescription& output) {
   table.read("ground_height", output.ground_height, coordinate);
 }
 
+void expect_still(const TableReader& table) {
+  for (const char* key : {"velocity", "spin", "stretch", "pressure"})
+    if (table.peek(key) != nullptr)
+      throw Error(table.where(key), "a static body neither moves nor changes its shape", fmt::format("remove {}, or kind", key));
+}
+
 void read_table(TableReader& table, BodyDescription& body) {
   table.require("mesh");
   table.read("name", body.name);
+  table.read("kind", body.kind, kinds);
+  body.kind_where = table.where("kind");
   table.read("mesh", body.mesh);
   body.mesh_where = table.where("mesh");
   table.read("weld", body.weld, not_negative);
@@ -252,9 +262,12 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("vertex_mass", body.vertex_mass, positive);
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
+  table.read("elasticity", body.elasticity, fraction);
+  table.read("friction", body.friction, not_negative);
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
+  if (body.kind == BodyKind::immovable) expect_still(table);
 }
 
 /// Returns the name in a body's table, or "body0", "body1", ... by its index.
@@ -273,12 +286,64 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   }
 }
 
+void read_table(TableReader& table, GroundDescription& ground) {
+  double height = 0;
+  table.allow_one_of("height", "point");
+  table.allow_one_of("height", "normal");
+  table.read("height", height, coordinate);
+  ground.point.y = height;
+  table.read("point", ground.point, coordinate);
+  table.read("normal", ground.normal, coordinate);
+  if (ground.normal == glm::dvec3(0.0))
+    throw Error(table.where("normal"), "has no direction", "write a vector that leads out of the ground");
+  table.read("elasticity", ground.elasticity, fraction);
+  table.read("friction", ground.friction, not_negative);
+}
+
+void read_grounds(const toml::node& node, std::vector<GroundDescription>& grounds) {
+  if (!node.is_array()) fail(node, "ground", fmt::format("is {}", type_name(node)), "begin each ground with [[ground]]");
+  for (const toml::node& table : *node.as_array()) {
+    grounds.emplace_back().where = origin_of(table, "ground");
+    TableReader::section(table, "ground", grounds.back());
+  }
+}
+
 void read_table(TableReader& table, SceneDescription& scene) {
   table.read("title", scene.title);
   table.section("simulation", scene.simulation);
   table.section("collision", scene.collision);
   table.section("output", scene.output);
   if (const toml::node* bodies = table.find("body")) read_bodies(*bodies, scene.bodies);
+  if (const toml::node* grounds = table.find("ground")) read_grounds(*grounds, scene.grounds);
+}
+
+// The drawn floor is a level ground, if there is one.
+void draw_level_ground(SceneDescription& scene) {
+  for (const GroundDescription& ground : scene.grounds) {
+    if (ground.normal.x != 0 || ground.normal.z != 0 || ground.normal.y < 0) continue;
+    if (scene.output.ground_height)
+      throw Error(ground.where, "is drawn where it is, but output.ground_height says another height",
+                  "remove output.ground_height");
+    scene.output.ground_height = ground.point.y;
+    return;
+  }
+}
+
+// The paper's response turns vertices back, wherever they are, and knows nothing that never moves.
+void expect_response_to_immovable(const SceneDescription& scene) {
+  if (scene.collision.response.value == "impulse") {
+    if (scene.collision.search == ContactSearch::brute_force)
+      throw Error(scene.collision.response.where, "contact by impulses finds pairs by trees alone",
+                  "remove search = \"brute_force\"");
+    return;
+  }
+  const auto fail_at = [&](const Origin& where, const char* what) {
+    throw Error(where, fmt::format("{} with the response \"{}\"", what, scene.collision.response.value),
+                "write response = \"impulse\" in [collision]");
+  };
+  if (!scene.grounds.empty()) fail_at(scene.grounds.front().where, "bodies would fall through a ground");
+  for (const BodyDescription& body : scene.bodies)
+    if (body.kind == BodyKind::immovable) fail_at(body.kind_where, "a body can't be static");
 }
 
 }  // namespace
@@ -299,6 +364,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
   SceneDescription scene;
   scene.file = file;
   TableReader::section(root, "", scene);
+  expect_response_to_immovable(scene);
+  draw_level_ground(scene);
   if (scene.bodies.empty()) throw Error(ErrorKind::input, file.string(), "has no body", "add a [[body]] with a mesh");
   return scene;
 }

@@ -19,6 +19,7 @@ struct Named {
   Origin where = {};
 };
 
+enum class BodyKind { soft, immovable };
 enum class PressureLaw { gas, constant };
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
 /// Returns the law's name in scenes and reports.
@@ -47,6 +48,7 @@ struct TreeDescription {
 struct CollisionDescription {
   Named response{"reflect"};  // a name in the list of responses, or "none"
   double elasticity = 0.9;
+  double friction = 0.5;
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
@@ -74,8 +76,10 @@ struct OutputDescription {
 
 struct BodyDescription {
   std::string name;
+  BodyKind kind = BodyKind::soft;         // an immovable body keeps its place and shape
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
+  Origin kind_where;                      // of the key `kind`
   Origin mesh_where;                      // of the key `mesh`
   std::optional<double> weld;             // [m], off if empty
   double scale = 1.0;                     // [m per mesh unit]
@@ -89,9 +93,20 @@ struct BodyDescription {
   double vertex_mass = 1.0;               // [kg]
   std::optional<double> total_mass;       // [kg], m = total / N
   double damping = 1.0;                   // c [kg/s]
+  std::optional<double> elasticity;       // of contacts, that of the scene if empty
+  std::optional<double> friction;         // of contacts, that of the scene if empty
   double pressure = 0.0;                  // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
+};
+
+/// A half-space that bodies stay out of.
+struct GroundDescription {
+  glm::dvec3 point{0.0};             // on its surface [m]
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // out of it, of any length
+  std::optional<double> elasticity;  // that of the scene if empty
+  std::optional<double> friction;    // that of the scene if empty
+  Origin where;                      // of its table
 };
 
 struct SceneDescription {
@@ -101,6 +116,7 @@ struct SceneDescription {
   CollisionDescription collision;
   OutputDescription output;
   std::vector<BodyDescription> bodies;
+  std::vector<GroundDescription> grounds;
 };
 
 }  // namespace pliant

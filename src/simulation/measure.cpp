@@ -14,6 +14,7 @@ Measurement measure(const Model& model, const State& state, const glm::dvec3& gr
   const std::vector<glm::dvec3> velocities = state.world_velocities(model);
   Measurement sum;
   for (std::uint32_t i = 0; i < model.vertex_count(); ++i) {
+    if (model.body_of(i).is_static) continue;
     const double mass = model.body_of(i).vertex_mass;
     const glm::dvec3 momentum = mass * velocities[i];
     sum.kinetic += 0.5 * glm::dot(momentum, velocities[i]);

@@ -84,7 +84,25 @@ void Simulation::queue(std::uint64_t steps) {
 
 void Simulation::advance(std::uint64_t steps) {
   PLIANT_EXPECT(!pacer_);
-  queue(steps);
+  if (parts() == nullptr) return queue(steps);
+  const std::uint64_t target = parts()->download().front().steps + steps;
+  for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
+    queue(left);
+    left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
+  }
+}
+
+const DeviceArray<physics::StepParts>* Simulation::parts() const {
+  return collider_.response() != nullptr ? collider_.response()->step_parts() : nullptr;
+}
+
+void Simulation::add_parts(StepReport& report) const {
+  const physics::StepParts made = parts()->download().front();
+  report.steps = made.steps;
+  report.time =
+      made.lost == 0 && made.eighths_left == physics::eighths ? static_cast<double>(made.steps) * fixed_step_ : made.simulated;
+  report.substeps = made.parts - made.steps;
+  report.time_lost = made.lost;
 }
 
 StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {
@@ -130,6 +148,8 @@ StepReport Simulation::report() {
   report.steps = control.step - 1;
   report.time = static_cast<double>(report.steps) * fixed_step_;
   if (pacer_) add_pace(report);
+  if (parts() != nullptr) add_parts(report);
+  if (collider_.response() != nullptr) report.outside_impulse = collider_.response()->report().outside_impulse;
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
     report.non_finite = NonFinite{.step = report.steps,

@@ -37,10 +37,12 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
                               std::uint32_t from_half, const Pacer* pacer) {
   const std::uint32_t half = 1 - from_half;
   const Response* const response = collider.response();
-  const bool searches = response != nullptr && collider.searches();
+  const bool searches = response != nullptr && response->answers_touching();
   List step;
   // length
   if (pacer != nullptr) step.add(pacer->beginning_pass());
+  // kick
+  if (response != nullptr) step.add(response->before_step(from_half));
   // integrate
   step.add(stepper.passes(from_half));
   // find contacts and let frames follow; with a tolerance frames follow after the judging, because it may undo the step
@@ -54,6 +56,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
     add_search_while_following(step, stepper, collider, from_half);
   } else {
     if (searches) step.add(collider.search_passes(half));
+    if (response != nullptr && !searches) step.add(response->after_step(from_half));
     add_following(step, stepper, from_half);
   }
   // answer contacts

@@ -98,6 +98,20 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin&
                   rates.size() <= Stepper::most_drags(find_integrator("dprkn8")) ? "dprkn8" : "dop853"));
 }
 
+// Kicks change velocities between steps, so steps of a tolerance would have to be undone with their kicks.
+void expect_response_fits(const TimePlan& plan, const SceneDescription& scene) {
+  if (scene.collision.response.value != "impulse") return;
+  const SimulationDescription& simulation = scene.simulation;
+  if (plan.tolerance)
+    throw Error(simulation.tolerance_where, "contact by impulses takes steps of a fixed length so far, which a tolerance varies",
+                "give a time_step instead, or write response = \"reflect\" in [collision]");
+  if (plan.damping_law != DampingLaw::none && std::holds_alternative<Nystrom>(plan.integrator->method))
+    throw Error(simulation.integrator.where,
+                fmt::format("{} meets damping only with steps of one length, and contact by impulses divides them",
+                            plan.integrator->name),
+                "choose another integrator, such as verlet, or set damping_law = \"none\"");
+}
+
 void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDescription& simulation) {
   if (plan.time_step <= bound) return;
   const bool is_option = simulation.time_step_where.from == Origin::From::option;
@@ -176,6 +190,7 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   expect_method_estimates(plan, simulation.integrator.where);  // first, because its remedies also help with damping
   expect_method_damps(plan, simulation.integrator.where);
   expect_tableaus_fit(plan, model, simulation.integrator.where);
+  expect_response_fits(plan, scene);
   plan.step_bound = shortest_bound(plan, model, [](auto&... what) { return step_bound(what...); });
   const double longest_drag = shortest_bound(plan, model, [](auto&... what) { return drag_bound(what...); });
   if (plan.tolerance) {

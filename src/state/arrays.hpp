@@ -15,6 +15,8 @@
 #include "device/array_list.hpp"
 #include "device/device.hpp"
 #include "physics/body.glsl"
+#include "physics/contact/parts.glsl"
+#include "physics/contact/surface.glsl"
 #include "physics/control.glsl"
 #include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
@@ -52,6 +54,10 @@ PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")
 PLIANT_ELEMENT(physics::Pressure, "Pressure")
+PLIANT_ELEMENT(physics::Surface, "Surface")
+PLIANT_ELEMENT(physics::Ground, "Ground")
+PLIANT_ELEMENT(physics::StepParts, "StepParts")
+PLIANT_ELEMENT(physics::ContactList, "ContactList")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT

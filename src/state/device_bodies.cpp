@@ -26,6 +26,7 @@ std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_si
   std::vector<physics::Share> shares;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
     const ModelBody& body = model.bodies[b];
+    if (body.is_static) continue;
     for (std::uint32_t first = 0; first < body.vertex_count; first += std::min(share_size, body.vertex_count - first))
       shares.push_back({.body = body_of(body, strain_bias),
                         .body_index = b,
@@ -39,7 +40,8 @@ std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_si
 bool runs_all_stages(const Device& device, const Model& model, std::size_t variant) {
   const ForceVariant& lanes = device.force_variants()[variant];
   std::size_t shares = 0;
-  for (const ModelBody& body : model.bodies) shares += (body.vertex_count + lanes.share_size - 1) / lanes.share_size;
+  for (const ModelBody& body : model.bodies)
+    if (!body.is_static) shares += (body.vertex_count + lanes.share_size - 1) / lanes.share_size;
   return lanes.all_stages && shares <= device.shares_at_once();
 }
 
@@ -63,8 +65,17 @@ physics::BoxBits empty_box() {
   return box;
 }
 
-physics::Status first_status() {
-  return {.activity = physics::moving, .non_finite_vertex = physics::no_vertex, .deformed = 0, .force_stale = 1};
+physics::Status first_status(const ModelBody& body) {
+  return {.activity = body.is_static ? physics::immovable : physics::moving,
+          .non_finite_vertex = physics::no_vertex,
+          .deformed = 0,
+          .force_stale = 1};
+}
+
+std::vector<physics::Status> first_statuses(const Model& model) {
+  std::vector<physics::Status> statuses;
+  for (const ModelBody& body : model.bodies) statuses.push_back(first_status(body));
+  return statuses;
 }
 
 physics::Control first_control() {
@@ -86,7 +97,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       arrays(device),
       shares(arrays.make("share", shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()))),
       poses(arrays.make("pose", state.poses)),
-      statuses(arrays.make("status", std::vector(body_count, first_status()))),
+      statuses(arrays.make("status", first_statuses(model))),
       tallies(arrays.make<physics::Tally>("tally", body_count)),
       motions(arrays.make<double>("motion", std::size_t{2} * physics::motion_size * vertex_count)),
       world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
@@ -94,14 +105,18 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   all_stages_at_once = runs_all_stages(device, model, variant);
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
+  arrays.set_parameter("parts_of", 0.0);
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make<std::uint32_t>("meeting", body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
   make_placements();
-  motions.upload(state.motion);
-  world_positions.upload(rounded_world_positions(model, state));
+  const std::vector<glm::vec4> positions = rounded_world_positions(model, state);
+  for (std::uint32_t half = 0; half < 2; ++half) {  // static bodies stay as they are in both
+    motions.upload(state.motion, physics::displacement_of(first_of_half(half)));
+    world_positions.upload(positions, first_of_half(half));
+  }
 }
 
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.

@@ -9,6 +9,7 @@
 #include "core/extension.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "simulation/start_check.hpp"
 
 namespace pliant::view {
 namespace {
@@ -48,7 +49,8 @@ LoadedScene load(const std::filesystem::path& file, std::span<const std::string>
     throw Error(ErrorKind::command_line, "--set", "an OBJ file has no keys to set", "write a scene file that names the mesh");
   LoadedScene scene{.description = is_obj(file) ? lone_body(file) : load_scene(file, overrides), .start = {}, .warnings = {}};
   if (scene.description.title.empty()) scene.description.title = file.stem().string();
-  scene.start = build_model(load_bodies(scene.description, &scene.warnings), scene.description.simulation.gravity);
+  scene.start = build_model(load_bodies(scene.description, &scene.warnings), scene.description.simulation.gravity,
+                            scene.description.grounds);
   return scene;
 }
 
@@ -59,6 +61,7 @@ Session::Session(Device& device, LoadedScene scene, std::size_t most_history_byt
       history_(most_history_bytes) {
   expect_carried(scene_->description, plan_, device.precision());
   restart();
+  expect_apart(*simulation_, model(), scene_->description.file.string());
 }
 
 double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }

@@ -113,6 +113,32 @@ TEST_CASE("bodies that overlap at the start are named in a warning") {
   CHECK_THAT(result.output, Catch::Contains("left, right"));
 }
 
+TEST_CASE("bodies that overlap can't begin with contact by impulses") {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program(
+      "run " + small_scene(folder).string() +
+      " --device cpu --set body.right.position=[0,0,0] --set collision.response=impulse --out " + folder.path.string() + "/out");
+  CHECK(result.exit_code == 3);
+  CHECK_THAT(result.output, Catch::Contains("left, right") && Catch::Contains("move them apart"));
+  CHECK_FALSE(std::filesystem::exists(folder.path / "out"));
+}
+
+TEST_CASE("bodies so fast that steps lose time are told, and the run makes up for it") {
+  const ScratchFolder folder;
+  const ProgramResult result = run_program(
+      "run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+      " --device cpu --duration 0.5 --time-step 0.01 --set collision.response=impulse --set body.left.velocity=[400,0,0] --out " +
+      folder.path.string());
+  CHECK(result.exit_code == 0);
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["contacts"]["time_lost"] > 0);
+  CHECK(summary["contacts"]["substeps"] > 0);
+  CHECK(summary["steps"] > 50);
+  CHECK(summary["simulated_seconds"].get<double>() == Approx(0.5).margin(0.01));
+  CHECK(summary["final_intersecting_pairs"] == 0);
+  CHECK_THAT(result.output, Catch::Contains("were lost in steps"));
+}
+
 TEST_CASE("of many bodies that overlap some are named, and the rest counted") {
   const ScratchFolder folder;
   const auto scene = folder.path / "many.toml";

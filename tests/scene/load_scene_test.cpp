@@ -246,6 +246,38 @@ TEST_CASE("keys that contradict each other are an error") {
                     {"body.body0.total_mass", "can't be combined with vertex_mass"});
 }
 
+const std::string impulse = "[collision]\nresponse = \"impulse\"\n";
+
+TEST_CASE("grounds, static bodies and what contacts need to know of them are read into their places") {
+  const SceneDescription scene = load_text(impulse +
+                                           "friction = 0.25\n[[ground]]\nheight = -1\nfriction = 2\n[[ground]]\npoint = [1, 2, "
+                                           "3]\nnormal = [0, 3, 4]\nelasticity = 0.5\n" +
+                                           smallest + "kind = \"static\"\nfriction = 0.1\nelasticity = 0.2\n");
+  CHECK(scene.collision.friction == 0.25);
+  REQUIRE(scene.grounds.size() == 2);
+  CHECK((scene.grounds[0].point == glm::dvec3(0, -1, 0) && scene.grounds[0].normal == glm::dvec3(0, 1, 0)));
+  CHECK((scene.grounds[0].friction == 2 && !scene.grounds[0].elasticity));
+  CHECK((scene.grounds[1].point == glm::dvec3(1, 2, 3) && scene.grounds[1].normal == glm::dvec3(0, 3, 4)));
+  CHECK(scene.grounds[1].elasticity == 0.5);
+  CHECK(scene.output.ground_height == -1);  // the first is level, and drawn
+  CHECK(scene.bodies[0].kind == BodyKind::immovable);
+  CHECK((scene.bodies[0].friction == 0.1 && scene.bodies[0].elasticity == 0.2));
+  CHECK(load_text(smallest).bodies[0].kind == BodyKind::soft);
+  CHECK(load_text(smallest).collision.friction == 0.5);
+}
+
+TEST_CASE("what never moves needs contact by impulses, and does not move") {
+  check_input_error("[[ground]]\n" + smallest, 1, {"ground", "\"reflect\"", "response = \"impulse\""});
+  check_input_error(smallest + "kind = \"static\"\n", 3, {"body.body0.kind", "can't be static", "response = \"impulse\""});
+  for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]", "stretch = [1, 2, 1]", "pressure = 1"})
+    check_input_error(impulse + smallest + "kind = \"static\"\n" + key + "\n", 6, {"neither moves nor changes", "remove"});
+  check_input_error(impulse + "[[ground]]\nheight = 1\nnormal = [1, 0, 0]\n" + smallest, 5, {"can't be combined with height"});
+  check_input_error(impulse + "[[ground]]\nnormal = [0, 0, 0]\n" + smallest, 4, {"has no direction"});
+  check_input_error(impulse + "[output]\nground_height = 1\n[[ground]]\n" + smallest, 5,
+                    {"ground", "remove output.ground_height"});
+  check_input_error(impulse + "search = \"brute_force\"\n" + smallest, 2, {"trees alone", "remove search"});
+}
+
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {
   check_input_error(smallest + "stretch = [0, 0.0, -0.0]\n", 3, {"body.body0.stretch", "one point", "write a factor"});
   check_override_error(smallest, "body.body0.stretch=[0, 0, 0]", {"one point"});

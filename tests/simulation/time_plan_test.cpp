@@ -175,6 +175,21 @@ TEST_CASE("steps too long for a Nystrom method to resolve the damping are an inp
   }
 }
 
+TEST_CASE("contact by impulses takes fixed steps of any method that they can be divided for") {
+  BodySetup setup = sphere(0);
+  setup.description.damping = 0.01;
+  const Model model = built(setup).model;
+  SceneDescription scene = scene_with("dprkn8", DampingLaw::constant);
+  scene.collision.response.value = "impulse";
+  check_says(error_of([&] { return plan_time(scene, model); }), {"scene.toml:3", "dprkn8", "choose another integrator"});
+  scene.simulation.damping_law = DampingLaw::none;
+  CHECK_NOTHROW(plan_time(scene, model));
+  scene.simulation.integrator.value = "dop853";
+  scene.simulation.tolerance = 1e-6;
+  scene.simulation.tolerance_where = {Origin::From::file, "scene.toml:4: simulation.tolerance"};
+  check_says(error_of([&] { return plan_time(scene, model); }), {"scene.toml:4", "fixed length", "reflect"});
+}
+
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {
   SceneDescription scene = scene_with("dop853", DampingLaw::none);
   scene.simulation.tolerance = 1e-6;

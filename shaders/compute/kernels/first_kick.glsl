@@ -1,7 +1,9 @@
 // One thread kicks one vertex by the kept force and then drifts it, first in a step of a splitting method.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/layout.glsl"
+READ(control)
 READ(body)
 READ(pose)
 WRITE(status)
@@ -16,6 +18,8 @@ PARAMETER(uint, damping_law)
 PARAMETER(uint, adds_force)  // 1: there are forces beside the springs
 PARAMETER(double, kick_time)  // [s]
 PARAMETER(double, drift_time)  // [s]
+PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if they can fall into parts; else 0
+#include "parts/part_of_step.glsl"
 #include "parts/kick.glsl"
 #include "parts/place.glsl"
 
@@ -30,10 +34,10 @@ void first_kick(uint i) {
     double all_force = kept_force[force_of(i) + k];
     if (adds_force != 0u) all_force += added_force[force_of(i) + k];
     double velocity = kicked(body[b], pose[b].gravity[k], all_force, dot(spring_force, spring_force),
-                             motion[velocity_of(before) + k], kick_time);
-    double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) + drift_time * (velocity - motion[velocity_of(first) + k]);
+                             motion[velocity_of(before) + k], part_of_step() * kick_time);
+    double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) + part_of_step() * drift_time * (velocity - motion[velocity_of(first) + k]);
     place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
-    motion[displacement_of(after) + k] = motion[displacement_of(before) + k] + drift_time * velocity;
+    motion[displacement_of(after) + k] = motion[displacement_of(before) + k] + part_of_step() * drift_time * velocity;
     motion[velocity_of(after) + k] = velocity;
   }
 }

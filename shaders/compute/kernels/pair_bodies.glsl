@@ -21,7 +21,8 @@ void pair_bodies(uint item) {
   uint a = item / body_count;
   uint b = item % body_count;
   if (a >= b || tree[a].y == 0u || tree[b].y == 0u) return;
-  if (status[a].activity != moving || status[a].non_finite_vertex != no_vertex || status[b].non_finite_vertex != no_vertex) return;
+  if (status[a].activity != moving && status[b].activity != moving) return;
+  if (status[a].non_finite_vertex != no_vertex || status[b].non_finite_vertex != no_vertex) return;
   if (!overlaps(box_of(a), box_of(b))) {
     atomicAdd(control[0].count[body_pairs_skipped], 1u);
     return;

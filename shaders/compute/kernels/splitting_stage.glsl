@@ -2,10 +2,12 @@
 // ends the step.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/control.glsl"
 #include "../physics/damping.glsl"
 #include "../physics/forces/spring.glsl"
 #include "../physics/layout.glsl"
 READ(share)
+READ(control)
 WRITE(pose)
 WRITE(status)
 WRITE(tally)
@@ -18,6 +20,7 @@ WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
+PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if they can fall into parts; else 0
 #include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
@@ -27,10 +30,12 @@ PARAMETER(uint, damping_law)
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return slot_of_force(stage_index); }
 
+#include "parts/part_of_step.glsl"
+
 // These read the tableau's two rows for this stage.
-double kick_time() { return tableau[splitting_row_size * stage_index].x; }    // [s]
-double drift_time() { return tableau[splitting_row_size * stage_index].y; }   // of the drift that follows, zero at the end [s]
-double elapsed() { return tableau[splitting_row_size * stage_index + 1u].x; }  // all drifts of the step up to that one [s]
+double kick_time() { return part_of_step() * tableau[splitting_row_size * stage_index].x; }    // [s]
+double drift_time() { return part_of_step() * tableau[splitting_row_size * stage_index].y; }   // of the drift that follows, zero at the end [s]
+double elapsed() { return part_of_step() * tableau[splitting_row_size * stage_index + 1u].x; }  // all drifts of the step up to that one [s]
 
 struct Pending {
   double rest;

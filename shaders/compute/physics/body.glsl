@@ -64,6 +64,7 @@ const uint moving = 0u;
 const uint halted_for_good = 1u;  // a step went non-finite, and nothing moves any more
 const uint halted_for_now = 2u;   // until the next step, because this one is empty or was undone
 const uint halted_waiting = 3u;   // for good, because its work groups do not run at once, though they should
+const uint immovable = 4u;        // keeps its place and shape
 const uint most_polls = 1u << 22;  // a body is halted_waiting after so many polls, which take some seconds
 
 const uint no_vertex = 0xffffffffu;

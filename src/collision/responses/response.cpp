@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "collision/responses/impulse.hpp"
 #include "collision/responses/reflect.hpp"
 #include "core/error.hpp"
 
@@ -12,7 +13,7 @@ namespace pliant {
 namespace {
 
 std::vector<ResponseRow>& rows() {
-  static std::vector<ResponseRow> all = {{"reflect", make_reflect}};
+  static std::vector<ResponseRow> all = {{"reflect", make_reflect}, {"impulse", make_impulse}};
   return all;
 }
 

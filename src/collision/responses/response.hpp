@@ -5,17 +5,34 @@
 #include <string_view>
 #include <vector>
 
+#include "collision/broad_phase/body_pairs.hpp"
+#include "collision/trees/tree_search.hpp"
 #include "device/pass.hpp"
 #include "scene/scene_description.hpp"
 #include "state/device_bodies.hpp"
 
 namespace pliant {
 
+/// What a response did since the start.
+struct ResponseReport {
+  glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
+};
+
 /// Records the passes of one response. Each response decides what a contact holds: it makes the arrays for that, or uses the
 /// marks of touching vertices. No result may depend on the order in which contacts were found.
 class Response {
  public:
   virtual ~Response() = default;
+  /// Returns passes that run before the step's stages, with the state in this half.
+  [[nodiscard]] virtual std::vector<Pass> before_step(std::uint32_t /*from_half*/) const { return {}; }
+  /// Returns how the scene's steps have fallen into parts, or null if each step is one part.
+  [[nodiscard]] virtual const DeviceArray<physics::StepParts>* step_parts() const { return nullptr; }
+  /// Waits for the queued steps.
+  [[nodiscard]] virtual ResponseReport report() const { return {}; }
+  /// Returns whether bodies that are apart at the start stay apart. Those that are not then can't begin.
+  [[nodiscard]] virtual bool keeps_apart() const { return false; }
+  /// Returns whether after_step() answers triangles that touch at the step's end, so that the step looks for them.
+  [[nodiscard]] virtual bool answers_touching() const { return true; }
   /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs
   /// steps, they run after the verdict.
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
@@ -26,6 +43,9 @@ struct ResponseSetting {
   DeviceBodies& bodies;
   const Model& model;
   const CollisionDescription& description;
+  const Forest& forest;
+  const BodyPairs& body_pairs;
+  const TreeSearch& trees;
 };
 
 struct ResponseRow {

@@ -70,8 +70,7 @@ Pass TreeSearch::refitting_pass(std::uint32_t half) const {
 }
 
 Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const {
-  const std::uint32_t starts = 1u << start_depth_;
-  const std::uint32_t pairs = pairs_at_once(parallel_items_, starts * starts, most_near_pairs_);
+  const std::uint32_t starts = start_count(), pairs = near_pairs_at_once();
   return make_pass(bodies_.arrays, "find_pairs",
                    {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", static_cast<std::uint32_t>(test_beyond_capacity)},
@@ -80,6 +79,28 @@ Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capac
                     {"start_count", starts},
                     {"pairs_at_once", pairs}},
                    pairs * starts * starts);
+}
+
+std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
+  const std::uint32_t starts = start_count(), pairs = near_pairs_at_once(),
+                      leaf_pairs = std::max(parallel_items_, least_threads) / 4;
+  return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
+          make_pass(bodies_.arrays, "find_cage_pairs",
+                    {{"leaf_pair_capacity", leaf_pair_capacity},
+                     {"triangle_pair_capacity", triangle_pair_capacity},
+                     {"first_start", node_count_},
+                     {"start_count", starts},
+                     {"pairs_at_once", pairs}},
+                    pairs * starts * starts),
+          make_pass(bodies_.arrays, "list_triangle_pairs",
+                    {{"leaf_pair_capacity", leaf_pair_capacity},
+                     {"triangle_pair_capacity", triangle_pair_capacity},
+                     {"pairs_at_once", leaf_pairs}},
+                    4 * leaf_pairs)};
+}
+
+std::uint32_t TreeSearch::near_pairs_at_once() const {
+  return pairs_at_once(parallel_items_, start_count() * start_count(), most_near_pairs_);
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {

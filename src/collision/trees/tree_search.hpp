@@ -25,6 +25,8 @@ class TreeSearch {
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
   /// Lists the pairs of leaves whose boxes overlap.
   [[nodiscard]] Pass finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const;
+  /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
+  [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;
 
   /// Searches start from the nodes at this depth. Boxes of those above are not kept.
   [[nodiscard]] unsigned start_depth() const { return start_depth_; }
@@ -34,6 +36,9 @@ class TreeSearch {
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
 
  private:
+  [[nodiscard]] std::uint32_t start_count() const { return 1u << start_depth_; }
+  [[nodiscard]] std::uint32_t near_pairs_at_once() const;
+
   DeviceBodies& bodies_;
   std::uint32_t parallel_items_;
   std::uint32_t most_near_pairs_;

@@ -53,11 +53,14 @@ double sum_of_springs(const Coordinates& at, std::size_t i, std::size_t end) {
 std::vector<double> elastic_energies(const EnergyQuestion& question) {
   const auto& [model, state, pool, stopped] = question;
   const Coordinates at(model, state);
-  std::vector<double> energies(model.vertex_count(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> energies(model.vertex_count());
+  for (std::uint32_t i = 0; i < model.vertex_count(); ++i)
+    if (!model.body_of(i).is_static) energies[i] = std::numeric_limits<double>::quiet_NaN();
   pool.for_ranges(model.vertex_count(), 16, [&](std::uint32_t first, std::uint32_t end) {
     if (stopped && stopped()) return;
     for (std::uint32_t i = first; i < end; ++i) {
       const ModelBody& body = model.body_of(i);
+      if (body.is_static) continue;
       energies[i] = 0.5 * body.stiffness * sum_of_springs(at, i, body.first_vertex + body.vertex_count);
     }
   });
@@ -70,7 +73,7 @@ double spring_energy(const EnergyQuestion& question) {
   return sum;
 }
 
-bool acts_on(const ModelBody&) { return true; }
+bool acts_on(const ModelBody& body) { return !body.is_static; }
 double spring_energy_scale(const ModelBody& body) { return 0.5 * body.stiffness * body.radius * body.radius; }
 double spring_frequency_squared(const ModelBody& body) { return body.vertex_count * body.stiffness / body.vertex_mass; }
 

@@ -1,0 +1,126 @@
+// One thread proves that two triangles stay apart while their corners move, or cuts these motions short. All threads share the list of
+// pairs in strides. A round sees the cuts of the rounds before. From the fifth on, motions that can't be proven are not made at all.
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/contact/separation.glsl"
+#include "../physics/contact/surface.glsl"
+WRITE(contact_list)
+READ(rest_position)
+READ(surface)
+READ(triangle)
+READ(triangle_pair)
+READ(start)
+READ(way)
+WRITE(cut)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, pairs_at_once)
+PARAMETER(uint, cut_round)
+
+uint cut_so_far(uint i, uint rounds) {
+  uint least = cut[i];
+  for (uint k = 1u; k < rounds; ++k) least = min(least, cut[k * vertex_count + i]);
+  return least;
+}
+
+bool has_changed(uint i) { return cut_round == 0u || cut[cut_round * vertex_count + i] < cut_so_far(i, cut_round); }
+
+struct Case {
+  uint vertex[6];
+  real part[6];  // of its way that a vertex goes so far
+  Motion motion;
+};
+
+Case case_of(IN_ARRAY(uint, who, 6)) {
+  Case c;
+  dvec3 origin = LOAD3(start, start_position_of(who[0]));
+  real size = real(0);
+  double far = abs(origin.x) + abs(origin.y) + abs(origin.z);
+  for (uint k = 0u; k < 6u; ++k) {
+    c.vertex[k] = who[k];
+    c.part[k] = real(uintBitsToFloat(cut_so_far(who[k], cut_round + 1u)));
+    dvec3 from = LOAD3(start, start_position_of(who[k])) - origin;
+    c.motion.start[k] = real3(from);
+    c.motion.end[k] = real3(from + double(c.part[k]) * LOAD3(way, force_of(who[k])));
+    real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
+    size = max(size, (reach.x + reach.y) + reach.z);
+  }
+  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world err by some roundings in fp64.
+  c.motion.margin = real(8) * real_epsilon * size + real(double(32) * double(1.1e-16) * (far + double(size)));
+  return c;
+}
+
+// How far corners go against the axis beyond `limit`, at most [m].
+real trespass(IN(Case) c, uint first, IN(real3) axis, real limit) {
+  real most = real(0);
+  for (uint k = first; k < first + 3u; ++k) most = max(most, limit - dot(axis, c.motion.end[k]));
+  return most;
+}
+
+// Lets no corner pass the plane at `limit` on the axis. Returns whether one would.
+bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit) {
+  bool stops = false;
+  for (uint k = first; k < first + 3u; ++k) {
+    real from = dot(axis, c.motion.start[k]), to = dot(axis, c.motion.end[k]);
+    if (to >= limit) continue;
+    float part = float(max(c.part[k] * ((from - limit) / (from - to)), real(0))) * 0.999999f;
+    stops = true;
+    atomicMin(cut[(cut_round + 1u) * vertex_count + c.vertex[k]], floatBitsToUint(part));
+  }
+  return stops;
+}
+
+void stop_all(IN(Case) c) {
+  for (uint k = 0u; k < 6u; ++k) atomicMin(cut[(cut_round + 1u) * vertex_count + c.vertex[k]], 0u);
+}
+
+bool stands(IN(Case) c) {
+  bool all = true;
+  for (uint k = 0u; k < 6u; ++k) all = all && c.part[k] == real(0);
+  return all;
+}
+
+void cut_short(IN(Case) c) {
+  Closest at = closest_points(c.motion.start);
+  if (cut_round >= 4u || !(at.distance > real(32) * c.motion.margin)) {
+    stop_all(c);
+    return;
+  }
+  real3 axis = at.away / at.distance;
+  real lowest = min(min(dot(axis, c.motion.start[0]), dot(axis, c.motion.start[1])), dot(axis, c.motion.start[2]));
+  real highest = max(max(dot(axis, c.motion.start[3]), dot(axis, c.motion.start[4])), dot(axis, c.motion.start[5]));
+  real usable = real(0.8) * ((lowest - highest) - real(2) * c.motion.margin);
+  if (!(usable > real(0))) {
+    stop_all(c);
+    return;
+  }
+  real of_first = trespass(c, 0u, axis, lowest), of_second = trespass(c, 3u, -axis, -highest);
+  real share = of_first + of_second > real(0) ? of_first / (of_first + of_second) : real(0);
+  bool first_stops = stop_at(c, 0u, axis, lowest - share * usable);
+  bool second_stops = stop_at(c, 3u, -axis, -(highest + (real(1) - share) * usable));
+  if (!first_stops && !second_stops) stop_all(c);
+}
+
+void certify_pair(uvec2 triangles) {
+  uint who[6];
+  bool changed = false;
+  for (uint k = 0u; k < 3u; ++k) {
+    who[k] = triangle[corner_of(triangles.x, k)];
+    who[3u + k] = triangle[corner_of(triangles.y, k)];
+  }
+  for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k]);
+  if (!changed) return;
+  Case c = case_of(who);
+  if (stands(c) || stays_apart_at_a_glance(c.motion)) return;
+  Closest at = closest_points(c.motion.start);
+  if (stays_apart_on(at.away, c.motion) || stays_apart_at_last(c.motion)) return;
+  if (cut_round + 1u == cut_rounds)
+    atomicAdd(contact_list[0].uncertified, 1u);
+  else
+    cut_short(c);
+}
+
+void certify(uint item) {
+  uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
+  for (uint k = item; k < count; k += pairs_at_once) certify_pair(triangle_pair[k]);
+}

@@ -1,0 +1,54 @@
+// One thread serves one vertex at a step's start. It finds where the vertex is and how it is expected to move. It bounds both by a cage
+// that the vertex will not leave in this step.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/contact/surface.glsl"
+WRITE(control)
+READ(step_parts)
+READ(pose)
+READ(surface)
+READ(rest_position)
+READ(motion)
+READ(surplus)
+WRITE(start)
+WRITE(expected)
+WRITE(cage)
+WRITE(contact_list)
+WRITE(body_box)
+WRITE(status)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+#include "parts/bound.glsl"
+
+void expect_motion(uint i) {
+  if (i == 0u) contact_list[0].triangle_pair_count = contact_list[0].contact_count = contact_list[0].uncertified = 0u;
+  uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
+  dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
+  dvec3 velocity = rotate(pose[b], LOAD3(motion, velocity_of(at)));
+  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
+  double time_step = next_part(step_parts[0]);
+  double longer = step_parts[0].last > double(0) ? time_step / step_parts[0].last : double(1);
+  if (i == 0u) {
+    control[0].time_step = time_step;
+    contact_list[0].longer = longer;
+  }
+  dvec3 mean = velocity + longer * (latest + double(0.5) * (latest - before));
+  STORE3(start, start_position_of(i), position)
+  STORE3(start, start_velocity_of(i), velocity)
+  STORE3(expected, force_of(i), mean)
+  dvec3 reach = abs(time_step * mean);
+  if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_in_edges() * surface[b].edge);
+  // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
+  dvec3 slack = abs(position) * double(2.4e-7) + reach * double(1.2e-7);
+  dvec3 lower = position - reach - slack, upper = position + reach + slack;
+  cage[lower_of(i)] = vec4(vec3(lower), 0);
+  cage[upper_of(i)] = vec4(vec3(upper), 0);
+  for (uint k = 0u; k < 3u; ++k) {
+    bound(i, b, k, float(lower[int(k)]));
+    bound(i, b, k, float(upper[int(k)]));
+  }
+  if (surface[b].inverse_mass != double(0)) atomicMax(contact_list[0].fastest, floatBitsToUint(float(length(mean))));
+}

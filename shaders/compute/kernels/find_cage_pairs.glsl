@@ -1,0 +1,33 @@
+// One thread takes one subtree of either tree of two near bodies, and lists the pairs of leaves whose boxes of cages overlap. If the list
+// is full, it lists the pairs of their triangles itself.
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/contact/surface.glsl"
+WRITE(control)
+WRITE(contact_list)
+READ(near_pair)
+READ(node)
+READ(node_box)
+READ(triangle)
+READ(cage)
+WRITE(leaf_pair)
+WRITE(triangle_pair)
+PARAMETER(uint, leaf_pair_capacity)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, first_start)
+PARAMETER(uint, start_count)  // subtrees of a body
+PARAMETER(uint, pairs_at_once)  // threads go on to later pairs in strides of this
+#include "parts/list_triangles.glsl"
+
+void found_leaves(uvec2 leaves) {
+  uint at = atomicAdd(control[0].leaf_pair_count, 1u);
+  if (at < leaf_pair_capacity)
+    leaf_pair[at] = leaves;
+  else
+    list_triangles(leaves, 0u, 1u);
+}
+
+#include "parts/descend.glsl"
+
+void find_cage_pairs(uint item) { descend_trees(item); }

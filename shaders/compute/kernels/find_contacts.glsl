@@ -1,0 +1,185 @@
+// One thread finds the contacts between the features of two triangles. Each vertex and edge belongs to one triangle, so that no two pairs
+// find the same contact. All threads share the list of pairs in strides.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/contact/contact.glsl"
+READ(control)
+WRITE(contact_list)
+READ(rest_position)
+READ(surface)
+READ(triangle)
+READ(triangle_owns)
+READ(triangle_pair)
+READ(start)
+READ(expected)
+READ(surplus)
+READ(last_cut)
+WRITE(contact_vertex)
+WRITE_AS(contact, real4, contact_row)
+WRITE_AS(contact_impulse, real4, impulse_row)
+WRITE(contact_weight)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, contact_capacity)
+PARAMETER(uint, pairs_at_once)
+
+#include "parts/add_contact.glsl"
+
+// What is the same for all contacts of a pair of triangles.
+struct Pair {
+  uint vertex[6];
+  real3 place[6];     // relative to the first corner [m]
+  real3 way[6];       // expected in the step, relative to that of the first corner [m]
+  real gap;
+  real elasticity;
+  real friction;
+};
+
+struct Feature {
+  uvec4 corner;  // of the pair, 0 to 5
+  real4 weight;
+};
+
+Pair pair_of(uvec2 triangles) {
+  Pair p;
+  for (uint k = 0u; k < 3u; ++k) {
+    p.vertex[k] = triangle[corner_of(triangles.x, k)];
+    p.vertex[3u + k] = triangle[corner_of(triangles.y, k)];
+  }
+  double h = control[0].time_step;
+  dvec3 origin = LOAD3(start, start_position_of(p.vertex[0])), base = LOAD3(expected, force_of(p.vertex[0]));
+  for (uint k = 0u; k < 6u; ++k) {
+    p.place[k] = real3(LOAD3(start, start_position_of(p.vertex[k])) - origin);
+    p.way[k] = real3(h * (LOAD3(expected, force_of(p.vertex[k])) - base));
+  }
+  Surface a = surface[uint(rest_position[p.vertex[0]].w)], b = surface[uint(rest_position[p.vertex[3]].w)];
+  double edge = a.inverse_mass == double(0) ? b.edge : (b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge));
+  p.gap = real(gap_in_edges() * edge);
+  p.elasticity = real(sqrt(a.elasticity * b.elasticity));
+  p.friction = real(sqrt(a.friction * b.friction));
+  return p;
+}
+
+real3 weighed(IN(Feature) f, IN_ARRAY(real3, values, 6)) {
+  return f.weight.x * values[f.corner.x] + f.weight.y * values[f.corner.y] + f.weight.z * values[f.corner.z] +
+         f.weight.w * values[f.corner.w];
+}
+
+// The same of [vertex][3] doubles, whose differences are taken before they are rounded. Weights sum to zero.
+real3 weighed_differences(dvec3 x, dvec3 y, dvec3 z, dvec3 w, real4 weight) {
+  return weight.y * real3(y - x) + weight.z * real3(z - x) + weight.w * real3(w - x);
+}
+
+// Weighs a vertex of one triangle against the other triangle. `side` is 1 for a vertex of the first, -1 for one of the second.
+Feature vertex_and_triangle(uint corner, real side, IN_ARRAY(real3, p, 6)) {
+  uint first = corner < 3u ? 3u : 0u;
+  real3 w = closest_on_triangle(p[corner], p[first], p[first + 1u], p[first + 2u]);
+  Feature f;
+  f.corner = uvec4(corner, first, first + 1u, first + 2u);
+  f.weight = side * real4(1, -w.x, -w.y, -w.z);
+  return f;
+}
+
+Feature two_edges(uint j, uint k, IN_ARRAY(real3, p, 6), OUT(bool) crosses) {
+  Feature f;
+  f.corner = uvec4(j, j == 2u ? 0u : j + 1u, 3u + k, k == 2u ? 3u : 4u + k);
+  Crossing at = crossing_of(p[f.corner.x], p[f.corner.y], p[f.corner.z], p[f.corner.w]);
+  f.weight = real4(real(1) - at.on_first, at.on_first, at.on_second - real(1), -at.on_second);
+  crosses = at.crosses;
+  return f;
+}
+
+void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
+  uvec4 who = uvec4(p.vertex[f.corner.x], p.vertex[f.corner.y], p.vertex[f.corner.z], p.vertex[f.corner.w]);
+  dvec3 vx = LOAD3(start, start_velocity_of(who.x)), vy = LOAD3(start, start_velocity_of(who.y)),
+        vz = LOAD3(start, start_velocity_of(who.z)), vw = LOAD3(start, start_velocity_of(who.w));
+  dvec3 mx = LOAD3(expected, force_of(who.x)), my = LOAD3(expected, force_of(who.y)), mz = LOAD3(expected, force_of(who.z)),
+        mw = LOAD3(expected, force_of(who.w));
+  real3 velocity = weighed_differences(vx, vy, vz, vw, f.weight);
+  real3 surplus_now = weighed_differences(mx - vx, my - vy, mz - vz, mw - vw, f.weight);
+  real3 surplus_before =
+      weighed_differences(LOAD3(surplus, surplus_of(0u, vertex_count, who.x)), LOAD3(surplus, surplus_of(0u, vertex_count, who.y)),
+                          LOAD3(surplus, surplus_of(0u, vertex_count, who.z)), LOAD3(surplus, surplus_of(0u, vertex_count, who.w)), f.weight);
+  Approach a;
+  a.gap = p.gap;
+  a.time_step = real(control[0].time_step);
+  a.elasticity = p.elasticity;
+  Course c;
+  c.distance = dot(normal, weighed(f, p.place));
+  c.velocity = dot(normal, velocity);
+  c.surplus = dot(normal, surplus_now);
+  c.was = c.velocity - dot(normal, surplus_before);
+  c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
+  if (!is_near(c, a)) return;
+  real3 goal = dot(normal, surplus_now) * normal - surplus_now;
+  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction);
+}
+
+// A contact whose points are near each other now.
+void consider(IN(Pair) p, IN(Feature) f) {
+  real3 away = weighed(f, p.place);
+  real distance = length(away);
+  if (distance > real(0) && distance <= real(1.5) * p.gap) add_contact(p, f, away / distance);
+}
+
+// Whether points that are not near yet will be. `part` of the step is then over. Weights and normal are taken there.
+bool is_foreseen(IN(Pair) p, IN(Feature) f, OUT(real) part) {
+  real3 away = weighed(f, p.place);
+  real distance = length(away);
+  part = real(0);
+  if (!(distance > real(1.5) * p.gap)) return false;
+  real closing = -dot(away, weighed(f, p.way)) / distance;
+  if (distance - closing >= real(1.5) * p.gap) return false;
+  part = min((distance - p.gap) / closing, real(1));
+  return true;
+}
+
+void consider_later(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, later, 6)) {
+  real3 away = weighed(f, later);
+  real distance = length(away);
+  if (distance > real(0) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
+}
+
+void meet_vertex(IN(Pair) p, uint corner, real side) {
+  Feature f = vertex_and_triangle(corner, side, p.place);
+  real part;
+  if (!is_foreseen(p, f, part)) {
+    consider(p, f);
+    return;
+  }
+  real3 later[6];
+  for (uint k = 0u; k < 6u; ++k) later[k] = p.place[k] + part * p.way[k];
+  consider_later(p, vertex_and_triangle(corner, side, later), later);
+}
+
+void meet_edges(IN(Pair) p, uint j, uint k) {
+  bool crosses;
+  Feature f = two_edges(j, k, p.place, crosses);
+  real part;
+  if (!is_foreseen(p, f, part)) {
+    if (crosses) consider(p, f);
+    return;
+  }
+  real3 later[6];
+  for (uint n = 0u; n < 6u; ++n) later[n] = p.place[n] + part * p.way[n];
+  f = two_edges(j, k, later, crosses);
+  if (crosses) consider_later(p, f, later);
+}
+
+void meet(uvec2 triangles) {
+  Pair p = pair_of(triangles);
+  uint first = triangle_owns[triangles.x], second = triangle_owns[triangles.y];
+  for (uint k = 0u; k < 3u; ++k) {
+    if ((first >> k & 1u) != 0u) meet_vertex(p, k, real(1));
+    if ((second >> k & 1u) != 0u) meet_vertex(p, 3u + k, real(-1));
+  }
+  for (uint j = 0u; j < 3u; ++j)
+    for (uint k = 0u; k < 3u; ++k)
+      if ((first >> (3u + j) & 1u) != 0u && (second >> (3u + k) & 1u) != 0u) meet_edges(p, j, k);
+}
+
+void find_contacts(uint item) {
+  uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
+  for (uint k = item; k < count; k += pairs_at_once) meet(triangle_pair[k]);
+}

@@ -1,0 +1,50 @@
+// One thread compares two bodies, and finds how often the step has to be halved. Between two of them no two vertices may come nearer than
+// their distance and a quarter edge beyond. A body that was pressed in the last step has a bound of its own.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/contact/surface.glsl"
+READ(control)
+READ(surface)
+READ(body_box)
+READ(body_motion)
+READ(pressed)
+WRITE(step_parts)
+PARAMETER(uint, body_count)
+
+// The largest that a number of the first box can be above one of the second.
+double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
+
+// The length of a vector of which each component is the larger of two numbers, or 0.
+double size_of_larger(dvec3 a, dvec3 b) { return length(max(max(a, b), dvec3(0))); }
+
+dvec3 all_above(IN(BoxBits) a, IN(BoxBits) b) {
+  return dvec3(above(a.upper[0], b.lower[0]), above(a.upper[1], b.lower[1]), above(a.upper[2], b.lower[2]));
+}
+
+// How fast vertices of the two can move against each other, at most [m/s].
+double approach(uint a, uint b) {
+  return size_of_larger(all_above(body_motion[a], body_motion[b]), all_above(body_motion[b], body_motion[a]));
+}
+
+double distance_of_boxes(uint a, uint b) {
+  return size_of_larger(-all_above(body_box[a], body_box[b]), -all_above(body_box[b], body_box[a]));
+}
+
+void limit_step(uint item) {
+  uint a = item / body_count, b = item % body_count;
+  if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
+  double longest = step_parts[0].full;
+  if (a == b) {
+    if (pressed[a] + 1u == control[0].step) longest = surface[a].longest_pressed;
+  } else {
+    double edge = surface[a].inverse_mass == double(0) ? surface[b].edge : surface[a].edge;
+    if (surface[b].inverse_mass != double(0)) edge = min(edge, surface[b].edge);
+    double speed = approach(a, b), room = distance_of_boxes(a, b) + double(0.25) * edge;
+    if (speed * longest > room) longest = room / speed;
+  }
+  uint halvings = 0u;
+  for (double length = step_parts[0].full; length > longest && halvings < most_halvings; length *= double(0.5)) ++halvings;
+  if (halvings != 0u) atomicMax(step_parts[0].halvings, halvings);
+}

@@ -1,0 +1,26 @@
+// One thread serves one vertex at a step's start. It extends the boxes of its body's places and of its expected velocities.
+#include "../physics/body.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
+READ(pose)
+READ(rest_position)
+READ(motion)
+READ(surplus)
+WRITE(body_motion)
+WRITE(body_box)
+WRITE(status)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+#include "parts/bound.glsl"
+
+void measure_motion(uint i) {
+  uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
+  dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
+  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
+  dvec3 mean = rotate(pose[b], LOAD3(motion, velocity_of(at))) + (latest + double(0.5) * (latest - before));
+  for (uint k = 0u; k < 3u; ++k) {
+    bound(i, b, k, float(position[int(k)]));
+    atomicMin(body_motion[b].lower[k], ordered_bits(float(mean[int(k)])));
+    atomicMax(body_motion[b].upper[k], ordered_bits(float(mean[int(k)])));
+  }
+}

@@ -1,0 +1,47 @@
+// One thread finds the contacts of one vertex with grounds.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/contact/contact.glsl"
+READ(control)
+READ(rest_position)
+READ(surface)
+READ(ground)
+READ(start)
+READ(expected)
+READ(surplus)
+READ(last_cut)
+WRITE(contact_list)
+WRITE(contact_vertex)
+WRITE_AS(contact, real4, contact_row)
+WRITE_AS(contact_impulse, real4, impulse_row)
+WRITE(contact_weight)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, contact_capacity)
+PARAMETER(uint, ground_count)
+#include "parts/add_contact.glsl"
+
+void meet_ground(uint i, uint g) {
+  Surface s = surface[uint(rest_position[i].w)];
+  dvec3 normal = LOAD3(ground[g].normal, 0u), velocity = LOAD3(start, start_velocity_of(i));
+  dvec3 surplus_now = LOAD3(expected, force_of(i)) - velocity;
+  Approach a;
+  a.gap = real(gap_in_edges() * s.edge);
+  a.time_step = real(control[0].time_step);
+  a.elasticity = real(sqrt(s.elasticity * ground[g].elasticity));
+  Course c;
+  c.distance = real(dot(normal, LOAD3(start, start_position_of(i))) - ground[g].offset);
+  c.velocity = real(dot(normal, velocity));
+  c.surplus = real(dot(normal, surplus_now));
+  c.was = c.velocity - real(dot(normal, LOAD3(surplus, surplus_of(0u, vertex_count, i))));
+  c.was_cut = last_cut[i] != 0u;
+  if (!is_near(c, a)) return;
+  real3 goal = real3(dot(normal, surplus_now) * normal - surplus_now);
+  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, 0), real3(normal), least_velocity(c, a), goal,
+               real(sqrt(s.friction * ground[g].friction)));
+}
+
+void meet_grounds(uint i) {
+  if (surface[uint(rest_position[i].w)].inverse_mass == double(0)) return;
+  for (uint g = 0u; g < ground_count; ++g) meet_ground(i, g);
+}

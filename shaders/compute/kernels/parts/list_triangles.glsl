@@ -1,0 +1,15 @@
+// Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
+// `first` on. Pairs are counted beyond the list's end, too.
+#include "box_of_caged_triangle.glsl"
+
+void list_triangles(uvec2 leaves, uint first, uint stride) {
+  uvec4 a = node[leaves.x], b = node[leaves.y];
+  for (uint s = a.z + first; s < a.w; s += stride) {
+    Box box = box_of_triangle(s);
+    for (uint t = b.z; t < b.w; ++t) {
+      if (!overlaps(box, box_of_triangle(t))) continue;
+      uint at = atomicAdd(contact_list[0].triangle_pair_count, 1u);
+      if (at < triangle_pair_capacity) triangle_pair[at] = uvec2(s, t);
+    }
+  }
+}

@@ -1,0 +1,86 @@
+// One thread ends one vertex's step where its motion was cut short, and keeps what the next step expects of it.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/contact/surface.glsl"
+WRITE(control)
+READ(body)
+READ(pose)
+READ(surface)
+WRITE(status)
+READ(rest_position)
+WRITE(placement)
+WRITE(motion)
+WRITE(world_position)
+WRITE(surplus)
+WRITE(last_cut)
+READ(cut)
+WRITE(contact_list)
+WRITE(step_parts)
+WRITE(body_motion)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, contact_capacity)
+#include "parts/place.glsl"
+
+// If lists were too short, or proofs are missing, bodies keep their place. Those that are near none could move, but this is rare.
+bool holds_all() {
+  return contact_list[0].uncertified != 0u || contact_list[0].triangle_pair_count > triangle_pair_capacity ||
+         contact_list[0].contact_count > contact_capacity;
+}
+
+double part_left(uint i) {
+  uint least = cut[i];
+  for (uint k = 1u; k <= cut_rounds; ++k) least = min(least, cut[k * vertex_count + i]);
+  return holds_all() ? double(0) : double(uintBitsToFloat(least));
+}
+
+void cut_short(uint i, uint b, double part, dvec3 gone) {
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  dvec3 displacement = LOAD3(motion, displacement_of(before)) + part * gone;
+  STORE3(motion, displacement_of(after), displacement)
+  world_position[after] = part == double(0) ? world_position[before]
+                                            : vec4(vec3(to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement)), 1);
+  for (uint k = 0u; k < 3u; ++k)
+    place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
+  ATOMIC_STORE(status[b].force_stale, 1u);
+  ATOMIC_STORE(status[b].deformed, 1u);
+  atomicAdd(control[0].count[reverted_vertices], 1u);
+}
+
+void end_step_part() {
+  StepParts p = step_parts[0];
+  end_part(p);
+  step_parts[0] = p;
+}
+
+// Empties what the next step adds to, and counts this one.
+void prepare_next_step(uint i, uint b) {
+  if (i == 0u) {
+    contact_list[0].fastest = 0u;
+    if (control[0].non_finite_step == 0u) end_step_part();
+  }
+  if (i == body[b].first_vertex)
+    for (uint k = 0u; k < 3u; ++k) {
+      body_motion[b].lower[k] = 0xffffffffu;
+      body_motion[b].upper[k] = 0u;
+    }
+}
+
+void settle(uint i) {
+  uint b = uint(rest_position[i].w);
+  prepare_next_step(i, b);
+  if (surface[b].inverse_mass == double(0) || status[b].activity != moving) return;
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
+  dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));
+  uint latest = surplus_of(0u, vertex_count, i), oldest = surplus_of(1u, vertex_count, i);
+  dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);
+  STORE3(surplus, oldest, last)
+  STORE3(surplus, latest, next)
+  double part = part_left(i);
+  last_cut[i] = part < double(1) ? 1u : 0u;
+  if (part < double(1)) cut_short(i, b, part, gone);
+}

@@ -1,0 +1,68 @@
+// One contact: what it asks of the velocities of its vertices, and the impulse that gives it. A contact lies between a vertex and a
+// triangle, between two edges, or between a vertex and a plane. docs/contact.md explains the method.
+#ifndef CONTACT_GLSL
+#define CONTACT_GLSL
+#include "features.glsl"
+#include "surface.glsl"
+REAL_BEGIN
+
+const uint contact_rows = 3u;  // of four numbers in `contact`
+// row 0: the normal, from the second body to the first, and the least velocity along it [m/s]
+// row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second
+// row 2: the goal of the velocity across the normal [m/s], and the friction
+
+// Lengths of a pair of bodies [m], and the time step [s].
+struct Approach {
+  real gap;        // that contacts keep
+  real time_step;
+  real elasticity;
+};
+
+// How the points of a contact move against each other along the normal.
+struct Course {
+  real distance;   // [m]
+  real velocity;   // now [m/s]
+  real surplus;    // expected: the mean velocity of the coming step is velocity + surplus [m/s]
+  real was;        // the mean velocity of the last step [m/s]
+  bool was_cut;    // a vertex was held back in the last step
+};
+
+// Whether the points come so near that their distance matters in the coming step.
+FN bool is_near(IN(Course) c, IN(Approach) a) {
+  real enough = real(1.5) * a.gap;
+  return c.distance < enough || c.distance + a.time_step * (c.velocity + c.surplus) < enough;
+}
+
+// Returns the least velocity along the normal that the contact asks for [m/s].
+// - Points may come as near as the gap, and lost gap comes back slowly.
+// - If they would pass the gap, they part again with the elasticity's part of their approach. Points at rest do not bounce.
+FN real least_velocity(IN(Course) c, IN(Approach) a) {
+  real need = (a.gap - c.distance) / a.time_step;
+  if (c.distance > a.gap && c.distance < real(1.5) * a.gap) need *= real(0.05);
+  real mean = need;
+  bool rests = abs(c.was) < abs(c.surplus) || c.was_cut;
+  real kept = rests ? real(0) : a.elasticity;
+  if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, -kept * c.was);
+  real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / a.time_step;
+  return min(mean, most) - c.surplus;
+}
+
+// Returns the impulse along the normal (x) and across it (yzw) [Ns] after another round. `velocity` is that of the points against each
+// other with the impulses so far [m/s], `mass` is what resists them [kg].
+FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3) velocity, real mass) {
+  real3 normal = real3(normal_row);
+  real along = dot(normal, velocity);
+  real4 next;
+  next.x = max(real(0), impulse.x + (normal_row.w - along) * mass);
+  real3 across = real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (velocity - along * normal));
+  across -= dot(across, normal) * normal;
+  real size = length(across), most = goal_row.w * next.x;
+  if (size > most) across *= most / size;
+  next.y = across.x;
+  next.z = across.y;
+  next.w = across.z;
+  return next;
+}
+
+REAL_END
+#endif

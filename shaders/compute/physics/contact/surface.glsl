@@ -1,0 +1,47 @@
+// What contacts know of a body, and constants of the method. docs/contact.md explains the method.
+#ifndef SURFACE_GLSL
+#define SURFACE_GLSL
+#include "../language.glsl"
+SHARED_BEGIN
+
+struct Surface {
+  double edge;          // mean length of the mesh's edges [m]
+  double inverse_mass;  // of a vertex [1/kg], 0 if the body is immovable
+  double elasticity;
+  double friction;
+  double longest_pressed;  // step in which contacts do not pump energy into the body [s]
+};
+
+// A half-space that bodies stay out of: all points x with normal . x < offset.
+struct Ground {
+  double normal[3];
+  double offset;  // [m]
+  double elasticity;
+  double friction;
+};
+
+// Lists can be longer than they have room for.
+struct ContactList {
+  double longer;             // the step's length over that of the last one
+  uint triangle_pair_count;  // pairs of triangles whose cages overlap
+  uint contact_count;        // contacts between them
+  uint uncertified;          // pairs of triangles that were not proven to stay apart
+  uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
+};
+
+// Distances, in edges. A pair takes the edge of the smaller ones.
+FN double gap_in_edges() { return double(1) / double(20); }   // that contacts keep
+FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
+
+const uint cut_rounds = 8u;  // in which motions are cut short
+const uint kick_rounds = 16u;
+const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
+
+// Sums of |weight| of a vertex are counted in this unit, so that their order does not matter.
+FN float weight_unit() { return 1.0f / 65536.0f; }
+
+// Impulses are counted in quanta. All numbers of quanta up to 2^53 are exact.
+const int quantum_bits = 46;
+
+SHARED_END
+#endif

@@ -1,0 +1,183 @@
+#include "collision/responses/impulse.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "dynamics/stability.hpp"
+#include "model/mean_edge.hpp"
+#include "physics/contact/surface.glsl"
+
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u << 18;
+constexpr double longest_pressed = 1.2;        // step times the stiffest frequency, see docs/contact.md
+constexpr std::uint32_t least_threads = 4096;  // tree_search.cpp says why threads must not be too few
+
+physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
+  return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
+          .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
+          .elasticity = body.elasticity.value_or(description.elasticity),
+          .friction = body.friction.value_or(description.friction),
+          .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30)};
+}
+
+physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
+  return {.normal = {ground.normal.x, ground.normal.y, ground.normal.z},
+          .offset = ground.offset,
+          .elasticity = ground.elasticity.value_or(description.elasticity),
+          .friction = ground.friction.value_or(description.friction)};
+}
+
+// Gives each vertex and each edge to the first triangle that has it, so that a contact is found once.
+std::vector<std::uint32_t> owned_features(const Forest& forest) {
+  std::vector<std::uint32_t> owns;
+  std::set<std::uint32_t> vertices;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& corners : forest.triangles) {
+    std::uint32_t own = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t corner = corners[k], next = corners[(k + 1) % 3];
+      if (vertices.insert(corner).second) own |= 1u << k;
+      if (edges.insert(std::minmax(corner, next)).second) own |= 8u << k;
+    }
+    owns.push_back(own);
+  }
+  return owns;
+}
+
+class Impulse final : public Response {
+ public:
+  explicit Impulse(const ResponseSetting& setting)
+      : bodies_(setting.bodies),
+        body_pairs_(setting.body_pairs),
+        trees_(setting.trees),
+        has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
+        items_at_once_(std::max(setting.bodies.arrays.device().parallel_items(), least_threads)) {
+    Arrays& arrays = setting.bodies.arrays;
+    const std::size_t vertices = bodies_.vertex_count;
+    std::vector<physics::Surface> surfaces;
+    double smallest_edge = 1e30;
+    for (const ModelBody& body : setting.model.bodies) {
+      surfaces.push_back(surface_of(setting.model, body, setting.description));
+      if (body.is_static) continue;
+      heaviest_vertex_ = std::max(heaviest_vertex_, body.vertex_mass);
+      smallest_edge = std::min(smallest_edge, surfaces.back().edge);
+    }
+    smallest_gap_ = physics::gap_in_edges() * smallest_edge;
+    arrays.make("surface", surfaces);
+    std::vector<physics::Ground> grounds;
+    for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));
+    ground_count_ = static_cast<std::uint32_t>(grounds.size());
+    if (grounds.empty()) grounds.push_back({});
+    arrays.make("ground", grounds);
+    time_step_ = bodies_.control.download().front().time_step;
+    parts_ = &arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
+                                                                         .last = 0,
+                                                                         .simulated = 0,
+                                                                         .lost = 0,
+                                                                         .eighths_left = physics::eighths,
+                                                                         .steps = 0,
+                                                                         .parts = 0,
+                                                                         .halvings = 0}});
+    arrays.set_parameter("parts_of", time_step_);
+    arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
+    arrays.make<std::uint32_t>("pressed", bodies_.body_count);
+    arrays.make<glm::uvec2>("outside_sum", 3);
+    arrays.make<double>("outside_impulse", 3);
+    arrays.make("triangle_owns", owned_features(setting.forest));
+    arrays.make<double>("start", 6 * vertices);
+    arrays.make<double>("expected", 3 * vertices);
+    arrays.make<double>("surplus", 6 * vertices);
+    arrays.make<glm::vec4>("cage", 2 * vertices);
+    arrays.make<physics::ContactList>("contact_list", 1);
+    arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
+    arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
+    arrays.make_reals("contact", std::size_t{12} * contact_capacity);
+    arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
+    arrays.make<std::uint32_t>("contact_weight", vertices);
+    arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
+    arrays.make<double>("way", 3 * vertices);
+    arrays.make<std::uint32_t>("cut", (physics::cut_rounds + 1) * vertices);
+    arrays.make<std::uint32_t>("last_cut", vertices);
+  }
+
+  std::vector<Pass> before_step(std::uint32_t from_half) const override {
+    const Arrays& arrays = bodies_.arrays;
+    std::vector<Pass> passes = {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
+                                make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count),
+                                make_pass(arrays, "expect_motion", {{"from_half", from_half}}, bodies_.vertex_count)};
+    if (has_pairs_) {
+      passes.push_back(body_pairs_.pairing_pass());
+      std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));
+      passes.push_back(make_pass(arrays, "find_contacts",
+                                 {{"triangle_pair_capacity", triangle_pair_capacity},
+                                  {"contact_capacity", contact_capacity},
+                                  {"pairs_at_once", items_at_once_}},
+                                 items_at_once_));
+    }
+    if (ground_count_ > 0)
+      passes.push_back(make_pass(arrays, "meet_grounds",
+                                 {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
+                                 bodies_.vertex_count));
+    for (std::uint32_t round = 0; round < physics::kick_rounds; ++round)
+      passes.push_back(make_pass(arrays, "solve_contacts",
+                                 {{"contact_capacity", contact_capacity},
+                                  {"contacts_at_once", items_at_once_},
+                                  {"kick_round", round},
+                                  {"least_speed", least_speed()},
+                                  {"heaviest_vertex", heaviest_vertex_}},
+                                 items_at_once_));
+    passes.push_back(make_pass(arrays, "kick_vertices",
+                               {{"from_half", from_half}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}},
+                               bodies_.vertex_count));
+    return passes;
+  }
+
+  ResponseReport report() const override {
+    const std::vector<double> impulse = bodies_.arrays.get<double>("outside_impulse").download();
+    return {.outside_impulse = {impulse[0], impulse[1], impulse[2]}};
+  }
+  bool keeps_apart() const override { return true; }
+  bool answers_touching() const override { return false; }
+  const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
+
+  std::vector<Pass> after_step(std::uint32_t from_half) const override {
+    const Arrays& arrays = bodies_.arrays;
+    std::vector<Pass> passes = {make_pass(arrays, "expect_cuts",
+                                          {{"from_half", from_half},
+                                           {"ground_count", ground_count_},
+                                           {"least_speed", least_speed()},
+                                           {"heaviest_vertex", heaviest_vertex_}},
+                                          bodies_.vertex_count)};
+    for (std::uint32_t round = 0; has_pairs_ && round < physics::cut_rounds; ++round)
+      passes.push_back(
+          make_pass(arrays, "certify",
+                    {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", items_at_once_}, {"cut_round", round}},
+                    items_at_once_));
+    passes.push_back(make_pass(
+        arrays, "settle",
+        {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity}, {"contact_capacity", contact_capacity}},
+        bodies_.vertex_count));
+    return passes;
+  }
+
+ private:
+  // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].
+  double least_speed() const { return smallest_gap_ / time_step_; }
+
+  const DeviceBodies& bodies_;
+  const BodyPairs& body_pairs_;
+  const TreeSearch& trees_;
+  bool has_pairs_;
+  std::uint32_t items_at_once_, ground_count_ = 0;
+  double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0;
+  const DeviceArray<physics::StepParts>* parts_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Response> make_impulse(const ResponseSetting& setting) { return std::make_unique<Impulse>(setting); }
+
+}  // namespace pliant

@@ -1,0 +1,16 @@
+// Checks what contact by impulses needs: bodies that are apart at the start. Then it keeps them apart.
+#pragma once
+#include <string>
+
+#include "simulation/simulation.hpp"
+
+namespace pliant {
+
+/// Returns which bodies intersect, with the number of triangle pairs, or nothing if none do. Names at most eight.
+[[nodiscard]] std::string told_overlap(Simulation& simulation, const Model& model);
+
+/// Throws Error (input) that blames `place` if bodies intersect, or stand in a ground, though the scene's response keeps them
+/// apart.
+void expect_apart(Simulation& simulation, const Model& model, const std::string& place);
+
+}  // namespace pliant

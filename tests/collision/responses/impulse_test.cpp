@@ -1,0 +1,242 @@
+// Contact by impulses: bodies stay apart, and momentum and energy are what they should be. tests/collision/responses/apart.hpp
+// proves the first in another way.
+#include <array>
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "apart.hpp"
+#include "simulation/measure.hpp"
+#include "simulation/start_check.hpp"
+#include "support/collision_scene.hpp"
+#include "support/expect_error.hpp"
+#include "support/has.hpp"
+
+namespace pliant {
+namespace {
+
+const CollisionDescription by_impulses = {.response = {"impulse"}, .elasticity = 0.5};
+
+struct Watched {
+  std::size_t touching = 0, inside = 0;
+  double momentum_change = 0;               // largest, over the sum of sizes
+  double most_energy = 0, last_energy = 0;  // over that at the start
+  StepReport report;
+};
+
+double sum_of_sizes(const ModelAndState& start) {
+  const std::vector<glm::dvec3> velocities = start.state.world_velocities(start.model);
+  double sum = 0;
+  for (std::size_t i = 0; i < velocities.size(); ++i) sum += start.model.body_of(i).vertex_mass * glm::length(velocities[i]);
+  return sum;
+}
+
+// Proves after each step that bodies are apart, there and at seven times on the way.
+Watched watch(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps,
+              const CollisionDescription& collision = by_impulses) {
+  Simulation simulation(device, start.model, start.state, plan_of(method), collision);
+  ThreadPool pool(1);
+  const auto measured = [&](const State& state) { return measure(start.model, state, glm::dvec3(0.0), pool); };
+  const Measurement first = measured(start.state);
+  std::vector<glm::dvec3> before = start.state.world_positions(start.model);
+  Watched seen;
+  for (std::uint64_t step = 0; step < steps; ++step) {
+    simulation.advance(1);
+    const State state = simulation.state();
+    const std::vector<glm::dvec3> after = state.world_positions(start.model);
+    for (int k = 1; k <= 8; ++k) seen.touching += testing::pairs_not_apart(start.model, testing::between(before, after, k / 8.0));
+    seen.inside += testing::vertices_inside_others(start.model, after);
+    const Measurement now = measured(state);
+    seen.momentum_change = std::max(seen.momentum_change, glm::length(now.momentum - first.momentum) / sum_of_sizes(start));
+    seen.last_energy = now.energy() / first.energy();
+    seen.most_energy = std::max(seen.most_energy, seen.last_energy);
+    before = after;
+  }
+  seen.report = simulation.report();
+  return seen;
+}
+
+constexpr double total_stiffness = 1000, omega = 31.6227766;  // [N/m], [1/s] of a body of 1 kg
+
+BodySetup soft(TriangleMesh mesh, const char* name) {
+  BodySetup setup = body_of_mesh(std::move(mesh));
+  setup.description.name = name;
+  setup.description.total_mass = 1;
+  setup.description.total_stiffness = total_stiffness;
+  setup.description.damping = 0;
+  return setup;
+}
+
+// Spheres that meet off their centres, with this part of an edge a step against each other.
+ModelAndState meeting_spheres(int level, double edges_a_step, double time_step) {
+  std::vector<BodySetup> setups;
+  for (const double side : {-1.0, 1.0}) {
+    BodySetup& setup =
+        setups.emplace_back(soft(generate_mesh("icosphere:" + std::to_string(level)), side < 0 ? "left" : "right"));
+    setup.description.position = {1.1 * side, 0.15 * side, 0.05};
+    setup.description.rotation = {10 * side, 20, 0};  // symmetric pairs would be decided by rounding
+    setup.description.velocity = {-0.5 * side * edges_a_step * (1.1 / (1 << level)) / time_step, 0, 0};
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("spheres that meet at any speed stay apart, part again and keep momentum") {
+  const double time_step = 0.5 / omega;
+  for (const int precision : {64, 32}) {
+    const auto device = make_cpu_device(1, precision);
+    for (const double speed : {0.05, 0.2, 1.0, 20.0}) {
+      CAPTURE(precision, speed);
+      const Watched seen = watch(*device, meeting_spheres(1, speed, time_step), {"cv8", time_step}, 100);
+      CHECK(seen.touching == 0);
+      CHECK(seen.inside == 0);
+      CHECK(seen.report.contact_steps > 0);
+      CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 1e-8));
+      CHECK(seen.most_energy < 1.001);
+      CHECK(seen.last_energy < 1 + 1e-6);
+      if (speed < 0.25) CHECK(seen.report.reverted_vertices == 0);
+      CHECK((seen.report.time_lost > 0) == (speed > 2));
+    }
+  }
+}
+
+TEST_CASE("motions are cut short where a kick could not have foreseen them, and bodies stay apart") {
+  // A body that oscillates wildly sweeps over one at rest beside it.
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "wild"), soft(generate_mesh("icosphere:1"), "still")};
+  setups[0].description.stretch = {0.3, 1, 1};
+  setups[1].description.position = {1.45, 0, 0};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const Watched seen = watch(*make_cpu_device(1, 64), start, {"cv8", 1.0 / omega}, 60);
+  CHECK(seen.touching == 0);
+  CHECK(seen.inside == 0);
+  CHECK(seen.report.reverted_vertices > 0);
+}
+
+TEST_CASE("contact by impulses gives the same bits on any number of threads, and the same motion on a GPU", "[gl]") {
+  const double time_step = 0.5 / omega;
+  const ModelAndState start = meeting_spheres(2, 0.1, time_step);
+  const auto state_on = [&](Device& device) {
+    Simulation simulation(device, start.model, start.state, plan_of(Method{"verlet", time_step}), by_impulses);
+    simulation.advance(60);
+    CHECK(simulation.report().contact_steps > 10);
+    return simulation.state();
+  };
+  const State expected = state_on(*make_cpu_device(1, 32));
+  for (const unsigned threads : {2u, 3u}) CHECK(state_on(*make_cpu_device(threads, 32)).motion == expected.motion);
+  if (test::lacks_gl()) return;
+  const std::vector<glm::dvec3> positions = expected.world_positions(start.model);
+  const std::vector<glm::dvec3> on_gpu = state_on(*make_gpu_device(0)).world_positions(start.model);
+  double largest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) largest = larger(largest, glm::length(on_gpu[i] - positions[i]));
+  CHECK(largest < 1e-6);
+}
+
+// A body of the mesh that was let down on the ground, with gravity at this angle to its normal.
+ModelAndState on_ground(const char* mesh, double height, double degrees, double friction, double stiffness = total_stiffness) {
+  BodySetup setup = soft(generate_mesh(mesh), "body");
+  setup.description.position = {0, height, 0};
+  setup.description.damping = 0.02;
+  const double angle = degrees / 180 * 3.14159265358979;
+  GroundDescription ground;
+  ground.friction = friction;
+  setup.description.friction = friction;
+  setup.description.total_stiffness = stiffness;
+  return build_model({&setup, 1}, {9.81 * std::sin(angle), -9.81 * std::cos(angle), 0}, {&ground, 1});
+}
+
+TEST_CASE("a ball comes to rest on a ground, which then bears its weight") {
+  const ModelAndState start = on_ground("icosphere:1", 1.1, 0, 0.5);
+  const double time_step = 0.3 / omega, seconds = 1;
+  const auto device = make_cpu_device(1, 64);
+  Simulation resting(*device, start.model, start.state, plan_of(Method{"cv8", time_step, DampingLaw::constant}), by_impulses);
+  resting.advance(4000);
+  const auto before = resting.state().world_positions(start.model);
+  const double given = resting.report().outside_impulse.y;
+  const auto steps = static_cast<std::uint64_t>(seconds / time_step);
+  resting.advance(steps);
+  const auto after = resting.state().world_positions(start.model);
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK(glm::length(after[i] - before[i]) < 1e-9 * static_cast<double>(steps));
+  CHECK(resting.report().outside_impulse.y - given == Approx(9.81 * time_step * static_cast<double>(steps)).epsilon(1e-6));
+  for (const glm::dvec3& p : after) CHECK(p.y > 0);
+  CHECK(resting.report().reverted_vertices == 0);
+}
+
+TEST_CASE("momentum is what gravity and the ground have given") {
+  const ModelAndState start = on_ground("icosphere:1", 1.3, 20, 0.3);
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.3 / omega}), by_impulses);
+  simulation.advance(200);
+  ThreadPool pool(1);
+  const glm::dvec3 momentum = measure(start.model, simulation.state(), glm::dvec3(0.0), pool).momentum;
+  const StepReport report = simulation.report();
+  const double angle = 20 / 180.0 * 3.14159265358979;
+  const glm::dvec3 expected = report.time * 9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0) + report.outside_impulse;
+  CHECK(report.outside_impulse.y > 1);
+  CHECK(glm::length(momentum - expected) < 1e-11);
+}
+
+// How far a cube goes down a slope of 20 degrees in this time, in the time after it, and in a third such time [m].
+std::array<double, 3> ways_on_slope(double friction, DampingLaw law, std::uint64_t steps) {
+  const auto device = make_cpu_device(1, 64);
+  const ModelAndState start = on_ground("cube:3", 0.51, 20, friction, 1e4);  // stiff, so that it does not topple
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.003, law}), by_impulses);
+  std::array<double, 3> ways{};
+  double before = 0;
+  for (double& way : ways) {
+    simulation.advance(steps);
+    double mean = 0;
+    for (const glm::dvec3& p : simulation.state().world_positions(start.model)) mean += p.x / start.model.vertex_count();
+    way = mean - before;
+    before = mean;
+  }
+  return ways;
+}
+
+TEST_CASE("a cube stays on a slope with enough friction, and slides with less as Coulomb's law says") {
+  const std::array<double, 3> still = ways_on_slope(0.5, DampingLaw::constant, 3000);
+  CHECK(std::abs(still[2]) < 1e-6 * 9);  // in 9 s
+  const std::array<double, 3> sliding = ways_on_slope(0.2, DampingLaw::none, 300);
+  const double angle = 20 / 180.0 * 3.14159265358979, seconds = 0.9;
+  const double acceleration = (sliding[2] - sliding[1]) / (seconds * seconds);
+  CHECK(acceleration == Approx(9.81 * (std::sin(angle) - 0.2 * std::cos(angle))).epsilon(0.02));
+}
+
+TEST_CASE("a static body stays where it is, has no energy and bears others") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("cube:2"), "plate"), soft(generate_mesh("icosphere:1"), "ball")};
+  setups[0].description.kind = BodyKind::immovable;
+  setups[0].description.scale = 4;
+  setups[1].description.position = {0.1, 3.1, 0};
+  setups[1].description.damping = 0.02;
+  const ModelAndState start = build_model(setups, {0, -9.81, 0});
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.3 / omega, DampingLaw::constant}),
+                        by_impulses);
+  const auto before = start.state.world_positions(start.model);
+  simulation.advance(1500);
+  const auto after = simulation.state().world_positions(start.model);
+  const ModelBody &plate = start.model.bodies[0], &ball = start.model.bodies[1];
+  for (std::uint32_t i = 0; i < plate.vertex_count; ++i) CHECK(after[i] == before[i]);
+  for (std::uint32_t i = ball.first_vertex; i < start.model.vertex_count(); ++i) CHECK(after[i].y > 2);
+  CHECK(testing::pairs_not_apart(start.model, after) == 0);
+  ThreadPool pool(1);
+  const Measurement now = measure(start.model, simulation.state(), {0, -9.81, 0}, pool);
+  CHECK(now.gravitational < 9.81 * 4);
+  CHECK(simulation.report().outside_impulse.y > 0);
+  CHECK(simulation.report().force_evaluations <= 1500u * 30);
+}
+
+TEST_CASE("bodies that begin in each other or in the ground are an error that names them") {
+  const auto device = make_cpu_device(1, 32);
+  ModelAndState start = meeting_spheres(1, 0.1, 0.01);
+  start.state.poses[0].origin[0] = start.state.poses[1].origin[0] - 0.5;
+  Simulation overlapping(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), by_impulses);
+  const Error error = error_of([&] { expect_apart(overlapping, start.model, "scene.toml"); });
+  CHECK(error.kind() == ErrorKind::input);
+  check_says(error, {"scene.toml", "left, right", "move them apart"});
+  const ModelAndState sunk = on_ground("icosphere:1", 0.75, 0, 0.5);
+  Simulation buried(*device, sunk.model, sunk.state, plan_of(Method{"verlet", 0.01}), by_impulses);
+  check_says(error_of([&] { expect_apart(buried, sunk.model, "scene.toml"); }), {"body \"body\"", "deep in a ground"});
+  Simulation reflecting(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), {});
+  CHECK_NOTHROW(expect_apart(reflecting, start.model, "scene.toml"));
+}
+
+}  // namespace
+}  // namespace pliant
