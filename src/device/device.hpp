@@ -95,6 +95,9 @@ class Device {
   /// Returns the kernel in the file kernels/NAME.glsl, whose function has the same name. Throws Error (device) if it does not
   /// build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
+  /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
+  /// most shares_at_once() of them, or one.
+  [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. With
   /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once() items.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;

@@ -130,7 +130,11 @@ std::vector<double> numbers_of(const physics::Pace& pace) {
 }
 
 std::vector<double> numbers_of(const physics::ContactList& list) {
-  return {list.longer, double(list.triangle_pair_count), double(list.contact_count), double(list.uncertified),
+  return {list.longer,
+          double(list.triangle_pair_count),
+          double(list.contact_count),
+          double(list.uncertified),
+          double(list.changed_rounds),
           double(std::bit_cast<float>(list.fastest))};
 }
 
@@ -195,7 +199,7 @@ std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts_of(Bench& b
   std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts;
   for (std::uint32_t c = 0; c < count; ++c) {
     std::vector<double>& numbers = contacts[{vertices[c].x, vertices[c].y, vertices[c].z, vertices[c].w}];
-    numbers.assign(rows.begin() + 12 * c, rows.begin() + 12 * (c + 1));
+    numbers.assign(rows.begin() + 16 * c, rows.begin() + 16 * c + 12);
     numbers.insert(numbers.end(), impulses.begin() + 4 * c, impulses.begin() + 4 * (c + 1));
   }
   return contacts;

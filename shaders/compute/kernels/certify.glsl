@@ -1,21 +1,23 @@
-// One thread proves that two triangles stay apart while their corners move, or cuts these motions short. All threads share the list of
-// pairs in strides. A round sees the cuts of the rounds before. From the fifth on, motions that can't be proven are not made at all.
+// A kernel in rounds. One thread proves that two triangles stay apart while their corners move, or cuts these motions short. A round sees
+// the cuts of the rounds before. From the fifth on, motions that can't be proven are not made at all.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/separation.glsl"
 #include "../physics/contact/surface.glsl"
-WRITE(contact_list)
+SHARED_WRITE(contact_list)
 READ(rest_position)
 READ(surface)
 READ(triangle)
 READ(triangle_pair)
 READ(start)
 READ(way)
-WRITE(cut)
+SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
-PARAMETER(uint, pairs_at_once)
-PARAMETER(uint, cut_round)
+
+uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
+uint rounds_at_most() { return cut_rounds; }
+bool goes_on(uint cut_round) { return (contact_list[0].changed_rounds >> cut_round & 1u) != 0u; }
 
 uint cut_so_far(uint i, uint rounds) {
   uint least = cut[i];
@@ -23,7 +25,7 @@ uint cut_so_far(uint i, uint rounds) {
   return least;
 }
 
-bool has_changed(uint i) { return cut_round == 0u || cut[cut_round * vertex_count + i] < cut_so_far(i, cut_round); }
+bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut[cut_round * vertex_count + i] < cut_so_far(i, cut_round); }
 
 struct Case {
   uint vertex[6];
@@ -31,7 +33,7 @@ struct Case {
   Motion motion;
 };
 
-Case case_of(IN_ARRAY(uint, who, 6)) {
+Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   Case c;
   dvec3 origin = LOAD3(start, start_position_of(who[0]));
   real size = real(0);
@@ -58,7 +60,7 @@ real trespass(IN(Case) c, uint first, IN(real3) axis, real limit) {
 }
 
 // Lets no corner pass the plane at `limit` on the axis. Returns whether one would.
-bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit) {
+bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit, uint cut_round) {
   bool stops = false;
   for (uint k = first; k < first + 3u; ++k) {
     real from = dot(axis, c.motion.start[k]), to = dot(axis, c.motion.end[k]);
@@ -70,7 +72,7 @@ bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit) {
   return stops;
 }
 
-void stop_all(IN(Case) c) {
+void stop_all(IN(Case) c, uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[(cut_round + 1u) * vertex_count + c.vertex[k]], 0u);
 }
 
@@ -80,10 +82,11 @@ bool stands(IN(Case) c) {
   return all;
 }
 
-void cut_short(IN(Case) c) {
+void cut_short(IN(Case) c, uint cut_round) {
+  atomicOr(contact_list[0].changed_rounds, 1u << cut_round);
   Closest at = closest_points(c.motion.start);
   if (cut_round >= 4u || !(at.distance > real(32) * c.motion.margin)) {
-    stop_all(c);
+    stop_all(c, cut_round);
     return;
   }
   real3 axis = at.away / at.distance;
@@ -91,36 +94,32 @@ void cut_short(IN(Case) c) {
   real highest = max(max(dot(axis, c.motion.start[3]), dot(axis, c.motion.start[4])), dot(axis, c.motion.start[5]));
   real usable = real(0.8) * ((lowest - highest) - real(2) * c.motion.margin);
   if (!(usable > real(0))) {
-    stop_all(c);
+    stop_all(c, cut_round);
     return;
   }
   real of_first = trespass(c, 0u, axis, lowest), of_second = trespass(c, 3u, -axis, -highest);
   real share = of_first + of_second > real(0) ? of_first / (of_first + of_second) : real(0);
-  bool first_stops = stop_at(c, 0u, axis, lowest - share * usable);
-  bool second_stops = stop_at(c, 3u, -axis, -(highest + (real(1) - share) * usable));
-  if (!first_stops && !second_stops) stop_all(c);
+  bool first_stops = stop_at(c, 0u, axis, lowest - share * usable, cut_round);
+  bool second_stops = stop_at(c, 3u, -axis, -(highest + (real(1) - share) * usable), cut_round);
+  if (!first_stops && !second_stops) stop_all(c, cut_round);
 }
 
-void certify_pair(uvec2 triangles) {
+void certify(uint item, uint cut_round) {
+  uvec2 triangles = triangle_pair[item];
   uint who[6];
   bool changed = false;
   for (uint k = 0u; k < 3u; ++k) {
     who[k] = triangle[corner_of(triangles.x, k)];
     who[3u + k] = triangle[corner_of(triangles.y, k)];
   }
-  for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k]);
+  for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k], cut_round);
   if (!changed) return;
-  Case c = case_of(who);
+  Case c = case_of(who, cut_round);
   if (stands(c) || stays_apart_at_a_glance(c.motion)) return;
   Closest at = closest_points(c.motion.start);
   if (stays_apart_on(at.away, c.motion) || stays_apart_at_last(c.motion)) return;
   if (cut_round + 1u == cut_rounds)
     atomicAdd(contact_list[0].uncertified, 1u);
   else
-    cut_short(c);
-}
-
-void certify(uint item) {
-  uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
-  for (uint k = item; k < count; k += pairs_at_once) certify_pair(triangle_pair[k]);
+    cut_short(c, cut_round);
 }

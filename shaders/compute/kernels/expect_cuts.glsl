@@ -10,7 +10,7 @@ READ(motion)
 READ(start)
 READ(cage)
 READ(ground)
-READ(contact_list)
+WRITE(contact_list)
 WRITE(outside_sum)
 WRITE(outside_impulse)
 WRITE(way)
@@ -44,7 +44,10 @@ void tell_outside_impulse() {
 }
 
 void expect_cuts(uint i) {
-  if (i == 0u) tell_outside_impulse();
+  if (i == 0u) {
+    tell_outside_impulse();
+    contact_list[0].arrivals &= waited_in_vain;
+  }
   uint b = uint(rest_position[i].w);
   uint before = displacement_of(in_half(from_half, vertex_count, i)), after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);

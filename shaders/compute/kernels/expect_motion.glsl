@@ -24,7 +24,8 @@ PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
 void expect_motion(uint i) {
-  if (i == 0u) contact_list[0].triangle_pair_count = contact_list[0].contact_count = contact_list[0].uncertified = 0u;
+  if (i == 0u) contact_list[0].triangle_pair_count = contact_list[0].contact_count = contact_list[0].uncertified = contact_list[0].changed_rounds =
+                     contact_list[0].arrivals = 0u;
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 velocity = rotate(pose[b], LOAD3(motion, velocity_of(at)));

@@ -167,8 +167,26 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   if (crosses) consider_later(p, f, later);
 }
 
+// Whether the triangles come so near each other in the step, as far as the boxes of their expected ways tell.
+bool may_meet(IN(Pair) p) {
+  real3 lower = min(p.place[0], p.place[0] + p.way[0]), upper = max(p.place[0], p.place[0] + p.way[0]);
+  for (uint k = 1u; k < 3u; ++k) {
+    lower = min(lower, min(p.place[k], p.place[k] + p.way[k]));
+    upper = max(upper, max(p.place[k], p.place[k] + p.way[k]));
+  }
+  real3 lowest = min(p.place[3], p.place[3] + p.way[3]), highest = max(p.place[3], p.place[3] + p.way[3]);
+  for (uint k = 4u; k < 6u; ++k) {
+    lowest = min(lowest, min(p.place[k], p.place[k] + p.way[k]));
+    highest = max(highest, max(p.place[k], p.place[k] + p.way[k]));
+  }
+  real3 apart = max(max(lowest - upper, lower - highest), real3(0));
+  real enough = real(1.5) * p.gap;
+  return dot(apart, apart) < enough * enough;
+}
+
 void meet(uvec2 triangles) {
   Pair p = pair_of(triangles);
+  if (!may_meet(p)) return;
   uint first = triangle_owns[triangles.x], second = triangle_owns[triangles.y];
   for (uint k = 0u; k < 3u; ++k) {
     if ((first >> k & 1u) != 0u) meet_vertex(p, k, real(1));

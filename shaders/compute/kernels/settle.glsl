@@ -62,11 +62,12 @@ void prepare_next_step(uint i, uint b) {
     contact_list[0].fastest = 0u;
     if (control[0].non_finite_step == 0u) end_step_part();
   }
-  if (i == body[b].first_vertex)
-    for (uint k = 0u; k < 3u; ++k) {
-      body_motion[b].lower[k] = 0xffffffffu;
-      body_motion[b].upper[k] = 0u;
-    }
+  if (i != body[b].first_vertex) return;
+  if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
+  for (uint k = 0u; k < 3u; ++k) {
+    body_motion[b].lower[k] = 0xffffffffu;
+    body_motion[b].upper[k] = 0u;
+  }
 }
 
 void settle(uint i) {

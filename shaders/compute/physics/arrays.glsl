@@ -66,7 +66,7 @@ ARRAY(cage, vec4, vertex, step, "[vertex][2] lower, upper: where the vertex stay
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
 ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in leaf order; pairs are in no fixed order")
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
-ARRAY(contact, real, contact, step, "[contact][3][4] physics/contact/contact.glsl has the rows")
+ARRAY(contact, real, contact, step, "[contact][4][4] physics/contact/contact.glsl has the rows")
 ARRAY(contact_impulse, real, contact, step, "[contact][4] impulse along the normal, then across it [Ns]")
 ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-16; 0 between steps")
 ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses in quanta, as 64 bits in two halves; 0 between steps")

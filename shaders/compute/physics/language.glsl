@@ -10,6 +10,7 @@
   #include <glm/geometric.hpp>
   #include <atomic>
   #include <bit>
+  #include <cstdint>
   #include <cmath>
   #define SHARED_BEGIN namespace pliant::physics {
   #define SHARED_END }
@@ -90,6 +91,7 @@ FN uint atomicMax(uint& target, uint value) {
   }
   return before;
 }
+FN uint atomicOr(uint& target, uint bits) { return std::atomic_ref(target).fetch_or(bits, std::memory_order_acq_rel); }
 FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
 FN int bitCount(uint bits) { return std::popcount(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }

@@ -94,7 +94,7 @@ class Impulse final : public Response {
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
-    arrays.make_reals("contact", std::size_t{12} * contact_capacity);
+    arrays.make_reals("contact", std::size_t{16} * contact_capacity);
     arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
     arrays.make<std::uint32_t>("contact_weight", vertices);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
@@ -121,14 +121,9 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "meet_grounds",
                                  {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
-    for (std::uint32_t round = 0; round < physics::kick_rounds; ++round)
-      passes.push_back(make_pass(arrays, "solve_contacts",
-                                 {{"contact_capacity", contact_capacity},
-                                  {"contacts_at_once", items_at_once_},
-                                  {"kick_round", round},
-                                  {"least_speed", least_speed()},
-                                  {"heaviest_vertex", heaviest_vertex_}},
-                                 items_at_once_));
+    passes.push_back(round_pass(
+        "solve_contacts",
+        {{"contact_capacity", contact_capacity}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}}));
     passes.push_back(make_pass(arrays, "kick_vertices",
                                {{"from_half", from_half}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}},
                                bodies_.vertex_count));
@@ -151,11 +146,7 @@ class Impulse final : public Response {
                                            {"least_speed", least_speed()},
                                            {"heaviest_vertex", heaviest_vertex_}},
                                           bodies_.vertex_count)};
-    for (std::uint32_t round = 0; has_pairs_ && round < physics::cut_rounds; ++round)
-      passes.push_back(
-          make_pass(arrays, "certify",
-                    {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", items_at_once_}, {"cut_round", round}},
-                    items_at_once_));
+    if (has_pairs_) passes.push_back(round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity}}));
     passes.push_back(make_pass(
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity}, {"contact_capacity", contact_capacity}},
@@ -164,6 +155,11 @@ class Impulse final : public Response {
   }
 
  private:
+  Pass round_pass(std::string_view name, Parameters parameters) const {
+    Device& device = bodies_.arrays.device();
+    return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
+  }
+
   // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].
   double least_speed() const { return smallest_gap_ / time_step_; }
 

@@ -80,6 +80,7 @@ class CpuDevice final : public Device {
     throw Error(ErrorKind::device, std::string(name), "no such kernel on the CPU", "");
   }
 
+  KernelId round_kernel(std::string_view name) override { return kernel(name); }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
     PLIANT_EXPECT(!all_stages);
     return kernel(name) + static_cast<KernelId>(variant * kernels_.size());
@@ -100,6 +101,10 @@ class CpuDevice final : public Device {
     for (std::size_t k = 0; k < call.buffers.size(); ++k) buffers[k] = bytes_of(call.buffers[k]);
     const cpu::KernelArguments arguments{.buffers = buffers.data(), .parameters = call.parameters.data()};
     const cpu::KernelEntry& entry = kernels_[call.kernel % kernels_.size()];
+    if (entry.rounds.run != nullptr) {
+      run_rounds(entry, arguments);
+      return;
+    }
     if (entry.function == nullptr) {
       run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
       return;
@@ -124,6 +129,15 @@ class CpuDevice final : public Device {
   struct Range {
     std::uint32_t share, first, end;
   };
+
+  void run_rounds(const cpu::KernelEntry& entry, const cpu::KernelArguments& arguments) {
+    const std::uint32_t items = entry.rounds.items(arguments), most = entry.rounds.most(arguments);
+    for (std::uint32_t round = 0; round < most; ++round) {
+      pool_.for_ranges(items, entry.grain,
+                       [&](std::uint32_t first, std::uint32_t end) { entry.rounds.run(arguments, round, first, end); });
+      if (!entry.rounds.goes_on(arguments, round)) return;
+    }
+  }
 
   void run_forces(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
                   std::uint32_t share_count) {

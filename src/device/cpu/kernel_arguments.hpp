@@ -75,11 +75,20 @@ struct ForceFunctions {
                  std::uint32_t end) = nullptr;
 };
 
+/// A kernel that goes in rounds, up to `most`. Its items are counted before the first round, and it may end after any.
+struct RoundFunctions {
+  std::uint32_t (*items)(const KernelArguments& arguments) = nullptr;
+  std::uint32_t (*most)(const KernelArguments& arguments) = nullptr;
+  bool (*goes_on)(const KernelArguments& arguments, std::uint32_t round) = nullptr;
+  void (*run)(const KernelArguments& arguments, std::uint32_t round, std::uint32_t first, std::uint32_t end) = nullptr;
+};
+
 struct KernelEntry {
   std::string_view name;
   KernelSignature (*signature)();
-  KernelFunction function;  // null for a force kernel
+  KernelFunction function;  // null for a force kernel and for one in rounds
   ForceFunctions force;     // what a force kernel has instead
+  RoundFunctions rounds;    // what a kernel in rounds has instead
   std::uint32_t grain;      // items that a thread takes at a time: some microseconds' work, more than waking a thread costs
 };
 

@@ -23,7 +23,8 @@ struct Caller {
   std::string_view file;
   bool items_are_groups;  // or threads
 };
-constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/force.comp", true};
+constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/force.comp", true},
+                 round_caller = {"compute/rounds.comp", true};
 
 // How force.comp cuts its work.
 struct Lanes {
@@ -88,6 +89,10 @@ class GpuDevice final : public Device {
 
   KernelId kernel(std::string_view name) override {
     return build(std::string(name), thread_caller,
+                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+  }
+  KernelId round_kernel(std::string_view name) override {
+    return build(std::string(name), round_caller,
                  {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {

@@ -6,10 +6,12 @@
 #include "surface.glsl"
 REAL_BEGIN
 
-const uint contact_rows = 3u;  // of four numbers in `contact`
+const uint contact_rows = 4u;  // of four numbers in `contact`
 // row 0: the normal, from the second body to the first, and the least velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second
 // row 2: the goal of the velocity across the normal [m/s], and the friction
+// row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
+//        mass that resists the contact [kg]
 
 // Lengths of a pair of bodies [m], and the time step [s].
 struct Approach {

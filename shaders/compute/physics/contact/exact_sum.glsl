@@ -3,21 +3,33 @@
 #define EXACT_SUM_GLSL
 #include "../language.glsl"
 SHARED_BEGIN
-#ifdef __cplusplus
-using std::floor;
-#endif
 
-// Two's complement in two halves. Expects a whole number below 2^63.
-FN uvec2 halves_of(double whole) {
-  double high = floor(whole * (double(1) / double(4294967296.0)));
-  double low = whole - high * double(4294967296.0);
-  return uvec2(uint(low), uint(int(high)));
+// The nearest whole number. Expects a number below 2^51: this one, added and subtracted, leaves no digits behind the point.
+FN double nearest_whole(double number) {
+  const double most = double(6755399441055744.0);
+  EXACT double sum = number + most;
+  EXACT double whole = sum - most;
+  return whole;
 }
 
-// Exact up to 2^53, rounded beyond.
-FN double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967296.0) + double(halves.x); }
+// A sum is two's complement in two halves. It is exact up to 2^53, and rounded beyond.
+#ifdef __cplusplus
+FN double whole_of(IN(uvec2) halves) { return static_cast<double>(std::bit_cast<std::int64_t>(halves)); }
 
 // Adds a whole number to a sum that other threads add to.
+FN void add_exactly(uvec2& sum, double whole) {
+  using Sum [[gnu::may_alias]] = std::int64_t;
+  std::atomic_ref(reinterpret_cast<Sum&>(sum)).fetch_add(static_cast<std::int64_t>(whole), std::memory_order_relaxed);
+}
+#define ADD_EXACTLY(sum, whole) add_exactly(sum, whole);
+#else
+double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967296.0) + double(halves.x); }
+
+uvec2 halves_of(double whole) {
+  double high = floor(whole * (double(1) / double(4294967296.0)));
+  return uvec2(uint(whole - high * double(4294967296.0)), uint(int(high)));
+}
+
 #define ADD_EXACTLY(sum, whole)                                       \
   {                                                                   \
     uvec2 halves = halves_of(whole);                                  \
@@ -25,6 +37,7 @@ FN double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967
     uint carried = halves.y + (before + halves.x < before ? 1u : 0u); \
     if (carried != 0u) atomicAdd((sum).y, carried);                   \
   }
+#endif
 
 SHARED_END
 #endif

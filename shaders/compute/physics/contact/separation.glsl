@@ -33,29 +33,29 @@ FN bool stays_above(IN(real3) axis, IN(Motion) m) {
 
 FN bool stays_apart_on(IN(real3) axis, IN(Motion) m) { return stays_above(axis, m) || stays_above(-axis, m); }
 
-FN bool stays_apart_on_faces_and_edges(IN(Motion) m, IN_ARRAY(real3, p, 6)) {
-  real3 edge[6];
-  for (int k = 0; k < 3; ++k) {
-    int after = k == 2 ? 0 : k + 1;
-    edge[k] = p[after] - p[k];
-    edge[3 + k] = p[3 + after] - p[3 + k];
-  }
-  if (stays_apart_on(cross(edge[0], edge[1]), m) || stays_apart_on(cross(edge[3], edge[4]), m)) return true;
+FN bool stays_apart_on_faces(IN(Motion) m, IN_ARRAY(real3, p, 6)) {
+  return stays_apart_on(cross(p[1] - p[0], p[2] - p[1]), m) || stays_apart_on(cross(p[4] - p[3], p[5] - p[4]), m);
+}
+
+FN bool stays_apart_on_edges(IN(Motion) m, IN_ARRAY(real3, p, 6)) {
   for (int j = 0; j < 3; ++j)
-    for (int k = 3; k < 6; ++k)
-      if (stays_apart_on(cross(edge[j], edge[k]), m)) return true;
+    for (int k = 0; k < 3; ++k) {
+      int after_j = j == 2 ? 0 : j + 1, after_k = k == 2 ? 0 : k + 1;
+      if (stays_apart_on(cross(p[after_j] - p[j], p[3 + after_k] - p[3 + k]), m)) return true;
+    }
   return false;
 }
 
-// Tries the cheapest axes: those of coordinates, and the line between the triangles' centres.
+// Tries the cheapest axes: those of coordinates, the line between the triangles' centres, and their normals.
 FN bool stays_apart_at_a_glance(IN(Motion) m) {
+  if (stays_apart_on(((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]), m)) return true;
   if (stays_apart_on(real3(1, 0, 0), m) || stays_apart_on(real3(0, 1, 0), m) || stays_apart_on(real3(0, 0, 1), m)) return true;
-  return stays_apart_on(((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]), m);
+  return stays_apart_on_faces(m, m.start);
 }
 
 // Tries the axes on which touching triangles part, and those across the relative motion.
 FN bool stays_apart_at_last(IN(Motion) m) {
-  if (stays_apart_on_faces_and_edges(m, m.start) || stays_apart_on_faces_and_edges(m, m.end)) return true;
+  if (stays_apart_on_edges(m, m.start) || stays_apart_on_faces(m, m.end) || stays_apart_on_edges(m, m.end)) return true;
   real3 course = ((m.end[0] - m.start[0]) + (m.end[1] - m.start[1]) + (m.end[2] - m.start[2])) -
                  ((m.end[3] - m.start[3]) + (m.end[4] - m.start[4]) + (m.end[5] - m.start[5]));
   for (int k = 0; k < 3; ++k) {

@@ -26,6 +26,8 @@ struct ContactList {
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them
   uint uncertified;          // pairs of triangles that were not proven to stay apart
+  uint changed_rounds;       // of certificates, as bits: motions were cut shorter in them
+  uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
 };
 
@@ -33,6 +35,7 @@ struct ContactList {
 FN double gap_in_edges() { return double(1) / double(20); }   // that contacts keep
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
 
+const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups did not run at once, though they should
 const uint cut_rounds = 8u;  // in which motions are cut short
 const uint kick_rounds = 16u;
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
