@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <system_error>
 
 #include "core/checksum.hpp"
@@ -69,6 +71,21 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
                     run.plan.time_step, run.scene.simulation.duration));
 }
 
+// Impulses are counted in quanta that the heaviest vertex sets.
+void warn_of_masses(PreparedRun& run) {
+  constexpr double most = 1e9;
+  double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
+  for (const ModelBody& body : run.start.model.bodies) {
+    if (body.is_static) continue;
+    heaviest = std::max(heaviest, body.vertex_mass);
+    lightest = std::min(lightest, body.vertex_mass);
+  }
+  if (run.scene.collision.response.value == "impulse" && heaviest > most * lightest)
+    run.warnings.push_back(
+        fmt::format("the heaviest vertex has {:.3g} times the mass of the lightest: impulses on light ones are rounded",
+                    heaviest / lightest));
+}
+
 void warn_of_overlap(PreparedRun& run) {
   if (const std::string overlap = told_overlap(*run.simulation, run.start.model); !overlap.empty())
     run.warnings.push_back(overlap);
@@ -98,6 +115,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_no_step(run, options);
   expect_apart(*run.simulation, run.start.model, run.scene.file.string());
   warn_of_overlap(run);
+  warn_of_masses(run);
   run.build_time.stop();
   return prepared;
 }

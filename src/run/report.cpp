@@ -80,6 +80,8 @@ std::optional<std::string> instability_of(const RunStatus& status) {
 }
 
 std::optional<std::string> lost_time_of(const StepReport& report) {
+  if (report.held_parts > 0)
+    return fmt::format("no body moved in {} parts of steps, because there were too many contacts to solve", report.held_parts);
   if (report.time_lost == 0) return {};
   return fmt::format("bodies came near each other so fast that {:.3g} s were lost in steps; shorten the time step",
                      report.time_lost);

@@ -92,7 +92,7 @@ class Run {
       advance_to(step);
       if (report_.steps == step) write_frame();
     }
-    advance_to(last_step());
+    while (!stopped() && report_.steps < last_step()) advance_to(last_step());
   }
 
   // Steps that lost time are made up for by more of them, unless the command line asks for so many steps.

@@ -103,6 +103,7 @@ void Simulation::add_parts(StepReport& report) const {
       made.lost == 0 && made.eighths_left == physics::eighths ? static_cast<double>(made.steps) * fixed_step_ : made.simulated;
   report.substeps = made.parts - made.steps;
   report.time_lost = made.lost;
+  report.held_parts = made.held;
 }
 
 StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {

@@ -27,8 +27,10 @@ void expect_above_grounds(const Model& model, const State& state, const std::str
   for (const ModelBody& body : model.bodies)
     for (const Ground& ground : model.grounds)
       if (const double depth = depth_in(ground, body, positions); !body.is_static && depth >= 0)
-        throw Error(ErrorKind::input, place, fmt::format("body \"{}\" stands {:.4g} m deep in a ground", body.name, depth),
-                    "move the body up, or the ground down");
+        throw Error(ErrorKind::input, place,
+                    depth == 0 ? fmt::format("body \"{}\" touches a ground", body.name)
+                               : fmt::format("body \"{}\" stands {:.4g} m deep in a ground", body.name, depth),
+                    "leave a small distance between them, as of a twentieth of an edge");
 }
 
 }  // namespace

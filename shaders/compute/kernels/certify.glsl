@@ -14,6 +14,7 @@ READ(way)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(double, largest_body)  // radius at rest [m]
 
 uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
 uint rounds_at_most() { return cut_rounds; }
@@ -37,7 +38,7 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   Case c;
   dvec3 origin = LOAD3(start, start_position_of(who[0]));
   real size = real(0);
-  double far = abs(origin.x) + abs(origin.y) + abs(origin.z);
+  double far = abs(origin.x) + abs(origin.y) + abs(origin.z) + double(4) * largest_body;
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
     c.part[k] = real(uintBitsToFloat(cut_so_far(who[k], cut_round + 1u)));
@@ -47,7 +48,8 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
   }
-  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world err by some roundings in fp64.
+  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world, and
+  // those about a body's centre that they come from, err by some roundings in fp64.
   c.motion.margin = real(8) * real_epsilon * size + real(double(32) * double(1.1e-16) * (far + double(size)));
   return c;
 }

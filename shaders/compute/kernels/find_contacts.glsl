@@ -32,6 +32,7 @@ struct Pair {
   real3 place[6];     // relative to the first corner [m]
   real3 way[6];       // expected in the step, relative to that of the first corner [m]
   real gap;
+  real slowest;
   real elasticity;
   real friction;
 };
@@ -56,6 +57,7 @@ Pair pair_of(uvec2 triangles) {
   Surface a = surface[uint(rest_position[p.vertex[0]].w)], b = surface[uint(rest_position[p.vertex[3]].w)];
   double edge = a.inverse_mass == double(0) ? b.edge : (b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge));
   p.gap = real(gap_in_edges() * edge);
+  p.slowest = real(min(a.longest_pressed, b.longest_pressed));
   p.elasticity = real(sqrt(a.elasticity * b.elasticity));
   p.friction = real(sqrt(a.friction * b.friction));
   return p;
@@ -104,6 +106,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   Approach a;
   a.gap = p.gap;
   a.time_step = real(control[0].time_step);
+  a.slowest = p.slowest;
   a.elasticity = p.elasticity;
   Course c;
   c.distance = dot(normal, weighed(f, p.place));

@@ -28,6 +28,7 @@ void meet_ground(uint i, uint g) {
   Approach a;
   a.gap = real(gap_in_edges() * s.edge);
   a.time_step = real(control[0].time_step);
+  a.slowest = real(s.longest_pressed);
   a.elasticity = real(sqrt(s.elasticity * ground[g].elasticity));
   Course c;
   c.distance = real(dot(normal, LOAD3(start, start_position_of(i))) - ground[g].offset);

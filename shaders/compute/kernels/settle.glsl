@@ -23,13 +23,11 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
+#include "parts/full_lists.glsl"
 #include "parts/place.glsl"
 
 // If lists were too short, or proofs are missing, bodies keep their place. Those that are near none could move, but this is rare.
-bool holds_all() {
-  return contact_list[0].uncertified != 0u || contact_list[0].triangle_pair_count > triangle_pair_capacity ||
-         contact_list[0].contact_count > contact_capacity;
-}
+bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
 double part_left(uint i) {
   uint least = cut[i];
@@ -53,6 +51,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
 void end_step_part() {
   StepParts p = step_parts[0];
   end_part(p);
+  if (holds_all()) p.held += 1u;
   step_parts[0] = p;
 }
 

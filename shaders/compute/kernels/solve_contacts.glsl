@@ -18,11 +18,13 @@ SHARED_WRITE(contact_list)
 SHARED_WRITE(impulse_sum)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, contact_capacity)
+PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
+#include "parts/full_lists.glsl"
 #include "parts/impulse_sums.glsl"
 
-uint items_in_a_round() { return min(contact_list[0].contact_count, contact_capacity); }
+uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return kick_rounds; }
 bool goes_on(uint kick_round) { return kick_round < kick_rounds; }
 

@@ -62,6 +62,7 @@ class Impulse final : public Response {
     double smallest_edge = 1e30;
     for (const ModelBody& body : setting.model.bodies) {
       surfaces.push_back(surface_of(setting.model, body, setting.description));
+      largest_body_ = std::max(largest_body_, body.radius);
       if (body.is_static) continue;
       heaviest_vertex_ = std::max(heaviest_vertex_, body.vertex_mass);
       smallest_edge = std::min(smallest_edge, surfaces.back().edge);
@@ -81,7 +82,9 @@ class Impulse final : public Response {
                                                                          .eighths_left = physics::eighths,
                                                                          .steps = 0,
                                                                          .parts = 0,
-                                                                         .halvings = 0}});
+                                                                         .halvings = 0,
+                                                                         .held = 0,
+                                                                         .padding = 0}});
     arrays.set_parameter("parts_of", time_step_);
     arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
@@ -122,9 +125,10 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "meet_grounds",
                                  {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
-    passes.push_back(round_pass(
-        "solve_contacts",
-        {{"contact_capacity", contact_capacity}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}}));
+    passes.push_back(round_pass("solve_contacts", {{"contact_capacity", contact_capacity},
+                                                   {"triangle_pair_capacity", triangle_pair_capacity},
+                                                   {"least_speed", least_speed()},
+                                                   {"heaviest_vertex", heaviest_vertex_}}));
     passes.push_back(make_pass(arrays, "kick_vertices",
                                {{"from_half", from_half}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}},
                                bodies_.vertex_count));
@@ -147,7 +151,9 @@ class Impulse final : public Response {
                                            {"least_speed", least_speed()},
                                            {"heaviest_vertex", heaviest_vertex_}},
                                           bodies_.vertex_count)};
-    if (has_pairs_) passes.push_back(round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity}}));
+    if (has_pairs_)
+      passes.push_back(
+          round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity}, {"largest_body", largest_body_}}));
     passes.push_back(make_pass(
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity}, {"contact_capacity", contact_capacity}},
@@ -169,7 +175,7 @@ class Impulse final : public Response {
   const TreeSearch& trees_;
   bool has_pairs_;
   std::uint32_t items_at_once_, ground_count_ = 0;
-  double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0;
+  double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
 };
 

@@ -8,8 +8,9 @@
 
 namespace pliant::testing {
 
-/// Returns how many pairs of triangles of different bodies are not proven to be apart. The proof is an axis on which the triangles'
-/// shadows are further apart than rounding accounts for. `positions` are those of the model's vertices in the world [m].
+/// Returns how many pairs of triangles of different bodies are not proven to be apart. The proof is an axis on which the
+/// triangles' shadows are further apart than rounding accounts for. `positions` are those of the model's vertices in the world
+/// [m].
 [[nodiscard]] std::size_t pairs_not_apart(const Model& model, std::span<const glm::dvec3> positions);
 
 /// Returns how many vertices are inside another body, whose mesh has to be closed. It sums solid angles.

@@ -17,6 +17,7 @@ const uint contact_rows = 4u;  // of four numbers in `contact`
 struct Approach {
   real gap;        // that contacts keep
   real time_step;
+  real slowest;    // lost gap comes back no faster than in steps of this length
   real elasticity;
 };
 
@@ -36,7 +37,7 @@ FN bool is_near(IN(Course) c, IN(Approach) a) {
 }
 
 // Returns the least velocity along the normal that the contact asks for [m/s].
-// - Points may come as near as the gap, and lost gap comes back slowly.
+// - Points may come as near as the gap, and lost gap comes back slowly, however short steps are.
 // - If they would pass the gap, they part again with the elasticity's part of their approach. Points at rest do not bounce.
 FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real need = (a.gap - c.distance) / a.time_step;
@@ -45,7 +46,7 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
   bool rests = abs(c.was) < abs(c.surplus) || c.was_cut;
   real kept = rests ? real(0) : a.elasticity;
   if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, -kept * c.was);
-  real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / a.time_step;
+  real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;
 }
 

@@ -13,6 +13,8 @@ struct StepParts {
   uint steps;         // complete ones
   uint parts;         // made so far
   uint halvings;      // of the full step that the next part needs
+  uint held;          // parts in which no body moved, because lists were too short or proofs were missing
+  uint padding;
 };
 
 const uint eighths = 8u;

@@ -47,8 +47,5 @@ const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cle
 // Sums of |weight| of a vertex are counted in this unit, so that their order does not matter.
 FN float weight_unit() { return 1.0f / 65536.0f; }
 
-// Impulses are counted in quanta. All numbers of quanta up to 2^53 are exact.
-const int quantum_bits = 46;
-
 SHARED_END
 #endif
