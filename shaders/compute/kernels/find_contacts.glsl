@@ -10,6 +10,7 @@ READ(rest_position)
 READ(surface)
 READ(triangle)
 READ(triangle_owns)
+READ(triangle_neighbor)
 READ(triangle_pair)
 READ(start)
 READ(expected)
@@ -28,6 +29,8 @@ PARAMETER(uint, pairs_at_once)
 
 // What is the same for all contacts of a pair of triangles.
 struct Pair {
+  uint first;   // triangles, in leaf order
+  uint second;
   uint vertex[6];
   real3 place[6];     // relative to the first corner [m]
   real3 way[6];       // expected in the step, relative to that of the first corner [m]
@@ -44,6 +47,8 @@ struct Feature {
 
 Pair pair_of(uvec2 triangles) {
   Pair p;
+  p.first = triangles.x;
+  p.second = triangles.y;
   for (uint k = 0u; k < 3u; ++k) {
     p.vertex[k] = triangle[corner_of(triangles.x, k)];
     p.vertex[3u + k] = triangle[corner_of(triangles.y, k)];
@@ -81,6 +86,57 @@ Feature vertex_and_triangle(uint corner, real side, IN_ARRAY(real3, p, 6)) {
   f.corner = uvec4(corner, first, first + 1u, first + 2u);
   f.weight = side * real4(1, -w.x, -w.y, -w.z);
   return f;
+}
+
+// Where a vertex stands after this part of the step, relative to the pair's first corner.
+real3 place_of(IN(Pair) p, uint i, real part) {
+  dvec3 place = LOAD3(start, start_position_of(i)) - LOAD3(start, start_position_of(p.vertex[0]));
+  dvec3 way = control[0].time_step * (LOAD3(expected, force_of(i)) - LOAD3(expected, force_of(p.vertex[0])));
+  return real3(place) + part * real3(way);
+}
+
+// Whether a point is nearer to a triangle than to its edge `along`. `third` leads from the edge to the triangle's third corner, and `away`
+// from the edge's closest point to the point.
+bool leans_over(real3 third, IN(real3) along, IN(real3) away) {
+  third -= dot(third, along) / dot(along, along) * along;
+  return dot(away, third) > real(1e-5) * length(away) * length(third);
+}
+
+// Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is. `face` is 0 for the first triangle.
+bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part) {
+  uint beyond = triangle_neighbor[corner_of(face == 0u ? p.first : p.second, edge)];
+  if (beyond == no_vertex) return false;
+  uint from = 3u * face + edge, to = 3u * face + (edge == 2u ? 0u : edge + 1u);
+  return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away);
+}
+
+// Whether an edge at a vertex leads towards a point. It is asked of static bodies alone: in a soft one pressed flat, vertices that lie a
+// little deeper than their neighbours change from step to step, and all of them have to be held.
+bool leads_to(IN(real3) edge, IN(real3) away) { return dot(away, edge) > real(1e-5) * length(away) * length(edge); }
+
+// Whether a triangle or an edge at the vertex is nearer to a point than the vertex is. `away` leads from the vertex to the point. It looks
+// at the vertex's own triangle and at those across its two edges.
+bool is_nearer_to_its_faces(IN(Pair) p, uint corner, IN_ARRAY(real3, places, 6), IN(real3) away, real part) {
+  uint face = corner / 3u, k = corner % 3u, before = k == 0u ? 2u : k - 1u, after = k == 2u ? 0u : k + 1u;
+  if (leads_to(places[3u * face + before] - places[corner], away) || leads_to(places[3u * face + after] - places[corner], away)) return true;
+  uint t = face == 0u ? p.first : p.second, across_next = triangle_neighbor[corner_of(t, k)], across_last = triangle_neighbor[corner_of(t, before)];
+  if (across_next != no_vertex && leads_to(place_of(p, across_next, part) - places[corner], away)) return true;
+  return across_last != no_vertex && leads_to(place_of(p, across_last, part) - places[corner], away);
+}
+
+// Whether other features of the two meshes are nearer to each other than the vertex and the triangle. Without this, what slides over a flat
+// mesh would meet triangles ahead by tilted normals, and be braked.
+bool is_nearer_to_others(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, places, 6), real part) {
+  real3 w = -real3(f.weight.y, f.weight.z, f.weight.w) / f.weight.x;
+  uint face = f.corner.y / 3u;
+  real3 closest = w.x * places[f.corner.y] + w.y * places[f.corner.z] + w.z * places[f.corner.w];
+  real3 away = places[f.corner.x] - closest;
+  bool is_static = surface[uint(rest_position[p.vertex[f.corner.x]].w)].inverse_mass == double(0);
+  if (is_static && is_nearer_to_its_faces(p, f.corner.x, places, -away, part)) return true;
+  // edge k lies across from corner k + 2, so it has the point where that corner has no weight
+  if (w.z == real(0) && is_nearer_across(p, face, 0u, places, closest, away, part)) return true;
+  if (w.x == real(0) && is_nearer_across(p, face, 1u, places, closest, away, part)) return true;
+  return w.y == real(0) && is_nearer_across(p, face, 2u, places, closest, away, part);
 }
 
 Feature two_edges(uint j, uint k, IN_ARRAY(real3, p, 6), OUT(bool) crosses) {
@@ -148,12 +204,24 @@ void meet_vertex(IN(Pair) p, uint corner, real side) {
   Feature f = vertex_and_triangle(corner, side, p.place);
   real part;
   if (!is_foreseen(p, f, part)) {
-    consider(p, f);
+    if (!is_nearer_to_others(p, f, p.place, real(0))) consider(p, f);
     return;
   }
   real3 later[6];
   for (uint k = 0u; k < 6u; ++k) later[k] = p.place[k] + part * p.way[k];
-  consider_later(p, vertex_and_triangle(corner, side, later), later);
+  f = vertex_and_triangle(corner, side, later);
+  if (!is_nearer_to_others(p, f, later, part)) consider_later(p, f, later);
+}
+
+// Whether a triangle at one of the two edges is nearer to the other edge's point. Then a vertex has the contact, and not these edges.
+bool is_nearer_to_faces(IN(Pair) p, uint j, uint k, IN(Feature) f, IN_ARRAY(real3, places, 6), real part) {
+  real3 on_first = f.weight.x * places[f.corner.x] + f.weight.y * places[f.corner.y];
+  real3 on_second = -(f.weight.z * places[f.corner.z] + f.weight.w * places[f.corner.w]);
+  real3 away = on_first - on_second;
+  uint third_of_first = j == 0u ? 2u : j - 1u, third_of_second = k == 0u ? 5u : 2u + k;
+  if (leans_over(places[third_of_first] - on_first, places[f.corner.y] - places[f.corner.x], -away)) return true;
+  if (leans_over(places[third_of_second] - on_second, places[f.corner.w] - places[f.corner.z], away)) return true;
+  return is_nearer_across(p, 0u, j, places, on_first, -away, part) || is_nearer_across(p, 1u, k, places, on_second, away, part);
 }
 
 void meet_edges(IN(Pair) p, uint j, uint k) {
@@ -161,13 +229,13 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   Feature f = two_edges(j, k, p.place, crosses);
   real part;
   if (!is_foreseen(p, f, part)) {
-    if (crosses) consider(p, f);
+    if (crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) consider(p, f);
     return;
   }
   real3 later[6];
   for (uint n = 0u; n < 6u; ++n) later[n] = p.place[n] + part * p.way[n];
   f = two_edges(j, k, later, crosses);
-  if (crosses) consider_later(p, f, later);
+  if (crosses && !is_nearer_to_faces(p, j, k, f, later, part)) consider_later(p, f, later);
 }
 
 // Whether the triangles come so near each other in the step, as far as the boxes of their expected ways tell.

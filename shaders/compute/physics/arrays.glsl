@@ -64,6 +64,7 @@ ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex
 ARRAY(surplus, double, vertex, carried, "[2][vertex][3] mean velocity in the last step less the velocity at its start [m/s], then that of the step before")
 ARRAY(cage, vec4, vertex, step, "[vertex][2] lower, upper: where the vertex stays in the step [m]")
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
+ARRAY(triangle_neighbor, uint, triangle, fixed, "[triangle][3] in leaf order: the third vertex of the triangle across each edge, or 0xffffffff")
 ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in leaf order; pairs are in no fixed order")
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
 ARRAY(contact, real, contact, step, "[contact][4][4] physics/contact/contact.glsl has the rows")

@@ -1,6 +1,7 @@
 #include "collision/responses/impulse.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -48,6 +49,25 @@ std::vector<std::uint32_t> owned_features(const Forest& forest) {
   return owns;
 }
 
+// Returns [triangle][3], in leaf order: the third vertex of the triangle across the edge from corner k to the next. Edges of more
+// than two triangles have none.
+std::vector<std::uint32_t> neighbors_of(const Forest& forest) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> thirds;
+  const auto edge = [](const std::array<std::uint32_t, 3>& corners, std::size_t k) {
+    return std::pair(std::minmax(corners[k], corners[(k + 1) % 3]));
+  };
+  for (const auto& corners : forest.triangles)
+    for (std::size_t k = 0; k < 3; ++k) thirds[edge(corners, k)].push_back(corners[(k + 2) % 3]);
+  std::vector<std::uint32_t> neighbors;
+  for (const auto& corners : forest.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::vector<std::uint32_t>& both = thirds[edge(corners, k)];
+      const bool has_one = both.size() == 2;
+      neighbors.push_back(has_one ? (both[0] == corners[(k + 2) % 3] ? both[1] : both[0]) : physics::no_vertex);
+    }
+  return neighbors;
+}
+
 class Impulse final : public Response {
  public:
   explicit Impulse(const ResponseSetting& setting)
@@ -91,6 +111,7 @@ class Impulse final : public Response {
     arrays.make<glm::uvec2>("outside_sum", 3);
     arrays.make<double>("outside_impulse", 3);
     arrays.make("triangle_owns", owned_features(setting.forest));
+    arrays.make("triangle_neighbor", neighbors_of(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("expected", 3 * vertices);
     arrays.make<double>("surplus", 6 * vertices);

@@ -228,6 +228,25 @@ TEST_CASE("a cube stays on a slope with enough friction, and slides with less as
   CHECK(acceleration == Approx(9.81 * (std::sin(angle) - 0.2 * std::cos(angle))).epsilon(0.02));
 }
 
+TEST_CASE("a flat mesh of many triangles does not brake what slides on it without friction") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("cube:10"), "plate"), soft(generate_mesh("cube:3"), "cube")};
+  setups[0].description.kind = BodyKind::immovable;
+  setups[0].description.scale = 4;
+  setups[1].description.position = {-1, 2.52, 0.1};
+  setups[1].description.velocity = {2, 0, 0.3};
+  setups[1].description.total_stiffness = 2e4;
+  const ModelAndState start = build_model(setups, {0, -9.81, 0});
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.002}),
+                        {.response = {"impulse"}, .elasticity = 0, .friction = 0});
+  simulation.advance(250);
+  ThreadPool pool(1);
+  const glm::dvec3 momentum = measure(start.model, simulation.state(), glm::dvec3(0.0), pool).momentum;
+  CHECK(simulation.report().contact_steps > 200);
+  CHECK(momentum.x == Approx(2).epsilon(1e-4));
+  CHECK(momentum.z == Approx(0.3).epsilon(1e-3));
+}
+
 TEST_CASE("a static body stays where it is, has no energy and bears others") {
   std::vector<BodySetup> setups = {soft(generate_mesh("cube:2"), "plate"), soft(generate_mesh("icosphere:1"), "ball")};
   setups[0].description.kind = BodyKind::immovable;
