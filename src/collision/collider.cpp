@@ -3,9 +3,10 @@
 namespace pliant {
 namespace {
 
-std::unique_ptr<Response> make_response(const ResponseSetting& setting) {
+// The name has to be right even where there is nothing to touch.
+std::unique_ptr<Response> make_response(const ResponseSetting& setting, bool has_contacts) {
   const ResponseRow* const row = find_response(setting.description.response);
-  return row == nullptr ? nullptr : row->make(setting);
+  return row == nullptr || !has_contacts ? nullptr : row->make(setting);
 }
 
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
@@ -22,8 +23,8 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_(searches() || !model.grounds.empty() ? make_response({bodies, model, description, forest_, body_pairs_, trees_})
-                                                     : nullptr) {}
+      response_(make_response({bodies, model, description, forest_, body_pairs_, trees_}, searches() || !model.grounds.empty())) {
+}
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
 

@@ -113,8 +113,10 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);
-  expect_apart(*run.simulation, run.start.model, run.scene.file.string());
-  warn_of_overlap(run);
+  if (keeps_apart(*run.simulation))
+    expect_apart(*run.simulation, run.start.model, run.scene.file.string());
+  else
+    warn_of_overlap(run);
   warn_of_masses(run);
   run.build_time.stop();
   return prepared;

@@ -79,9 +79,10 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   return {};
 }
 
-std::optional<std::string> lost_time_of(const StepReport& report) {
+std::optional<std::string> contact_trouble_of(const StepReport& report) {
   if (report.held_parts > 0)
-    return fmt::format("no body moved in {} parts of steps, because there were too many contacts to solve", report.held_parts);
+    return fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
+                       report.held_parts);
   if (report.time_lost == 0) return {};
   return fmt::format("bodies came near each other so fast that {:.3g} s were lost in steps; shorten the time step",
                      report.time_lost);
@@ -128,7 +129,7 @@ Summary summary_of(const RunStatus& status) {
   for (const auto& [pass, seconds] : run.simulation->pass_seconds())
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
-  if (const auto lost = lost_time_of(report)) s.warnings.push_back(*lost);
+  if (const auto trouble = contact_trouble_of(report)) s.warnings.push_back(*trouble);
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
   s.version = version();
   return s;

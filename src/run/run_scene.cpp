@@ -256,7 +256,7 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
-    if (const auto lost_time = lost_time_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *lost_time);
+    if (const auto trouble = contact_trouble_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *trouble);
     if (const auto what = instability_of(status()))
       fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
     if (lost) throw *lost;

@@ -46,9 +46,13 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
   return fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names);
 }
 
-void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
+bool keeps_apart(const Simulation& simulation) {
   const Response* const response = simulation.collider().response();
-  if (response == nullptr || !response->keeps_apart()) return;
+  return response != nullptr && response->keeps_apart();
+}
+
+void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
+  if (!keeps_apart(simulation)) return;
   expect_above_grounds(model, simulation.state(), place);
   if (const std::string overlap = told_overlap(simulation, model); !overlap.empty())
     throw Error(ErrorKind::input, place, overlap, way_apart);

@@ -9,6 +9,9 @@ namespace pliant {
 /// Returns which bodies intersect, with the number of triangle pairs, or nothing if none do. Names at most eight.
 [[nodiscard]] std::string told_overlap(Simulation& simulation, const Model& model);
 
+/// Returns whether the scene's response keeps bodies apart.
+[[nodiscard]] bool keeps_apart(const Simulation& simulation);
+
 /// Throws Error (input) that blames `place` if bodies intersect, or stand in a ground, though the scene's response keeps them
 /// apart.
 void expect_apart(Simulation& simulation, const Model& model, const std::string& place);

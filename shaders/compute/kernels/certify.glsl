@@ -5,8 +5,6 @@
 #include "../physics/contact/separation.glsl"
 #include "../physics/contact/surface.glsl"
 SHARED_WRITE(contact_list)
-READ(rest_position)
-READ(surface)
 READ(triangle)
 READ(triangle_pair)
 READ(start)
@@ -48,8 +46,8 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
   }
-  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world, and
-  // those about a body's centre that they come from, err by some roundings in fp64.
+  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world, and those about a body's centre that they
+  // come from, err by some roundings in fp64.
   c.motion.margin = real(8) * real_epsilon * size + real(double(32) * double(1.1e-16) * (far + double(size)));
   return c;
 }

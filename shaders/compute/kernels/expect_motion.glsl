@@ -23,9 +23,15 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
+void empty_lists() {
+  contact_list[0].triangle_pair_count = 0u;
+  contact_list[0].contact_count = 0u;
+  contact_list[0].uncertified = 0u;
+  contact_list[0].changed_rounds = 0u;
+  contact_list[0].arrivals = 0u;
+}
+
 void expect_motion(uint i) {
-  if (i == 0u) contact_list[0].triangle_pair_count = contact_list[0].contact_count = contact_list[0].uncertified = contact_list[0].changed_rounds =
-                     contact_list[0].arrivals = 0u;
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 velocity = rotate(pose[b], LOAD3(motion, velocity_of(at)));
@@ -35,6 +41,7 @@ void expect_motion(uint i) {
   if (i == 0u) {
     control[0].time_step = time_step;
     contact_list[0].longer = longer;
+    empty_lists();
   }
   dvec3 mean = velocity + longer * (latest + double(0.5) * (latest - before));
   STORE3(start, start_position_of(i), position)

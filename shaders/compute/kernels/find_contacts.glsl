@@ -5,7 +5,6 @@
 #include "../physics/layout.glsl"
 #include "../physics/contact/contact.glsl"
 READ(control)
-WRITE(contact_list)
 READ(rest_position)
 READ(surface)
 READ(triangle)
@@ -16,13 +15,8 @@ READ(start)
 READ(expected)
 READ(surplus)
 READ(last_cut)
-WRITE(contact_vertex)
-WRITE_AS(contact, real4, contact_row)
-WRITE_AS(contact_impulse, real4, impulse_row)
-WRITE(contact_weight)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
-PARAMETER(uint, contact_capacity)
 PARAMETER(uint, pairs_at_once)
 
 #include "parts/add_contact.glsl"

@@ -11,13 +11,7 @@ READ(start)
 READ(expected)
 READ(surplus)
 READ(last_cut)
-WRITE(contact_list)
-WRITE(contact_vertex)
-WRITE_AS(contact, real4, contact_row)
-WRITE_AS(contact_impulse, real4, impulse_row)
-WRITE(contact_weight)
 PARAMETER(uint, vertex_count)
-PARAMETER(uint, contact_capacity)
 PARAMETER(uint, ground_count)
 #include "parts/add_contact.glsl"
 

@@ -18,6 +18,14 @@ TEST_CASE("a response that there is not is an error that lists those there are")
   check_says(error, {"scene.toml:2: collision.response", "bounce", "none, reflect"});
 }
 
+TEST_CASE("a response that there is not is an error where a lone body has nothing to touch, too") {
+  const auto device = make_cpu_device(1, 32);
+  const ModelAndState start = built(sphere(0));
+  const TimePlan plan = plan_of(Method{"verlet", 0.01});
+  CHECK_THROWS_AS(Simulation(*device, start.model, start.state, plan, {.response = {"bounce"}}), Error);
+  CHECK_NOTHROW(Simulation(*device, start.model, start.state, plan, {.response = {"impulse"}}));
+}
+
 struct Outcome {
   State state;
   StepReport report;

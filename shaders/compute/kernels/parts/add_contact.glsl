@@ -1,3 +1,11 @@
+// What kernels that find contacts share: the list of contacts, and how one is added.
+WRITE(contact_list)
+WRITE(contact_vertex)
+WRITE_AS(contact, real4, contact_row)
+WRITE_AS(contact_impulse, real4, impulse_row)
+WRITE(contact_weight)
+PARAMETER(uint, contact_capacity)
+
 // Lists a contact of up to four vertices. `goal` is that of the velocity across the normal [m/s].
 void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real3) goal, real friction) {
   uint at = atomicAdd(contact_list[0].contact_count, 1u);
