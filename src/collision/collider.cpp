@@ -15,7 +15,7 @@ std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> 
 
 }  // namespace
 
-Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
+Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description, StepLengths step_lengths,
                    std::optional<std::uint32_t> parallel_items)
     : description_(description),
       body_count_(bodies.body_count),
@@ -23,8 +23,8 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_(make_response({bodies, model, description, forest_, body_pairs_, trees_}, searches() || !model.grounds.empty())) {
-}
+      response_(make_response({bodies, model, description, forest_, body_pairs_, trees_, step_lengths},
+                              searches() || !model.grounds.empty())) {}
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
 

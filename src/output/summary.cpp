@@ -29,12 +29,8 @@ Json energy_json(const Summary& summary) {
 }
 
 Json contacts_json(const Summary& summary) {
-  const auto& [steps, pairs_max, reverted_vertices, substeps, time_lost] = summary.contacts;
-  return {{"steps", steps},
-          {"pairs_max", pairs_max},
-          {"reverted_vertices", reverted_vertices},
-          {"substeps", substeps},
-          {"time_lost", time_lost}};
+  const auto& [steps, pairs_max, reverted_vertices, substeps] = summary.contacts;
+  return {{"steps", steps}, {"pairs_max", pairs_max}, {"reverted_vertices", reverted_vertices}, {"substeps", substeps}};
 }
 
 Json work_json(const Summary& summary) {

@@ -42,7 +42,6 @@ struct Summary {
     std::uint64_t pairs_max = 0;          // most triangle pairs in one step
     std::uint64_t reverted_vertices = 0;  // sum over the run
     std::uint64_t substeps = 0;           // parts that steps fell into, beyond one each
-    double time_lost = 0;                 // [s]
   } contacts;
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite
   bool non_finite = false;

@@ -80,12 +80,9 @@ std::optional<std::string> instability_of(const RunStatus& status) {
 }
 
 std::optional<std::string> contact_trouble_of(const StepReport& report) {
-  if (report.held_parts > 0)
-    return fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
-                       report.held_parts);
-  if (report.time_lost == 0) return {};
-  return fmt::format("bodies came near each other so fast that {:.3g} s were lost in steps; shorten the time step",
-                     report.time_lost);
+  if (report.held_parts == 0) return {};
+  return fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
+                     report.held_parts);
 }
 
 Summary summary_of(const RunStatus& status) {
@@ -109,7 +106,7 @@ Summary summary_of(const RunStatus& status) {
   s.energy = {progress.first.energy(), progress.latest.energy(), {}};
   if (run.plan.damping_law == DampingLaw::none && report.contact_steps == 0)
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
-  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices, report.substeps, report.time_lost};
+  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices, report.substeps};
   if (report.non_finite)
     s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   else

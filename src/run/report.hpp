@@ -20,7 +20,7 @@ struct RunStatus {
 /// Describes a breakdown or growing energy, or returns nothing. A step beyond its bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
 
-/// Says that bodies were held, or how much time steps have lost because bodies came near each other too fast, or returns nothing.
+/// Says how often bodies were held, or returns nothing.
 [[nodiscard]] std::optional<std::string> contact_trouble_of(const StepReport& report);
 
 /// Returns the summary. Unless the state is non-finite, it searches for the triangles that intersect at the end.

@@ -88,17 +88,11 @@ class Run {
 
   void run_fixed() {
     std::uint64_t step = progress_.recorded_steps;
-    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= last_step()) {
+    while (!stopped() && (step = run_.plan.next_frame_step(step)) <= run_.plan.steps) {
       advance_to(step);
       if (report_.steps == step) write_frame();
     }
-    while (!stopped() && report_.steps < last_step()) advance_to(last_step());
-  }
-
-  // Steps that lost time are made up for by more of them, unless the command line asks for so many steps.
-  std::uint64_t last_step() const {
-    if (options_.steps) return run_.plan.steps;
-    return run_.plan.steps + static_cast<std::uint64_t>(std::llround(report_.time_lost / run_.plan.time_step));
+    while (!stopped() && report_.steps < run_.plan.steps) advance_to(run_.plan.steps);
   }
 
   void run_adaptive() {

@@ -54,7 +54,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       bodies_(device, model, start),
       stepper_(bodies_, model, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
-      collider_(bodies_, model, collision),
+      collider_(bodies_, model, collision, plan.tolerance ? StepLengths::varying : StepLengths::fixed),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {
     pacer_.emplace(
@@ -98,12 +98,11 @@ const DeviceArray<physics::StepParts>* Simulation::parts() const {
 
 void Simulation::add_parts(StepReport& report) const {
   const physics::StepParts made = parts()->download().front();
-  report.steps = made.steps;
-  report.time =
-      made.lost == 0 && made.eighths_left == physics::eighths ? static_cast<double>(made.steps) * fixed_step_ : made.simulated;
-  report.substeps = made.parts - made.steps;
-  report.time_lost = made.lost;
   report.held_parts = made.held;
+  if (pacer_) return;
+  report.steps = made.steps;
+  report.time = made.left == physics::smallest_parts ? static_cast<double>(made.steps) * fixed_step_ : made.simulated;
+  report.substeps = made.parts - made.steps;
 }
 
 StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {

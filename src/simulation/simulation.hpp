@@ -49,8 +49,7 @@ struct StepReport {
   std::uint64_t contact_steps = 0;      // steps with a pair
   std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
   std::uint64_t reverted_vertices = 0;
-  std::uint64_t substeps = 0;       // parts that steps fell into where bodies came near each other fast, 0 if none did
-  double time_lost = 0;             // that steps left out where even an eighth of them was too long [s]
+  std::uint64_t substeps = 0;       // parts that steps of a fixed length fell into, beyond one each
   std::uint64_t held_parts = 0;     // parts of steps in which no body moved, because contacts were too many or not proven apart
   glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
   std::uint64_t force_evaluations = 0;  // one evaluation is all forces of one body
@@ -81,7 +80,9 @@ class Simulation {
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a non-finite step nothing moves.
   void advance(std::uint64_t steps);
-  /// Does the same with a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits
+  /// Queues the next part of a step. It is a whole step unless the response divides it.
+  void advance_part() { queue(1); }
+  /// With a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits
   /// and reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
   /// how many steps are queued at a time.
   StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);

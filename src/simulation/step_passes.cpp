@@ -51,6 +51,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
     if (searches) step.add(collider.search_passes(half));
     if (searches) step.add(pacer->contact_pass(from_half));
     step.add(pacer->judging_passes(from_half));
+    if (response != nullptr && !searches) step.add(response->after_step(from_half));
     add_following(step, stepper, from_half);
   } else if (searches && collider.uses_trees()) {
     add_search_while_following(step, stepper, collider, from_half);

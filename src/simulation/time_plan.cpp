@@ -98,15 +98,10 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin&
                   rates.size() <= Stepper::most_drags(find_integrator("dprkn8")) ? "dprkn8" : "dop853"));
 }
 
-// Kicks change velocities between steps, so steps of a tolerance would have to be undone with their kicks.
 void expect_response_fits(const TimePlan& plan, const SceneDescription& scene) {
   if (scene.collision.response.value != "impulse") return;
-  const SimulationDescription& simulation = scene.simulation;
-  if (plan.tolerance)
-    throw Error(simulation.tolerance_where, "contact by impulses takes steps of a fixed length so far, which a tolerance varies",
-                "give a time_step instead, or write response = \"reflect\" in [collision]");
   if (plan.damping_law != DampingLaw::none && std::holds_alternative<Nystrom>(plan.integrator->method))
-    throw Error(simulation.integrator.where,
+    throw Error(scene.simulation.integrator.where,
                 fmt::format("{} meets damping only with steps of one length, and contact by impulses divides them",
                             plan.integrator->name),
                 "choose another integrator, such as verlet, or set damping_law = \"none\"");

@@ -25,7 +25,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step),
-        collider(bodies, start.model, collision, 256),  // every device cuts its searches alike
+        collider(bodies, start.model, collision, StepLengths::fixed, 256),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.all_stages_at_once = false;  // every device runs stages one by one
@@ -37,7 +37,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(bodies, start.model, collision, 256),
+        collider(bodies, start.model, collision, StepLengths::varying, 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.all_stages_at_once = false;
@@ -139,8 +139,7 @@ std::vector<double> numbers_of(const physics::ContactList& list) {
 }
 
 std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full,          parts.last,          parts.simulated,       parts.lost, double(parts.eighths_left),
-          double(parts.steps), double(parts.parts), double(parts.halvings)};
+  return {parts.full, parts.last, parts.simulated, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 std::multiset<std::pair<std::uint32_t, std::uint32_t>> as_set(const std::vector<glm::uvec2>& pairs, std::size_t count) {

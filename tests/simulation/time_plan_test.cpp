@@ -175,7 +175,7 @@ TEST_CASE("steps too long for a Nystrom method to resolve the damping are an inp
   }
 }
 
-TEST_CASE("contact by impulses takes fixed steps of any method that they can be divided for") {
+TEST_CASE("contact by impulses takes any method whose steps can be divided") {
   BodySetup setup = sphere(0);
   setup.description.damping = 0.01;
   const Model model = built(setup).model;
@@ -184,10 +184,9 @@ TEST_CASE("contact by impulses takes fixed steps of any method that they can be 
   check_says(error_of([&] { return plan_time(scene, model); }), {"scene.toml:3", "dprkn8", "choose another integrator"});
   scene.simulation.damping_law = DampingLaw::none;
   CHECK_NOTHROW(plan_time(scene, model));
+  scene.simulation.damping_law = DampingLaw::constant;
   scene.simulation.integrator.value = "dop853";
-  scene.simulation.tolerance = 1e-6;
-  scene.simulation.tolerance_where = {Origin::From::file, "scene.toml:4: simulation.tolerance"};
-  check_says(error_of([&] { return plan_time(scene, model); }), {"scene.toml:4", "fixed length", "reflect"});
+  CHECK_NOTHROW(plan_time(scene, model));
 }
 
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {

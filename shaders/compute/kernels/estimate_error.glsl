@@ -33,7 +33,7 @@ void estimate_error(uint i) {
   uint first = max(bits_of(of_position * position), bits_of(of_velocity * velocity));
   uint second = max(bits_of(of_position * second_position), bits_of(of_velocity * second_velocity));
   uint error = joined_error(first, second);
-  atomicMax(pace[0].error, error);
+  RAISE_TO(pace[0].error, error)
   // If the error ends the run, the first such vertex is noted. If the step is undone, so is the note.
   if (failure_of(pace[0], h, error) != no_failure) atomicMin(status[b].non_finite_vertex, i);
 }

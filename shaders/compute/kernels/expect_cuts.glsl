@@ -1,13 +1,17 @@
 // One thread serves one vertex after the integrator. It finds the way that the vertex went, and the part of it that stays in its cage.
+// If a step was undone, it takes the kick back.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"
+READ(control)
 READ(pose)
 READ(surface)
 READ(rest_position)
-READ(motion)
+WRITE(motion)
 READ(start)
+READ(unkicked)
 READ(cage)
 READ(ground)
 WRITE(contact_list)
@@ -21,6 +25,8 @@ PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
 #include "parts/quantum.glsl"
+
+bool was_made() { return control[0].time_step > double(0); }
 
 // The part of a way along one axis that ends before the wall.
 double part_to(double from, double along, double lower, double upper) {
@@ -38,7 +44,7 @@ double part_above(uint g, dvec3 from, dvec3 gone, double gap) {
 // What static bodies and grounds have given in this step.
 void tell_outside_impulse() {
   for (uint k = 0u; k < 3u; ++k) {
-    outside_impulse[k] += quantum() * whole_of(outside_sum[k]);
+    if (was_made()) outside_impulse[k] += quantum() * whole_of(outside_sum[k]);
     outside_sum[k] = uvec2(0u);
   }
 }
@@ -52,6 +58,7 @@ void expect_cuts(uint i) {
   uint before = displacement_of(in_half(from_half, vertex_count, i)), after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);
   dvec3 gone = dvec3(0);
+  if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked, force_of(i)))
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
   STORE3(way, force_of(i), gone)
   dvec3 from = LOAD3(start, start_position_of(i));

@@ -14,6 +14,7 @@ READ(rest_position)
 READ(motion)
 READ(surplus)
 WRITE(start)
+WRITE(unkicked)
 WRITE(expected)
 WRITE(cage)
 WRITE(contact_list)
@@ -34,7 +35,7 @@ void empty_lists() {
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
-  dvec3 velocity = rotate(pose[b], LOAD3(motion, velocity_of(at)));
+  dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
   double time_step = next_part(step_parts[0]);
   double longer = step_parts[0].last > double(0) ? time_step / step_parts[0].last : double(1);
@@ -46,6 +47,7 @@ void expect_motion(uint i) {
   dvec3 mean = velocity + longer * (latest + double(0.5) * (latest - before));
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
+  STORE3(unkicked, force_of(i), in_frame)
   STORE3(expected, force_of(i), mean)
   dvec3 reach = abs(time_step * mean);
   if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_in_edges() * surface[b].edge);
@@ -58,5 +60,6 @@ void expect_motion(uint i) {
     bound(i, b, k, float(lower[int(k)]));
     bound(i, b, k, float(upper[int(k)]));
   }
-  if (surface[b].inverse_mass != double(0)) atomicMax(contact_list[0].fastest, floatBitsToUint(float(length(mean))));
+  uint speed = floatBitsToUint(float(length(mean)));
+  if (surface[b].inverse_mass != double(0)) RAISE_TO(contact_list[0].fastest, speed)
 }

@@ -13,6 +13,9 @@ void judge_step(uint item) {
     p.verdict = step_empty;
   else
     judge(p, control[0].time_step);
-  if (p.verdict == step_rejected) control[0].count[contact_pairs] = 0u;
+  if (p.verdict == step_rejected) {
+    control[0].count[contact_pairs] = 0u;
+    control[0].time_step = double(0);
+  }
   pace[item] = p;
 }

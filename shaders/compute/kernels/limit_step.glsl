@@ -1,4 +1,4 @@
-// One thread compares two bodies, and finds how often the step has to be halved. Between two of them no two vertices may come nearer than
+// One thread compares two bodies, and bounds the length of the step. Between two of them no two vertices may come nearer than
 // their distance and a quarter edge beyond. A body that was pressed a while ago has a bound of its own.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
@@ -44,7 +44,5 @@ void limit_step(uint item) {
     double speed = approach(a, b), room = distance_of_boxes(a, b) + double(0.25) * edge;
     if (speed * longest > room) longest = room / speed;
   }
-  uint halvings = 0u;
-  for (double length = step_parts[0].full; length > longest && halvings < most_halvings; length *= double(0.5)) ++halvings;
-  if (halvings != 0u) atomicMax(step_parts[0].halvings, halvings);
+  if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
 }

@@ -1,7 +1,11 @@
 // One thread serves one vertex at a step's start. It extends the boxes of its body's places and of its expected velocities.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/parts.glsl"
+READ(control)
+WRITE(step_parts)
 READ(pose)
 READ(rest_position)
 READ(motion)
@@ -14,13 +18,15 @@ PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
 void measure_motion(uint i) {
+  if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
   dvec3 mean = rotate(pose[b], LOAD3(motion, velocity_of(at))) + (latest + double(0.5) * (latest - before));
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
-    atomicMin(body_motion[b].lower[k], ordered_bits(float(mean[int(k)])));
-    atomicMax(body_motion[b].upper[k], ordered_bits(float(mean[int(k)])));
+    uint bits = ordered_bits(float(mean[int(k)]));
+    LOWER_TO(body_motion[b].lower[k], bits)
+    RAISE_TO(body_motion[b].upper[k], bits)
   }
 }

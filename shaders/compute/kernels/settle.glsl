@@ -48,10 +48,11 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }
 
-void end_step_part() {
+void end_step_part(bool is_made) {
   StepParts p = step_parts[0];
-  end_part(p);
-  if (holds_all()) p.held += 1u;
+  if (is_made) end_part(p);
+  if (is_made && holds_all()) p.held += 1u;
+  p.longest = no_bound;
   step_parts[0] = p;
 }
 
@@ -59,7 +60,7 @@ void end_step_part() {
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
     contact_list[0].fastest = 0u;
-    if (control[0].non_finite_step == 0u) end_step_part();
+    end_step_part(control[0].non_finite_step == 0u && control[0].time_step > double(0));
   }
   if (i != body[b].first_vertex) return;
   if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;

@@ -60,6 +60,7 @@ ARRAY(outside_sum, uvec2, run, step, "[3] sum of impulses on bodies, in quanta, 
 ARRAY(outside_impulse, double, run, carried, "[3] the same of all steps so far [Ns]")
 ARRAY(triangle_owns, uint, triangle, fixed, "in leaf order: bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")
 ARRAY(start, double, vertex, step, "[vertex][6] where the vertex is at the step's start [m], and its velocity before the kick [m/s], in the world")
+ARRAY(unkicked, double, vertex, step, "[vertex][3] velocity before the kick, in the body's frame [m/s]")
 ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex is expected to have in the step, without a kick [m/s]")
 ARRAY(surplus, double, vertex, carried, "[2][vertex][3] mean velocity in the last step less the velocity at its start [m/s], then that of the step before")
 ARRAY(cage, vec4, vertex, step, "[vertex][2] lower, upper: where the vertex stays in the step [m]")

@@ -26,7 +26,7 @@ const uint pairs_beyond_capacity = 8u;  // the list of leaf pairs was full, so t
 const uint counter_count = 9u;
 
 struct Control {
-  double time_step;        // of the step being made [s], 0 if the step is empty
+  double time_step;        // of the step being made [s], 0 if the step is empty or was undone
   uint step;               // the step being made, from 1
   uint non_finite_step;    // 0: none so far
   uint non_finite_vertex;  // the first one, or no_vertex

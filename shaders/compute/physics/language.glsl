@@ -41,6 +41,7 @@
   #define CONSTANTS(name, count) const array::name::element* const name = arguments.constants<array::name::element>(#name);
   #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
+  #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
 #else
   #define real float
   #define real_epsilon 1.1920929e-7  // 2^-23
@@ -58,7 +59,13 @@
   #define EXACT precise                 // every operation rounds by itself, in the order written
   #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
+  #define ATOMIC_LOAD(target) (target)
 #endif
+
+// A minimum and a maximum of many threads. Most of them would change nothing, and leave the atomic out. An older value than the latest
+// only makes them do it after all.
+#define LOWER_TO(target, value) if ((value) < ATOMIC_LOAD(target)) atomicMin(target, value);
+#define RAISE_TO(target, value) if ((value) > ATOMIC_LOAD(target)) atomicMax(target, value);
 
 // Flat arrays of doubles hold three numbers a vector, because std430 and C++ disagree on arrays of dvec3.
 #define LOAD3(array, first) dvec3((array)[(first)], (array)[(first) + 1u], (array)[(first) + 2u])

@@ -34,8 +34,8 @@ struct DrawRow {
   std::uint32_t width = 0, height = 0;        // [pixels]
   double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock
   double fastest_milliseconds_per_frame = 0;  // the fastest batch
-  /// share_lost of steps from the start. It is empty if a picture or a step alone takes longer than a sixtieth of a second, or if
-  /// steps became non-finite.
+  /// share_lost of steps from the start. It is empty if the measurement is quick, if a picture or a step alone takes longer than
+  /// a sixtieth of a second, or if steps became non-finite.
   std::optional<double> steps_lost;
   std::vector<std::pair<std::string, double>> milliseconds;  // median of each pass over frames with a mark after each pass
 };

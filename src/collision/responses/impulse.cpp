@@ -75,6 +75,7 @@ class Impulse final : public Response {
         body_pairs_(setting.body_pairs),
         trees_(setting.trees),
         has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
+        divides_steps_(setting.step_lengths == StepLengths::fixed),
         items_at_once_(std::max(setting.bodies.arrays.device().parallel_items(), least_threads)) {
     Arrays& arrays = setting.bodies.arrays;
     const std::size_t vertices = bodies_.vertex_count;
@@ -98,14 +99,13 @@ class Impulse final : public Response {
     parts_ = &arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
                                                                          .last = 0,
                                                                          .simulated = 0,
-                                                                         .lost = 0,
-                                                                         .eighths_left = physics::eighths,
+                                                                         .left = physics::smallest_parts,
+                                                                         .longest = physics::no_bound,
                                                                          .steps = 0,
                                                                          .parts = 0,
-                                                                         .halvings = 0,
                                                                          .held = 0,
-                                                                         .padding = 0}});
-    arrays.set_parameter("parts_of", time_step_);
+                                                                         .divides = divides_steps_ ? 1u : 0u}});
+    if (divides_steps_) arrays.set_parameter("parts_of", time_step_);
     arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
     arrays.make<glm::uvec2>("outside_sum", 3);
@@ -113,6 +113,7 @@ class Impulse final : public Response {
     arrays.make("triangle_owns", owned_features(setting.forest));
     arrays.make("triangle_neighbor", neighbors_of(setting.forest));
     arrays.make<double>("start", 6 * vertices);
+    arrays.make<double>("unkicked", 3 * vertices);
     arrays.make<double>("expected", 3 * vertices);
     arrays.make<double>("surplus", 6 * vertices);
     arrays.make<glm::vec4>("cage", 2 * vertices);
@@ -194,7 +195,7 @@ class Impulse final : public Response {
   const DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
-  bool has_pairs_;
+  bool has_pairs_, divides_steps_;
   std::uint32_t items_at_once_, ground_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;

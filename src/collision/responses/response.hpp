@@ -25,7 +25,7 @@ class Response {
   virtual ~Response() = default;
   /// Returns passes that run before the step's stages, with the state in this half.
   [[nodiscard]] virtual std::vector<Pass> before_step(std::uint32_t /*from_half*/) const { return {}; }
-  /// Returns how the scene's steps have fallen into parts, or null if each step is one part.
+  /// Returns how the scene's steps of a fixed length have fallen into parts, or null if each step is one part.
   [[nodiscard]] virtual const DeviceArray<physics::StepParts>* step_parts() const { return nullptr; }
   /// Waits for the queued steps.
   [[nodiscard]] virtual ResponseReport report() const { return {}; }
@@ -38,6 +38,8 @@ class Response {
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
 };
 
+enum class StepLengths { fixed, varying };
+
 /// What a response is made for. All but the description must outlive it.
 struct ResponseSetting {
   DeviceBodies& bodies;
@@ -46,6 +48,7 @@ struct ResponseSetting {
   const Forest& forest;
   const BodyPairs& body_pairs;
   const TreeSearch& trees;
+  StepLengths step_lengths;
 };
 
 struct ResponseRow {

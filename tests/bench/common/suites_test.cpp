@@ -219,7 +219,7 @@ TEST_CASE("drawing is timed for every scene, frame and pass", "[gl]") {
     CHECK(row.milliseconds_per_frame >= row.fastest_milliseconds_per_frame);
     CHECK(row.fastest_milliseconds_per_frame > 0);
     CHECK(row.milliseconds.size() >= 5);
-    if (row.milliseconds_per_frame > 1000.0 / 60) CHECK_FALSE(row.steps_lost);  // there are no 60 pictures a second
+    CHECK_FALSE(row.steps_lost);  // a quick measurement can't tell
     for (const auto& [pass, milliseconds] : row.milliseconds) {
       CHECK(milliseconds >= 0);
       CHECK_THAT(table, Catch::Contains(pass));

@@ -7,6 +7,7 @@ void bound(uint i, uint b, uint k, float coordinate) {
     atomicMin(status[b].non_finite_vertex, i);
     return;
   }
-  atomicMin(body_box[b].lower[k], ordered_bits(coordinate));
-  atomicMax(body_box[b].upper[k], ordered_bits(coordinate));
+  uint bits = ordered_bits(coordinate);
+  LOWER_TO(body_box[b].lower[k], bits)
+  RAISE_TO(body_box[b].upper[k], bits)
 }

@@ -1,51 +1,51 @@
-// Parts of a step. Where bodies come near each other fast, or press each other, a scene's step falls into up to eight parts.
+// Parts of a step. If bodies come near each other fast, or press each other, a scene's step falls into as many parts as it takes. With a
+// tolerance steps have no fixed length, and are made shorter instead.
 #ifndef PARTS_GLSL
 #define PARTS_GLSL
 #include "../language.glsl"
 SHARED_BEGIN
 
 struct StepParts {
-  double full;        // length of the scene's steps [s]
-  double last;        // length of the last part [s], 0 before the first one
-  double simulated;   // [s]
-  double lost;        // where even an eighth was too long, this was left out [s]
-  uint eighths_left;  // of the scene's step
-  uint steps;         // complete ones
-  uint parts;         // made so far
-  uint halvings;      // of the full step that the next part needs
-  uint held;          // parts in which no body moved, because lists were too short or proofs were missing
-  uint padding;
+  double full;       // length of the scene's steps, or with a tolerance of the step as errors allow it [s]
+  double last;       // length of the last part [s], 0 before the first one
+  double simulated;  // [s]
+  uint left;         // of the scene's step, in units of the smallest part
+  uint longest;      // bound on the next part [s], as bits of a float
+  uint steps;        // complete ones
+  uint parts;        // made so far
+  uint held;         // parts in which no body moved, because lists were too short or proofs were missing
+  uint divides;      // 1: steps fall into parts; 0: they are made shorter
 };
 
-const uint eighths = 8u;
-const uint most_halvings = 20u;
+// The smallest part of a step is this fraction of it. Motions that would need smaller ones are cut short.
+const uint smallest_parts = 4096u;
 
-// Returns the size of the next part in eighths of a step.
-FN uint next_eighths(IN(StepParts) p) {
-  uint size = p.halvings < 3u ? eighths >> p.halvings : 1u;
-  while (size > p.eighths_left) size /= 2u;
+const uint no_bound = 0x7f800000u;  // bits of infinity
+
+FN double length_of(IN(StepParts) p, uint size) { return p.full * (double(size) / double(smallest_parts)); }
+
+// Returns the size of the next part, in units of the smallest one. It is a power of two.
+FN uint next_size(IN(StepParts) p) {
+  uint size = smallest_parts;
+  double longest = double(uintBitsToFloat(p.longest));
+  while (size > 1u && (size > p.left || length_of(p, size) > longest)) size /= 2u;
   return size;
 }
 
-// Returns the length of the next part [s]. A part that needs more than three halvings is shorter than its eighth.
+// Returns the length of the next part, or of the next step if steps do not fall into parts [s].
 FN double next_part(IN(StepParts) p) {
-  double length = p.full * double(next_eighths(p)) / double(eighths);
-  for (uint k = 3u; k < p.halvings; ++k) length *= double(0.5);
-  return length;
+  if (p.divides != 0u) return length_of(p, next_size(p));
+  return min(p.full, double(uintBitsToFloat(p.longest)));
 }
 
 // Counts a part that was made.
 FN void end_part(INOUT(StepParts) p) {
-  uint size = next_eighths(p);
-  double length = next_part(p);
-  p.last = length;
-  p.simulated += length;
-  p.lost += p.full * double(size) / double(eighths) - length;
-  p.eighths_left -= size;
+  p.last = next_part(p);
+  p.simulated += p.last;
   p.parts += 1u;
-  p.halvings = 0u;
-  if (p.eighths_left != 0u) return;
-  p.eighths_left = eighths;
+  p.left -= p.divides != 0u ? next_size(p) : p.left;
+  if (p.left != 0u) return;
+  p.left = smallest_parts;
   p.steps += 1u;
 }
 
