@@ -263,6 +263,7 @@ void meet(uvec2 triangles) {
 }
 
 void find_contacts(uint item) {
+  if (control[0].time_step == double(0)) return;
   uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
   for (uint k = item; k < count; k += pairs_at_once) meet(triangle_pair[k]);
 }

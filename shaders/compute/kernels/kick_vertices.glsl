@@ -1,10 +1,9 @@
 // One thread gives one vertex the sum of its contacts' impulses, which changes its velocity alone.
 #include "../physics/body.glsl"
-#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/exact_sum.glsl"
+#include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
-READ(control)
 READ(pose)
 READ(surface)
 WRITE(status)
@@ -14,6 +13,7 @@ WRITE(impulse_sum)
 WRITE(contact_weight)
 WRITE(outside_sum)
 WRITE(pressed)
+READ(step_parts)
 READ(contact_list)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
@@ -32,7 +32,7 @@ void kick_vertices(uint i) {
   dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * quantum()) * rotate_back(pose[b], quanta);
   STORE3(motion, at, velocity)
   ATOMIC_STORE(status[b].deformed, 1u);
-  ATOMIC_STORE(pressed[b], control[0].step);
+  ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
     if (quanta[int(k)] != double(0)) ADD_EXACTLY(outside_sum[k], quanta[int(k)])
 }

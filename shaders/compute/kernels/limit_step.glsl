@@ -1,11 +1,9 @@
 // One thread compares two bodies, and bounds the length of the step. Between two of them no two vertices may come nearer than
 // their distance and a quarter edge beyond. A body that was pressed a while ago has a bound of its own.
 #include "../physics/body.glsl"
-#include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
-READ(control)
 READ(surface)
 READ(body_box)
 READ(body_motion)
@@ -37,7 +35,7 @@ void limit_step(uint item) {
   if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
   double longest = step_parts[0].full;
   if (a == b) {
-    if (pressed[a] != 0u && control[0].step - pressed[a] <= pressed_for) longest = surface[a].longest_pressed;
+    if (pressed[a] != 0u && step_parts[0].parts - pressed[a] < pressed_for) longest = surface[a].longest_pressed;
   } else {
     double edge = surface[a].inverse_mass == double(0) ? surface[b].edge : surface[a].edge;
     if (surface[b].inverse_mass != double(0)) edge = min(edge, surface[b].edge);
