@@ -68,8 +68,7 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.damping = description.damping;
   body.is_static = description.kind == BodyKind::immovable;
   if (body.is_static) body.stiffness = body.damping = 0;
-  body.elasticity = description.elasticity;
-  body.friction = description.friction;
+  body.surface = description.surface;
   body.color = description.color;
   return body;
 }
@@ -141,10 +140,7 @@ void expect_not_flattened(const BodyDescription& description) {
 
 Ground make_ground(const GroundDescription& description) {
   const glm::dvec3 normal = glm::normalize(description.normal);
-  return {.normal = normal,
-          .offset = glm::dot(normal, description.point),
-          .elasticity = description.elasticity,
-          .friction = description.friction};
+  return {.normal = normal, .offset = glm::dot(normal, description.point), .surface = description.surface};
 }
 
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {

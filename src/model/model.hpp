@@ -27,9 +27,9 @@ struct Inflation {
 
 /// A half-space that bodies stay out of: all points x with normal . x < offset.
 struct Ground {
-  glm::dvec3 normal{0.0, 1.0, 0.0};            // of length 1
-  double offset = 0;                           // [m]
-  std::optional<double> elasticity, friction;  // those of the scene if empty
+  glm::dvec3 normal{0.0, 1.0, 0.0};  // of length 1
+  double offset = 0;                 // [m]
+  SurfaceDescription surface;
 };
 
 struct ModelBody {
@@ -42,8 +42,8 @@ struct ModelBody {
   double damping = 0;      // c [kg/s]
   double radius = 0;       // largest distance of a rest position from the centroid [m]
   Inflation inflation;
-  std::optional<double> elasticity, friction;  // of contacts, those of the scene if empty
-  glm::dvec3 color{1.0};                       // linear RGB
+  SurfaceDescription surface;
+  glm::dvec3 color{1.0};  // linear RGB
 
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are
   /// exact.

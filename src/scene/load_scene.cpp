@@ -30,6 +30,7 @@ constexpr Range positive_or_auto{1e-30, 1e30, "a number above 0 (1e-30 to 1e30),
 constexpr Range not_negative{0, 1e30, "a number from 0 to 1e30"};
 constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
 constexpr Range fraction{0, 1, "a number from 0 to 1"};
+constexpr Range edge_part{0.01, 0.1, "a number from 0.01 to 0.1"};
 constexpr Range view_angle{1, 179, "a number from 1 to 179"};
 constexpr Range depth{1, 64, "a whole number from 1 to 64"};
 constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
@@ -204,10 +205,17 @@ void read_table(TableReader& table, TreeDescription& tree) {
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }
 
+void read_surface(TableReader& table, SurfaceDescription& surface) {
+  table.read("elasticity", surface.elasticity, fraction);
+  table.read("friction", surface.friction, not_negative);
+  table.read("gap", surface.gap, edge_part);
+}
+
 void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("response", collision.response);
   table.read("elasticity", collision.elasticity, fraction);
   table.read("friction", collision.friction, not_negative);
+  table.read("gap", collision.gap, edge_part);
   table.read("search", collision.search, searches);
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
@@ -262,8 +270,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("vertex_mass", body.vertex_mass, positive);
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
-  table.read("elasticity", body.elasticity, fraction);
-  table.read("friction", body.friction, not_negative);
+  read_surface(table, body.surface);
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
@@ -296,8 +303,7 @@ void read_table(TableReader& table, GroundDescription& ground) {
   table.read("normal", ground.normal, coordinate);
   if (ground.normal == glm::dvec3(0.0))
     throw Error(table.where("normal"), "has no direction", "write a vector that leads out of the ground");
-  table.read("elasticity", ground.elasticity, fraction);
-  table.read("friction", ground.friction, not_negative);
+  read_surface(table, ground.surface);
 }
 
 void read_grounds(const toml::node& node, std::vector<GroundDescription>& grounds) {

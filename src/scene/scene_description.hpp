@@ -49,9 +49,17 @@ struct CollisionDescription {
   Named response{"reflect"};  // a name in the list of responses, or "none"
   double elasticity = 0.9;
   double friction = 0.5;
+  double gap = 0.05;  // that contacts keep, in mean edges of the meshes
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
+};
+
+/// What contacts know of a body or a ground. What is empty is the scene's.
+struct SurfaceDescription {
+  std::optional<double> elasticity;
+  std::optional<double> friction;
+  std::optional<double> gap;  // in mean edges of the mesh
 };
 
 struct CameraDescription {
@@ -93,9 +101,8 @@ struct BodyDescription {
   double vertex_mass = 1.0;               // [kg]
   std::optional<double> total_mass;       // [kg], m = total / N
   double damping = 1.0;                   // c [kg/s]
-  std::optional<double> elasticity;       // of contacts, that of the scene if empty
-  std::optional<double> friction;         // of contacts, that of the scene if empty
-  double pressure = 0.0;                  // inside, at the rest volume, with nothing outside [Pa]
+  SurfaceDescription surface;
+  double pressure = 0.0;  // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
 };
@@ -104,9 +111,8 @@ struct BodyDescription {
 struct GroundDescription {
   glm::dvec3 point{0.0};             // on its surface [m]
   glm::dvec3 normal{0.0, 1.0, 0.0};  // out of it, of any length
-  std::optional<double> elasticity;  // that of the scene if empty
-  std::optional<double> friction;    // that of the scene if empty
-  Origin where;                      // of its table
+  SurfaceDescription surface;
+  Origin where;  // of its table
 };
 
 struct SceneDescription {

@@ -249,19 +249,21 @@ TEST_CASE("keys that contradict each other are an error") {
 const std::string impulse = "[collision]\nresponse = \"impulse\"\n";
 
 TEST_CASE("grounds, static bodies and what contacts need to know of them are read into their places") {
-  const SceneDescription scene = load_text(impulse +
-                                           "friction = 0.25\n[[ground]]\nheight = -1\nfriction = 2\n[[ground]]\npoint = [1, 2, "
-                                           "3]\nnormal = [0, 3, 4]\nelasticity = 0.5\n" +
-                                           smallest + "kind = \"static\"\nfriction = 0.1\nelasticity = 0.2\n");
-  CHECK(scene.collision.friction == 0.25);
+  const SceneDescription scene =
+      load_text(impulse +
+                "friction = 0.25\ngap = 0.02\n[[ground]]\nheight = -1\nfriction = 2\n[[ground]]\npoint = [1, 2, "
+                "3]\nnormal = [0, 3, 4]\nelasticity = 0.5\n" +
+                smallest + "kind = \"static\"\nfriction = 0.1\nelasticity = 0.2\ngap = 0.1\n");
+  CHECK((scene.collision.friction == 0.25 && scene.collision.gap == 0.02));
   REQUIRE(scene.grounds.size() == 2);
   CHECK((scene.grounds[0].point == glm::dvec3(0, -1, 0) && scene.grounds[0].normal == glm::dvec3(0, 1, 0)));
-  CHECK((scene.grounds[0].friction == 2 && !scene.grounds[0].elasticity));
+  CHECK((scene.grounds[0].surface.friction == 2 && !scene.grounds[0].surface.elasticity));
   CHECK((scene.grounds[1].point == glm::dvec3(1, 2, 3) && scene.grounds[1].normal == glm::dvec3(0, 3, 4)));
-  CHECK(scene.grounds[1].elasticity == 0.5);
+  CHECK(scene.grounds[1].surface.elasticity == 0.5);
   CHECK(scene.output.ground_height == -1);  // the first is level, and drawn
   CHECK(scene.bodies[0].kind == BodyKind::immovable);
-  CHECK((scene.bodies[0].friction == 0.1 && scene.bodies[0].elasticity == 0.2));
+  CHECK((scene.bodies[0].surface.friction == 0.1 && scene.bodies[0].surface.elasticity == 0.2 &&
+         scene.bodies[0].surface.gap == 0.1));
   CHECK(load_text(smallest).bodies[0].kind == BodyKind::soft);
   CHECK(load_text(smallest).collision.friction == 0.5);
 }

@@ -66,7 +66,7 @@ void expect_cuts(uint i) {
   for (int k = 0; k < 3; ++k)
     part = min(part, part_to(from[k], gone[k], double(cage[lower_of(i)][k]), double(cage[upper_of(i)][k])));
   for (uint g = 0u; g < ground_count; ++g)
-    if (is_movable) part = min(part, part_above(g, from, gone, gap_in_edges() * surface[b].edge));
+    if (is_movable) part = min(part, part_above(g, from, gone, mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge));
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint k = 1u; k <= cut_rounds; ++k) cut[k * vertex_count + i] = floatBitsToUint(1.0f);
 }

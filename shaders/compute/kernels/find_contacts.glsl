@@ -54,11 +54,10 @@ Pair pair_of(uvec2 triangles) {
     p.way[k] = real3(h * (LOAD3(expected, force_of(p.vertex[k])) - base));
   }
   Surface a = surface[uint(rest_position[p.vertex[0]].w)], b = surface[uint(rest_position[p.vertex[3]].w)];
-  double edge = a.inverse_mass == double(0) ? b.edge : (b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge));
-  p.gap = real(gap_in_edges() * edge);
+  p.gap = real(mean_of_pair(a.gap, b.gap) * edge_of_pair(a, b));
   p.slowest = real(min(a.longest_pressed, b.longest_pressed));
-  p.elasticity = real(sqrt(a.elasticity * b.elasticity));
-  p.friction = real(sqrt(a.friction * b.friction));
+  p.elasticity = real(mean_of_pair(a.elasticity, b.elasticity));
+  p.friction = real(mean_of_pair(a.friction, b.friction));
   return p;
 }
 

@@ -37,9 +37,7 @@ void limit_step(uint item) {
   if (a == b) {
     if (pressed[a] != 0u && step_parts[0].parts - pressed[a] < pressed_for) longest = surface[a].longest_pressed;
   } else {
-    double edge = surface[a].inverse_mass == double(0) ? surface[b].edge : surface[a].edge;
-    if (surface[b].inverse_mass != double(0)) edge = min(edge, surface[b].edge);
-    double speed = approach(a, b), room = distance_of_boxes(a, b) + double(0.25) * edge;
+    double speed = approach(a, b), room = distance_of_boxes(a, b) + double(0.25) * edge_of_pair(surface[a], surface[b]);
     if (speed * longest > room) longest = room / speed;
   }
   if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));

@@ -20,10 +20,10 @@ void meet_ground(uint i, uint g) {
   dvec3 normal = LOAD3(ground[g].normal, 0u), velocity = LOAD3(start, start_velocity_of(i));
   dvec3 surplus_now = LOAD3(expected, force_of(i)) - velocity;
   Approach a;
-  a.gap = real(gap_in_edges() * s.edge);
+  a.gap = real(mean_of_pair(s.gap, ground[g].gap) * s.edge);
   a.time_step = real(control[0].time_step);
   a.slowest = real(s.longest_pressed);
-  a.elasticity = real(sqrt(s.elasticity * ground[g].elasticity));
+  a.elasticity = real(mean_of_pair(s.elasticity, ground[g].elasticity));
   Course c;
   c.distance = real(dot(normal, LOAD3(start, start_position_of(i))) - ground[g].offset);
   c.velocity = real(dot(normal, velocity));
@@ -33,7 +33,7 @@ void meet_ground(uint i, uint g) {
   if (!is_near(c, a)) return;
   real3 goal = real3(dot(normal, surplus_now) * normal - surplus_now);
   list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, 0), real3(normal), least_velocity(c, a), goal,
-               real(sqrt(s.friction * ground[g].friction)));
+               real(mean_of_pair(s.friction, ground[g].friction)));
 }
 
 void meet_grounds(uint i) {

@@ -20,16 +20,19 @@ constexpr std::uint32_t least_threads = 4096;  // tree_search.cpp says why threa
 physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
   return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
           .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
-          .elasticity = body.elasticity.value_or(description.elasticity),
-          .friction = body.friction.value_or(description.friction),
+          .elasticity = body.surface.elasticity.value_or(description.elasticity),
+          .friction = body.surface.friction.value_or(description.friction),
+          .gap = body.surface.gap.value_or(description.gap),
           .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30)};
 }
 
 physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
   return {.normal = {ground.normal.x, ground.normal.y, ground.normal.z},
           .offset = ground.offset,
-          .elasticity = ground.elasticity.value_or(description.elasticity),
-          .friction = ground.friction.value_or(description.friction)};
+          .elasticity = ground.surface.elasticity.value_or(description.elasticity),
+          .friction = ground.surface.friction.value_or(description.friction),
+          .gap = ground.surface.gap.value_or(description.gap),
+          .padding = 0};
 }
 
 // Gives each vertex and each edge to the first triangle that has it, so that a contact is found once.
@@ -80,15 +83,14 @@ class Impulse final : public Response {
     Arrays& arrays = setting.bodies.arrays;
     const std::size_t vertices = bodies_.vertex_count;
     std::vector<physics::Surface> surfaces;
-    double smallest_edge = 1e30;
+    smallest_gap_ = 1e30;
     for (const ModelBody& body : setting.model.bodies) {
       surfaces.push_back(surface_of(setting.model, body, setting.description));
       largest_body_ = std::max(largest_body_, body.radius);
       if (body.is_static) continue;
       heaviest_vertex_ = std::max(heaviest_vertex_, body.vertex_mass);
-      smallest_edge = std::min(smallest_edge, surfaces.back().edge);
+      smallest_gap_ = std::min(smallest_gap_, surfaces.back().gap * surfaces.back().edge);
     }
-    smallest_gap_ = physics::gap_in_edges() * smallest_edge;
     arrays.make("surface", surfaces);
     std::vector<physics::Ground> grounds;
     for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));

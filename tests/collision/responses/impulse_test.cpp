@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "apart.hpp"
+#include "model/mean_edge.hpp"
 #include "simulation/measure.hpp"
 #include "simulation/start_check.hpp"
 #include "support/collision_scene.hpp"
@@ -218,8 +219,8 @@ ModelAndState on_ground(const char* mesh, double height, double degrees, double 
   setup.description.damping = 0.02;
   const double angle = degrees / 180 * 3.14159265358979;
   GroundDescription ground;
-  ground.friction = friction;
-  setup.description.friction = friction;
+  ground.surface.friction = friction;
+  setup.description.surface.friction = friction;
   setup.description.total_stiffness = stiffness;
   return build_model({&setup, 1}, {9.81 * std::sin(angle), -9.81 * std::cos(angle), 0}, {&ground, 1});
 }
@@ -239,6 +240,23 @@ TEST_CASE("a ball comes to rest on a ground, which then bears its weight") {
   CHECK(resting.report().outside_impulse.y - given == Approx(9.81 * time_step * static_cast<double>(steps)).epsilon(1e-6));
   for (const glm::dvec3& p : after) CHECK(p.y > 0);
   CHECK(resting.report().reverted_vertices == 0);
+}
+
+TEST_CASE("a body at rest keeps the gap, which is the geometric mean of the two") {
+  const auto device = make_cpu_device(1, 64);
+  for (const double gap : {0.02, 0.08}) {
+    CAPTURE(gap);
+    ModelAndState start = on_ground("icosphere:1", 1.1, 0, 0.5);
+    start.model.bodies[0].surface.gap = gap;
+    start.model.grounds[0].surface.gap = gap / 4;
+    Simulation resting(*device, start.model, start.state, plan_of(Method{"verlet", 0.3 / omega, DampingLaw::constant}),
+                       by_impulses);
+    resting.advance(4000);
+    double lowest = 1;
+    for (const glm::dvec3& p : resting.state().world_positions(start.model)) lowest = std::min(lowest, p.y);
+    const double edge = mean_edge(start.model, start.model.bodies[0]);
+    CHECK(lowest == Approx(gap / 2 * edge).margin(0.002 * edge));  // a step's end is a little above its mean
+  }
 }
 
 TEST_CASE("bodies that begin nearer than the gap part slowly, however short steps are") {

@@ -9,6 +9,7 @@ struct Surface {
   double inverse_mass;  // of a vertex [1/kg], 0 if the body is immovable
   double elasticity;
   double friction;
+  double gap;           // that contacts keep, in edges
   double longest_pressed;  // step in which contacts do not pump energy into the body [s]
 };
 
@@ -18,6 +19,8 @@ struct Ground {
   double offset;  // [m]
   double elasticity;
   double friction;
+  double gap;  // that contacts keep, in edges of the body
+  double padding;
 };
 
 // Lists can be longer than they have room for.
@@ -31,9 +34,16 @@ struct ContactList {
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
 };
 
-// Distances, in edges. A pair takes the edge of the smaller ones.
-FN double gap_in_edges() { return double(1) / double(20); }   // that contacts keep
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
+
+// Returns the edge that distances of a pair count in [m]: the smaller one of bodies that move.
+FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
+  if (a.inverse_mass == double(0)) return b.edge;
+  return b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge);
+}
+
+// Properties of a pair are geometric means.
+FN double mean_of_pair(double a, double b) { return sqrt(a * b); }
 
 const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups did not run at once, though they should
 const uint cut_rounds = 8u;  // in which motions are cut short
