@@ -1,13 +1,15 @@
-#include "apart.hpp"
+#include "bench/contact/apart.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
+#include <utility>
 
-namespace pliant::testing {
+namespace pliant::bench {
 namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
@@ -26,9 +28,31 @@ Triangle triangle_of(const Model& model, std::span<const glm::dvec3> positions, 
   return made;
 }
 
-bool boxes_overlap(const Triangle& a, const Triangle& b) {
+bool boxes_overlap(const auto& a, const auto& b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
          a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+struct Box {
+  glm::dvec3 lower{1e300}, upper{-1e300};
+};
+
+std::vector<Box> boxes_of(const Model& model, std::span<const glm::dvec3> positions) {
+  std::vector<Box> boxes;
+  for (const ModelBody& body : model.bodies) {
+    Box& box = boxes.emplace_back();
+    for (const glm::dvec3& p : positions.subspan(body.first_vertex, body.vertex_count)) {
+      box.lower = glm::min(box.lower, p);
+      box.upper = glm::max(box.upper, p);
+    }
+  }
+  return boxes;
+}
+
+bool may_touch_another(const Triangle& triangle, const std::vector<Box>& boxes) {
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    if (b != triangle.body && boxes_overlap(triangle, boxes[b])) return true;
+  return false;
 }
 
 // Each coordinate of p, relative to a corner, is off by 2^-53 of itself. A shadow (3 products, 2 sums) is then off by at most
@@ -69,6 +93,14 @@ double solid_angle(const glm::dvec3& from, const Corners& t) {
                         la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
 }
 
+// Whether every edge belongs to two triangles or more.
+bool is_closed(const Model& model, const ModelBody& body) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
+    for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(model.triangles[t][k], model.triangles[t][(k + 1) % 3])];
+  return !edges.empty() && std::ranges::none_of(edges, [](const auto& edge) { return edge.second == 1; });
+}
+
 bool is_inside(const glm::dvec3& point, const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
   double sum = 0;
   for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
@@ -78,9 +110,15 @@ bool is_inside(const glm::dvec3& point, const Model& model, const ModelBody& bod
 
 }  // namespace
 
-std::size_t pairs_not_apart(const Model& model, std::span<const glm::dvec3> positions) {
+ApartOracle::ApartOracle(const Model& model) : model_(model) {
+  for (const ModelBody& body : model.bodies) is_closed_.push_back(is_closed(model, body));
+}
+
+std::size_t ApartOracle::pairs_not_apart(std::span<const glm::dvec3> positions) const {
+  const std::vector<Box> boxes = boxes_of(model_, positions);
   std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) triangles.push_back(triangle_of(model, positions, t));
+  for (std::size_t t = 0; t < model_.triangles.size(); ++t)
+    if (const Triangle made = triangle_of(model_, positions, t); may_touch_another(made, boxes)) triangles.push_back(made);
   std::ranges::sort(triangles, {}, [](const Triangle& t) { return t.lower.x; });
   std::size_t count = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -91,19 +129,17 @@ std::size_t pairs_not_apart(const Model& model, std::span<const glm::dvec3> posi
   return count;
 }
 
-std::size_t vertices_inside_others(const Model& model, std::span<const glm::dvec3> positions) {
+std::size_t ApartOracle::vertices_inside_others(std::span<const glm::dvec3> positions) const {
+  const std::vector<Box> boxes = boxes_of(model_, positions);
   std::size_t count = 0;
-  for (const ModelBody& body : model.bodies) {
-    if (body.triangle_count == 0) continue;
-    glm::dvec3 lower(1e300), upper(-1e300);
-    for (const glm::dvec3& p : positions.subspan(body.first_vertex, body.vertex_count)) {
-      lower = glm::min(lower, p);
-      upper = glm::max(upper, p);
-    }
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    const ModelBody& body = model_.bodies[b];
+    const auto& [lower, upper] = boxes[b];
+    if (!is_closed_[b]) continue;
     for (std::size_t i = 0; i < positions.size(); ++i) {
       if (i >= body.first_vertex && i < body.first_vertex + body.vertex_count) continue;
       if (glm::any(glm::lessThan(positions[i], lower)) || glm::any(glm::greaterThan(positions[i], upper))) continue;
-      if (is_inside(positions[i], model, body, positions)) ++count;
+      if (is_inside(positions[i], model_, body, positions)) ++count;
     }
   }
   return count;
@@ -115,4 +151,4 @@ std::vector<glm::dvec3> between(std::span<const glm::dvec3> from, std::span<cons
   return there;
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::bench
