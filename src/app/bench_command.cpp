@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bench/common/step_cases.hpp"
+#include "bench/contact/report.hpp"
 #include "bench/draw/report.hpp"
 #include "bench/forces/report.hpp"
 #include "bench/precision/report.hpp"
@@ -93,6 +94,11 @@ int measure_stability(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_stability);
 }
 
+int measure_contact(const BenchOptions& options) {
+  const bench::ContactOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_contact);
+}
+
 int measure_draw(const BenchOptions& options) {
   bench::expect_scenes(options.scenes);
   const bench::DrawOptions asked{.gpu_index = options.gpu_index.value_or(0),
@@ -114,6 +120,8 @@ int bench(const BenchOptions& options) {
       return measure_precision(options);
     case BenchSuite::stability:
       return measure_stability(options);
+    case BenchSuite::contact:
+      return measure_contact(options);
     case BenchSuite::draw:
       break;
   }

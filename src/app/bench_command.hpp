@@ -11,7 +11,7 @@ namespace pliant::app {
 /// software.
 enum class BenchDevices { automatic, cpu, gpu, all };
 
-enum class BenchSuite { forces, steps, precision, stability, draw };
+enum class BenchSuite { forces, steps, precision, stability, contact, draw };
 
 struct BenchOptions {
   BenchSuite suite = BenchSuite::forces;

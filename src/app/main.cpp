@@ -188,10 +188,10 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite
   suite->callback([&options, which] { options.suite = which; });
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
-  suite->add_flag(
-      "--quick", options.quick,
-      "Measure roughly: seconds for forces and draw, one to three minutes for precision and stability. The suite steps leaves "
-      "out what takes over a second");
+  suite->add_flag("--quick", options.quick,
+                  "Measure roughly: seconds for forces and draw, one to three minutes for precision and stability, seconds for "
+                  "contact. The suite steps leaves "
+                  "out what takes over a second");
   return suite;
 }
 
@@ -220,8 +220,8 @@ void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
 }
 
 void add_bench(CLI::App& program, app::BenchOptions& options) {
-  CLI::App* bench =
-      program.add_subcommand("bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, draw");
+  CLI::App* bench = program.add_subcommand(
+      "bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, draw");
   bench->require_subcommand(1);
   CLI::App* forces = add_device_suite(*bench, options, app::BenchSuite::forces, "forces",
                                       "Spring forces by size of the body, beside what the hardware allows");
@@ -234,6 +234,9 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   precision->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny (default scenes)");
   add_device_suite(*bench, options, app::BenchSuite::stability, "stability",
                    "Steps at which methods blow up, drift of energy, and errors of fp32");
+  CLI::App* contact = add_device_suite(*bench, options, app::BenchSuite::contact, "contact",
+                                       "Contact by impulses: whether bodies stay apart, what impacts give, and what they cost");
+  contact->add_option("--scenes", options.scenes, "Folder of scenes, for meshes beside it (default scenes)");
   add_draw_suite(*bench, options);
 }
 

@@ -145,6 +145,14 @@ std::size_t ApartOracle::vertices_inside_others(std::span<const glm::dvec3> posi
   return count;
 }
 
+bool ApartOracle::have_parted(std::span<const glm::dvec3> positions) const {
+  const std::vector<Box> boxes = boxes_of(model_, positions);
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (boxes_overlap(boxes[a], boxes[b])) return false;
+  return true;
+}
+
 std::vector<glm::dvec3> between(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to, double part) {
   std::vector<glm::dvec3> there;
   for (std::size_t i = 0; i < from.size(); ++i) there.push_back(from[i] + part * (to[i] - from[i]));

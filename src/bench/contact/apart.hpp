@@ -21,6 +21,9 @@ class ApartOracle {
   /// Returns how many vertices are inside another body whose mesh is closed. It sums solid angles.
   [[nodiscard]] std::size_t vertices_inside_others(std::span<const glm::dvec3> positions) const;
 
+  /// Returns whether the boxes of all bodies are apart.
+  [[nodiscard]] bool have_parted(std::span<const glm::dvec3> positions) const;
+
  private:
   const Model& model_;
   std::vector<bool> is_closed_;  // of each body

@@ -33,15 +33,15 @@ void Witness::look_at_motion(const State& state) {
   seen.most_energy = std::max(seen.most_energy, seen.last_energy);
 }
 
-Seen watch(Simulation& simulation, const ModelAndState& start, std::uint64_t steps, std::uint64_t stride) {
+Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how) {
   Witness witness(start);
   StepReport& report = witness.seen.report;
-  for (std::uint64_t part = 1; report.steps < steps && !report.non_finite; ++part) {
+  for (std::uint64_t part = 1; report.steps < how.steps && part <= how.most_parts && !report.non_finite; ++part) {
     simulation.advance_part();
     report = simulation.report();
     const State state = simulation.state();
     witness.look_at_places(state);
-    if (part % stride == 0 || report.steps == steps) witness.look_at_motion(state);
+    if (part % how.stride == 0 || report.steps == how.steps || part == how.most_parts) witness.look_at_motion(state);
   }
   return witness.seen;
 }

@@ -1,5 +1,6 @@
 // Sees the states of a run with contact, and says what must hold: bodies are apart, and momentum and energy are kept.
 #pragma once
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -42,8 +43,15 @@ class Witness {
   std::vector<glm::dvec3> before_;
 };
 
-/// Runs the simulation for so many steps and looks at every part of a step. Looks at motions once in `stride` parts.
-[[nodiscard]] Seen watch(Simulation& simulation, const ModelAndState& start, std::uint64_t steps, std::uint64_t stride = 1);
+/// How long to watch, and how closely.
+struct Watch {
+  std::uint64_t steps = 0;
+  std::uint64_t most_parts = UINT64_MAX;  // of steps; they end the watch, too
+  std::uint64_t stride = 1;               // once in so many parts it looks at motions
+};
+
+/// Runs the simulation and looks at every part of a step.
+[[nodiscard]] Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how);
 
 /// Does the same with a tolerance, for `duration` [s], and looks at every try of a step.
 [[nodiscard]] Seen watch_for(Simulation& simulation, const ModelAndState& start, double duration);

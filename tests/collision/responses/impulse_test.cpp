@@ -21,7 +21,7 @@ const CollisionDescription by_impulses = {.response = {"impulse"}, .elasticity =
 bench::Seen watch(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps,
                   const CollisionDescription& collision = by_impulses) {
   Simulation simulation(device, start.model, start.state, plan_of(method), collision);
-  return bench::watch(simulation, start, steps);
+  return bench::watch(simulation, start, {.steps = steps});
 }
 
 // Runs by steps that a tolerance governs.

@@ -1,0 +1,336 @@
+#include "bench/contact/contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <thread>
+
+#include "bench/common/timing.hpp"
+#include "bench/contact/meeting.hpp"
+#include "bench/contact/witness.hpp"
+#include "core/stopwatch.hpp"
+#include "dynamics/integrator.hpp"
+#include "dynamics/stability.hpp"
+#include "mesh/generators.hpp"
+#include "mesh/obj.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double apart_omega_step = 0.5;
+constexpr std::uint64_t apart_parts = 900, quick_apart_parts = 90;  // of steps, twice as many for bodies that come fast
+constexpr std::uint32_t measured_every_part = 400;  // vertices of both bodies: more take longer to measure than to move
+
+CollisionDescription by(const char* response, double elasticity = 0.5) {
+  return {.response = {response}, .elasticity = elasticity};
+}
+
+TimePlan plan_of(const char* integrator, double time_step) {
+  return {.integrator = &find_integrator(integrator), .time_step = time_step, .damping_law = DampingLaw::none};
+}
+
+struct Task {
+  std::string name;
+  double cost = 0;  // about the seconds it takes
+  std::function<std::vector<ContactRow>(Device&)> measure;
+  Place place;
+  bool is_timed = false;  // nothing may run beside it
+};
+
+bool runs_beside_others(const Task& task) { return task.place.device == DeviceKind::cpu && !task.is_timed; }
+
+// Runs each task on a thread of its own.
+std::vector<std::vector<ContactRow>> run_together(std::span<const Task> tasks) {
+  std::vector<std::future<std::vector<ContactRow>>> running;
+  for (const Task& task : tasks)
+    running.push_back(std::async(std::launch::async, [&task] { return task.measure(*open(task.place)); }));
+  std::vector<std::vector<ContactRow>> rows;
+  for (auto& one : running) rows.push_back(one.get());
+  return rows;
+}
+
+// How many of the tasks, from the first on, run at once.
+std::size_t count_together(std::span<const Task> tasks, std::size_t most) {
+  std::size_t count = 0;
+  while (count < std::min(most, tasks.size()) && runs_beside_others(tasks[count])) ++count;
+  return std::max<std::size_t>(count, 1);
+}
+
+// --- apart
+
+struct Pairing {
+  std::string name;
+  Partner left, right;
+};
+
+// Waits until bodies that come fast have parted, too. They make many parts of a step.
+bool part_at_last(Simulation& simulation, const Model& model) {
+  constexpr int most_steps = 100;
+  const ApartOracle oracle(model);
+  for (int step = 0; step < most_steps; ++step) {
+    if (oracle.have_parted(simulation.state().world_positions(model))) return true;
+    simulation.advance(1);
+  }
+  return false;
+}
+
+ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, std::uint64_t parts) {
+  const Meeting meeting = meeting_of(pair.left, pair.right, {.edges_a_step = edges_a_step, .omega_step = apart_omega_step});
+  const Model& model = meeting.start.model;
+  const std::uint32_t vertices = model.vertex_count();
+  Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
+                        by("impulse"));
+  const Seen seen = watch(simulation, meeting.start,
+                          {.steps = parts, .most_parts = parts, .stride = vertices > measured_every_part ? 16u : 1u});
+  return {.bodies = pair.name,
+          .device = device.info().kind,
+          .precision = device.precision(),
+          .vertices = vertices,
+          .mass_ratio = pair.right.mass / pair.left.mass,
+          .edges_a_step = edges_a_step,
+          .omega_step = apart_omega_step,
+          .steps = seen.report.steps,
+          .parts = seen.report.steps + seen.report.substeps,
+          .contact_parts = seen.report.contact_steps,
+          .cut_vertices = seen.report.reverted_vertices,
+          .held_parts = seen.report.held_parts,
+          .touching = seen.touching,
+          .inside = seen.inside,
+          .parted = part_at_last(simulation, model),
+          .momentum_change = seen.momentum_change,
+          .angular_momentum_change = seen.angular_momentum_change,
+          .most_energy = seen.most_energy,
+          .last_energy = seen.last_energy};
+}
+
+std::vector<Pairing> pairings(const ContactOptions& options) {
+  const auto sphere = [](int level) { return Partner{.mesh = generate_mesh(fmt::format("icosphere:{}", level))}; };
+  std::vector<Pairing> all = {{"two spheres", sphere(2), sphere(2)}, {"heavy on light sphere", sphere(2), sphere(2)}};
+  all[1].left.mass = 10;
+  if (options.quick) return all;
+  all.push_back({"two spheres", sphere(3), sphere(3)});
+  all.push_back({"two spheres", sphere(4), sphere(4)});
+  const auto mesh = [&](const char* name) {
+    return Partner{.mesh = load_obj(options.scenes.parent_path() / "meshes" / name).mesh};
+  };
+  all.push_back({"bunny and sphere", mesh("bunny.obj"), sphere(2)});
+  all.push_back({"teapot and bunny", mesh("teapot.obj"), mesh("bunny.obj")});
+  return all;
+}
+
+std::vector<Place> places(const Selection& selection) {
+  std::vector<Place> found;
+  if (selection.cpu) found = {{.device = DeviceKind::cpu, .precision = 64}, {.device = DeviceKind::cpu, .precision = 32}};
+  if (selection.gpu) found.push_back({.device = DeviceKind::gpu, .precision = 32, .gpu_index = selection.gpu_index});
+  return found;
+}
+
+void add_apart(std::vector<Task>& tasks, const ContactOptions& options) {
+  const std::vector<double> speeds =
+      options.quick ? std::vector{0.05, 0.5, 4.0} : std::vector{0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 60.0};
+  for (const Pairing& pair : pairings(options))
+    for (const Place& place : places(options.devices))
+      for (const double speed : speeds) {
+        const double triangles = static_cast<double>(pair.left.mesh.triangles.size() + pair.right.mesh.triangles.size());
+        const std::uint64_t parts = (speed > 1 ? 2 : 1) * (options.quick ? quick_apart_parts : apart_parts);
+        tasks.push_back({fmt::format("apart, {}, {} edges a step, {}", pair.name, speed, name_of(place)),
+                         triangles * static_cast<double>(parts) * 1e-5,
+                         [=](Device& device) { return std::vector<ContactRow>{measure_apart(device, pair, speed, parts)}; },
+                         place});
+      }
+}
+
+// --- impacts
+
+struct Impact {
+  const char* response;
+  const char* integrator;
+  double stiffness = 1e3;
+  double elasticity = 0.5;
+};
+
+// What an impact gives.
+struct Outcome {
+  glm::dvec3 centre{0.0}, momentum{0.0}, spin{0.0};  // of the first body [m], [kg m/s], [kg m^2/s]
+};
+
+Outcome outcome_of(const Model& model, const State& state) {
+  const std::vector<glm::dvec3> positions = state.world_positions(model), velocities = state.world_velocities(model);
+  const ModelBody& body = model.bodies[0];
+  const double mass = body.vertex_mass, n = body.vertex_count;
+  Outcome found;
+  for (std::uint32_t i = 0; i < body.vertex_count; ++i) {
+    found.centre += positions[i] / n;
+    found.momentum += mass * velocities[i];
+  }
+  for (std::uint32_t i = 0; i < body.vertex_count; ++i)
+    found.spin += mass * glm::cross(positions[i] - found.centre, velocities[i]);
+  return found;
+}
+
+constexpr double impact_speed = 2;         // against each other [m/s]
+constexpr double impact_omega_time = 120;  // duration times the softest bodies' stiffest frequency
+
+Meeting impact_meeting(const Impact& impact) {
+  const Partner sphere{.mesh = generate_mesh("icosphere:2"), .stiffness = impact.stiffness};
+  Meeting meeting = meeting_of(sphere, sphere, {.edges_a_step = 1, .distance = 1});
+  return meeting_of(sphere, sphere, {.edges_a_step = impact_speed / meeting.speed, .distance = 1});
+}
+
+ImpactRow measure_impact(Device& device, const Impact& impact, double omega_step, Outcome& outcome) {
+  const Meeting meeting = impact_meeting(impact);
+  const ModelAndState& start = meeting.start;
+  const double omega = stiffest_frequency(start.model.bodies[0]), duration = impact_omega_time / std::sqrt(1e3);
+  const double steps = std::ceil(duration * omega / omega_step);
+  Simulation simulation(device, start.model, start.state, plan_of(impact.integrator, duration / steps),
+                        by(impact.response, impact.elasticity));
+  Witness witness(start);
+  for (double made = 0; made < steps; made += 8) {
+    simulation.advance(static_cast<std::uint64_t>(std::min(8.0, steps - made)));
+    witness.look_at_motion(simulation.state());
+  }
+  outcome = outcome_of(start.model, simulation.state());
+  const double before = outcome_of(start.model, start.state).momentum.x;
+  return {.response = impact.response,
+          .integrator = impact.integrator,
+          .stiffness = impact.stiffness,
+          .elasticity = impact.elasticity,
+          .omega_step = duration / steps * omega,
+          .kept = -outcome.momentum.x / before,
+          .most_energy = witness.seen.most_energy,
+          .position_error = {},
+          .momentum_error = {},
+          .spin_error = {}};
+}
+
+std::vector<ContactRow> measure_sweep(Device& device, const Impact& impact, const std::vector<double>& omega_steps) {
+  std::vector<ImpactRow> rows;
+  std::vector<Outcome> outcomes;
+  for (const double omega_step : omega_steps) rows.push_back(measure_impact(device, impact, omega_step, outcomes.emplace_back()));
+  const Outcome& exact = outcomes.back();
+  const double momentum = impact_speed / 2;  // of a body of 1 kg, which is its angular momentum at 1 m, too
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+    rows[k].position_error = glm::length(outcomes[k].centre - exact.centre);
+    rows[k].momentum_error = glm::length(outcomes[k].momentum - exact.momentum) / momentum;
+    rows[k].spin_error = glm::length(outcomes[k].spin - exact.spin) / momentum;
+  }
+  return {rows.begin(), rows.end()};
+}
+
+void add_impacts(std::vector<Task>& tasks, const ContactOptions& options) {
+  if (!options.devices.cpu) return;
+  const Place place{.device = DeviceKind::cpu, .precision = 64};
+  std::vector<double> halved;
+  for (double omega_step = 0.8; halved.size() < (options.quick ? 3 : 9); omega_step /= 2) halved.push_back(omega_step);
+  const auto add = [&](const Impact& impact, const std::vector<double>& steps) {
+    tasks.push_back({fmt::format("impact, {}, {}, N k = {:g}, e = {}", impact.response, impact.integrator, impact.stiffness,
+                                 impact.elasticity),
+                     0.2 * std::sqrt(impact.stiffness / 1e3) / steps.back(),
+                     [=](Device& device) { return measure_sweep(device, impact, steps); }, place});
+  };
+  for (const char* integrator : {"verlet", "cv8"})
+    for (const char* response : {"impulse", "reflect"}) add({response, integrator}, halved);
+  for (const double stiffness : {1e3, 1e4, 1e5})
+    for (const double elasticity : {0.0, 0.5, 1.0})
+      if (!options.quick || stiffness == 1e3) add({"impulse", "cv8", stiffness, elasticity}, {0.3});
+}
+
+// --- cost
+
+constexpr std::uint64_t timed_parts = 64;
+
+double seconds_a_part(Simulation& simulation, Device& device) {
+  std::vector<double> seconds;
+  for (int round = 0; round < 4; ++round) {
+    Stopwatch stopwatch;
+    stopwatch.time([&] {
+      for (std::uint64_t part = 0; part < timed_parts / 4; ++part) simulation.advance_part();
+      device.finish();
+    });
+    seconds.push_back(stopwatch.seconds() / (timed_parts / 4));
+  }
+  return median(std::move(seconds));
+}
+
+// Waits until spheres press each other as they do most, and times what follows.
+CostRow measure_cost(Device& device, int level, double edges_a_step) {
+  const Partner sphere{.mesh = generate_mesh(fmt::format("icosphere:{}", level))};
+  const Meeting meeting = meeting_of(sphere, sphere, {.edges_a_step = edges_a_step, .omega_step = 0.3});
+  const auto run = [&](const char* response, std::uint64_t& contacts) {
+    Simulation simulation(device, meeting.start.model, meeting.start.state, plan_of("verlet", meeting.time_step), by(response));
+    simulation.advance(static_cast<std::uint64_t>(0.5 / edges_a_step) + 4);
+    device.finish();
+    const double seconds = seconds_a_part(simulation, device);
+    contacts = simulation.report().contact_pairs_max;
+    return 1e6 * seconds;
+  };
+  std::uint64_t none = 0;
+  CostRow row{
+      .device = device.info().kind, .precision = device.precision(), .vertices = meeting.start.model.bodies[0].vertex_count};
+  row.microseconds_without = run("none", none);
+  row.microseconds = run("impulse", row.contacts);
+  return row;
+}
+
+void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
+  for (const Place& place : places(options.devices))
+    for (const int level : {2, 3, 4})
+      for (const double speed : {0.05, 0.5, 1.0})
+        if (place.precision == 32 && (!options.quick || level == 2))
+          tasks.push_back({fmt::format("cost, icosphere:{}, {}", level, name_of(place)), 0.05 * std::pow(16, level - 2),
+                           [=](Device& device) { return std::vector<ContactRow>{measure_cost(device, level, speed)}; }, place,
+                           true});
+}
+
+// --- all
+
+std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
+  std::uint64_t steps = 0, parts = 0, touching = 0, inside = 0, without_contact = 0, not_parted = 0;
+  for (const ContactRow& any : rows)
+    if (const auto* row = std::get_if<ApartRow>(&any)) {
+      steps += row->steps;
+      parts += row->parts;
+      touching += row->touching;
+      inside += row->inside;
+      without_contact += row->contact_parts == 0 ? 1 : 0;
+      not_parted += row->parted ? 0 : 1;
+    }
+  if (steps == 0) return {};
+  return {
+      fmt::format("apart: {} steps in {} parts: {} pairs of triangles not apart, {} vertices inside another body", steps, parts,
+                  touching, inside),
+      fmt::format("apart: {} cases without contact, {} in which bodies have not parted by the end", without_contact, not_parted)};
+}
+
+}  // namespace
+
+ContactResult bench_contact(const ContactOptions& options, const Progress& progress) {
+  std::vector<Task> tasks;
+  add_apart(tasks, options);
+  add_impacts(tasks, options);
+  add_costs(tasks, options);
+  double total = 0, done = 0;
+  for (const Task& task : tasks) total += task.cost;
+  ContactResult result;
+  const unsigned threads = options.devices.threads != 0 ? options.devices.threads : std::thread::hardware_concurrency();
+  for (std::span<const Task> left = tasks; !left.empty();) {
+    result.interrupted = !progress(done / total, left.front().name);
+    if (result.interrupted) break;
+    const auto together = left.first(count_together(left, threads));
+    for (std::vector<ContactRow>& rows : run_together(together)) std::ranges::move(rows, std::back_inserter(result.rows));
+    for (const Task& task : together) done += task.cost;
+    left = left.subspan(together.size());
+  }
+  if (!result.interrupted) progress(1, "");
+  result.notes = notes_of(result.rows);
+  return result;
+}
+
+}  // namespace pliant::bench

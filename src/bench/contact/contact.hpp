@@ -1,0 +1,85 @@
+// The suite `contact` measures contact by impulses:
+// - whether bodies stay apart at any speed, and keep momentum and energy
+// - what an impact gives, by the length of the step: whether it converges, and how it depends on elasticity and stiffness
+// - what contact costs in a step
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bench/common/place.hpp"
+
+namespace pliant::bench {
+
+struct ContactOptions {
+  Selection devices;
+  std::filesystem::path scenes = "scenes";  // bunny and teapot lie beside this folder, in meshes
+  bool quick = false;                       // a hundredth of the steps
+};
+
+// Members' names are the keys of the file. Bodies have a radius of 1 m, and 1 kg and N k = 1000 N/m unless the row says
+// otherwise.
+
+/// Two bodies that meet off their centres and part again, without friction or with it.
+struct ApartRow {
+  std::string bodies;
+  DeviceKind device = DeviceKind::cpu;
+  int precision = 64;
+  std::uint32_t vertices = 0;  // of both
+  double mass_ratio = 1;
+  double edges_a_step = 0;  // how fast they come near each other
+  double omega_step = 0;    // step times the stiffest frequency
+  std::uint64_t steps = 0;
+  std::uint64_t parts = 0;             // that steps fell into
+  std::uint64_t contact_parts = 0;     // parts with an impulse
+  std::uint64_t cut_vertices = 0;      // whose motion was cut short
+  std::uint64_t held_parts = 0;        // in which nothing moved
+  std::size_t touching = 0;            // pairs of triangles that were not apart, at the ends of parts and at seven times within
+  std::size_t inside = 0;              // vertices inside another body
+  bool parted = false;                 // the bodies' boxes are apart again at the end
+  double momentum_change = 0;          // over the sum of m |v|
+  double angular_momentum_change = 0;  // over the sum of |x x m v|
+  double most_energy = 0;              // above the start's, over the kinetic energy at the start
+  double last_energy = 0;              // the same at the end
+};
+
+/// One impact of two spheres of 162 vertices.
+struct ImpactRow {
+  std::string response;
+  std::string integrator;
+  double stiffness = 1e3;  // N k [N/m]
+  double elasticity = 0.5;
+  double omega_step = 0;   // step times the stiffest frequency
+  double kept = 0;         // of the approach of the centres of mass along x, after the impact
+  double most_energy = 0;  // above the start's, over the kinetic energy at the start
+  // Distances to the result with the shortest step, over the start's sizes. They are null in the row of that step itself.
+  std::optional<double> position_error;  // of a body's centre of mass, over the radius
+  std::optional<double> momentum_error;  // of a body, over that at the start
+  std::optional<double> spin_error;      // of a body's own angular momentum, over M r v
+};
+
+/// Steps while two spheres press each other, beside the same steps without contact.
+struct CostRow {
+  DeviceKind device = DeviceKind::cpu;
+  int precision = 32;
+  std::uint32_t vertices = 0;       // of a body
+  std::uint64_t contacts = 0;       // the most impulses in a part of a step
+  double microseconds = 0;          // of a part of a step
+  double microseconds_without = 0;  // of the same method's step with response = "none"
+};
+
+using ContactRow = std::variant<ApartRow, ImpactRow, CostRow>;
+
+struct ContactResult {
+  std::vector<ContactRow> rows;
+  std::vector<std::string> notes;  // sums over the rows
+  bool interrupted = false;        // by Progress
+};
+
+/// Runs the suite. Throws Error: device, or input if a mesh is missing.
+[[nodiscard]] ContactResult bench_contact(const ContactOptions& options, const Progress& progress);
+
+}  // namespace pliant::bench

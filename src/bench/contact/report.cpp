@@ -1,0 +1,111 @@
+#include "bench/contact/report.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/common/report_parts.hpp"
+
+namespace pliant::bench {
+namespace {
+
+std::string line(const ApartRow& row) {
+  return fmt::format(
+      "{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>8} {:>6} {:>5} {:>8} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e}\n",
+      row.bodies, name_of(row.device), row.precision, row.vertices, row.edges_a_step, row.steps, row.parts, row.contact_parts,
+      row.cut_vertices, row.held_parts, row.touching, row.inside, row.parted ? "yes" : "no", row.momentum_change,
+      row.angular_momentum_change, row.most_energy, row.last_energy);
+}
+
+std::string line(const ImpactRow& row) {
+  const auto error = [](const std::optional<double>& known) { return known ? fmt::format("{:.2e}", *known) : "-"; };
+  return fmt::format("{:<9} {:<8} {:>8g} {:>4} {:>11.5f} {:>8.4f} {:>9.1e} {:>9} {:>9} {:>9}\n", row.response, row.integrator,
+                     row.stiffness, row.elasticity, row.omega_step, row.kept, row.most_energy, error(row.position_error),
+                     error(row.momentum_error), error(row.spin_error));
+}
+
+std::string line(const CostRow& row) {
+  return fmt::format("{:<6} {:>4} {:>8} {:>8} {:>9.1f} {:>9.1f} {:>9.1f}\n", name_of(row.device), row.precision, row.vertices,
+                     row.contacts, row.microseconds, row.microseconds_without, row.microseconds - row.microseconds_without);
+}
+
+template <class Row>
+std::string lines_of(const ContactResult& result, const std::string& header) {
+  std::string lines;
+  for (const ContactRow& row : result.rows)
+    if (const auto* found = std::get_if<Row>(&row)) lines += line(*found);
+  return lines.empty() ? lines : header + lines + '\n';
+}
+
+Json row_json(const ApartRow& row) {
+  return {{"kind", "apart"},
+          {"bodies", row.bodies},
+          {"device", name_of(row.device)},
+          {"precision", row.precision},
+          {"vertices", row.vertices},
+          {"mass_ratio", row.mass_ratio},
+          {"edges_a_step", row.edges_a_step},
+          {"omega_step", row.omega_step},
+          {"steps", row.steps},
+          {"parts", row.parts},
+          {"contact_parts", row.contact_parts},
+          {"cut_vertices", row.cut_vertices},
+          {"held_parts", row.held_parts},
+          {"touching", row.touching},
+          {"inside", row.inside},
+          {"parted", row.parted},
+          {"momentum_change", row.momentum_change},
+          {"angular_momentum_change", row.angular_momentum_change},
+          {"most_energy", row.most_energy},
+          {"last_energy", row.last_energy}};
+}
+
+Json row_json(const ImpactRow& row) {
+  return {{"kind", "impact"},
+          {"response", row.response},
+          {"integrator", row.integrator},
+          {"stiffness", row.stiffness},
+          {"elasticity", row.elasticity},
+          {"omega_step", row.omega_step},
+          {"kept", row.kept},
+          {"most_energy", row.most_energy},
+          {"position_error", row.position_error},
+          {"momentum_error", row.momentum_error},
+          {"spin_error", row.spin_error}};
+}
+
+Json row_json(const CostRow& row) {
+  return {{"kind", "cost"},
+          {"device", name_of(row.device)},
+          {"precision", row.precision},
+          {"vertices", row.vertices},
+          {"contacts", row.contacts},
+          {"microseconds", row.microseconds},
+          {"microseconds_without", row.microseconds_without}};
+}
+
+}  // namespace
+
+std::string to_table(const ContactResult& result) {
+  std::string table = lines_of<ApartRow>(
+      result,
+      fmt::format("{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>8} {:>6} {:>5} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>9}\n",
+                  "apart", "device", "bits", "vertices", "edges/h", "steps", "parts", "contact", "cut", "held", "touching",
+                  "inside", "parted", "momentum", "ang. mom.", "most E", "last E"));
+  table +=
+      lines_of<ImpactRow>(result, fmt::format("{:<9} {:<8} {:>8} {:>4} {:>11} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "impact",
+                                              "method", "N k", "e", "h omega", "kept", "most E", "position", "momentum", "spin"));
+  table += lines_of<CostRow>(result, fmt::format("{:<6} {:>4} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "cost", "bits", "vertices",
+                                                 "contacts", "us", "without", "more"));
+  for (const std::string& note : result.notes) table += note + '\n';
+  return table;
+}
+
+std::string to_json(const Machine& machine, const ContactOptions& options, const ContactResult& result) {
+  Json file = suite_json("contact", options_json(options.devices, options.quick), result.interrupted, machine);
+  file.add("rows", list_of(result.rows, [](const ContactRow& row) {
+             return std::visit([](const auto& known) { return row_json(known); }, row);
+           }));
+  file.add("notes", result.notes);
+  return text_of(file);
+}
+
+}  // namespace pliant::bench
