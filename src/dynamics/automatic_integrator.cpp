@@ -18,6 +18,7 @@ struct Choice {
 // - Without damping dprkn12 needs the fewest. From 1e-4 on dprkn8 hardly needs more, and its steps are the cheapest where
 //   contacts bound them.
 // - The adaptive law has a kink. High orders are lost there, and verner78_8's milder estimate pays.
+// - The internal law is as smooth as the constant one.
 // - vern8 is for fp64, because its weights magnify what fp32 rounds.
 // clang-format off
 constexpr Choice choices[] = {
@@ -26,6 +27,8 @@ constexpr Choice choices[] = {
     {DampingLaw::constant, 1e-7, "dop853"},
     {DampingLaw::constant, 0, "vern8"},
     {DampingLaw::adaptive, 0, "verner78_8"},
+    {DampingLaw::internal, 1e-7, "dop853"},
+    {DampingLaw::internal, 0, "vern8"},
 };
 // clang-format on
 

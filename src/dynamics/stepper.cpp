@@ -44,18 +44,26 @@ std::vector<glm::dvec2> stage_rows(const NystromTableau& tableau, bool cancels_r
   return rows;
 }
 
+double seconds(long double fraction, double time_step) {
+  return static_cast<double>(fraction * static_cast<long double>(time_step));
+}
+
 // Returns the rows that splitting_stage.glsl reads, for steps of the given length [s].
 std::vector<glm::dvec2> splitting_rows(const Splitting& method, double time_step) {
   std::vector<glm::dvec2> rows;
-  const auto seconds = [&](long double fraction) { return static_cast<double>(fraction * static_cast<long double>(time_step)); };
   long double elapsed = method.drift[0];
   for (std::size_t stage = 0; stage < method.drift.size(); ++stage) {
     const long double drift = stage + 1 < method.drift.size() ? method.drift[stage + 1] : 0;
     elapsed += drift;
-    rows.emplace_back(seconds(method.kick[stage + 1]), seconds(drift));
-    rows.emplace_back(seconds(elapsed), 0);
+    rows.emplace_back(seconds(method.kick[stage + 1], time_step), seconds(drift, time_step));
+    rows.emplace_back(seconds(elapsed, time_step), 0);
   }
   return rows;
+}
+
+// Internal damping is constant damping with forces beside it.
+std::uint32_t law_of_stages(DampingLaw law) {
+  return static_cast<std::uint32_t>(law == DampingLaw::internal ? DampingLaw::constant : law);
 }
 
 void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
@@ -74,8 +82,9 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
                  Stages stages)
     : bodies_(bodies),
       added_forces_(bodies, model),
+      internal_damping_(bodies, model, law),
       integrator_(integrator),
-      law_(static_cast<std::uint32_t>(law)),
+      law_(law_of_stages(law)),
       time_step_(time_step) {
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t count = bodies.vertex_count;
@@ -117,7 +126,9 @@ std::vector<Pass> Stepper::first_passes() const {
 
 std::vector<Pass> Stepper::passes(std::uint32_t from_half) const {
   if (const auto* splitting = std::get_if<Splitting>(&integrator_.method)) return splitting_passes(*splitting, from_half);
-  return stage_passes("runge_kutta_stage", from_half, physics::slot_of_stage);
+  return stage_passes("runge_kutta_stage", from_half, [&](std::uint32_t stage) {
+    return StageState{physics::slot_of_stage(stage), from_half, stage};
+  });
 }
 
 Pass Stepper::following_pass(std::uint32_t from_half) const {
@@ -133,13 +144,20 @@ Pass Stepper::refresh_pass() const {
   return make_pass(bodies_.arrays, "refresh_force", kernel, {}, static_cast<std::uint32_t>(bodies_.shares.size()));
 }
 
-std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const {
+std::vector<Pass> Stepper::force_passes(const StageState& at) const {
+  std::vector<Pass> passes = added_forces_.passes(at.slot);
+  std::ranges::move(internal_damping_.passes(at, passes.empty()), std::back_inserter(passes));
+  return passes;
+}
+
+std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half,
+                                        const StateOfStage& state_of_stage) const {
   const DeviceBodies& b = bodies_;
-  const bool at_once = b.all_stages_at_once && !added_forces_.any();  // added forces come between stages
+  const bool at_once = b.all_stages_at_once && adds_force() == 0;  // added forces come between stages
   const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, at_once);
   std::vector<Pass> passes;
   for (std::uint32_t stage = 0; stage < (at_once ? 1 : stage_count_); ++stage) {
-    std::ranges::move(added_forces_.passes(slot_of_stage(stage)), std::back_inserter(passes));
+    std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
     passes.push_back(make_pass(b.arrays, name, kernel,
                                {{"from_half", from_half},
                                 {"damping_law", law_},
@@ -152,19 +170,21 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
 }
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
-  const auto first = [&](const std::vector<long double>& fractions) {
-    return static_cast<double>(fractions[0] * static_cast<long double>(time_step_));
-  };
+  const double first_kick = seconds(method.kick[0], time_step_);
   std::vector<Pass> result = {refresh_pass()};
-  std::ranges::move(added_forces_.passes(physics::start_slot), std::back_inserter(result));
+  std::ranges::move(force_passes({physics::start_slot, from_half, 0, first_kick}), std::back_inserter(result));
   result.push_back(make_pass(bodies_.arrays, "first_kick",
                              {{"from_half", from_half},
                               {"damping_law", law_},
                               {"adds_force", adds_force()},
-                              {"kick_time", first(method.kick)},
-                              {"drift_time", first(method.drift)}},
+                              {"kick_time", first_kick},
+                              {"drift_time", seconds(method.drift[0], time_step_)}},
                              bodies_.vertex_count));
-  std::ranges::move(stage_passes("splitting_stage", from_half, physics::slot_of_force), std::back_inserter(result));
+  const auto state_of_stage = [&](std::uint32_t stage) {
+    return StageState{physics::slot_of_force(stage), physics::other_half(from_half), 0,
+                      seconds(method.kick[stage + 1], time_step_)};
+  };
+  std::ranges::move(stage_passes("splitting_stage", from_half, state_of_stage), std::back_inserter(result));
   return result;
 }
 

@@ -1,10 +1,12 @@
 // Records the dispatches of one step of an integrator, for every body together.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "device/pass.hpp"
 #include "dynamics/forces/force.hpp"
 #include "dynamics/integrator.hpp"
+#include "dynamics/internal_damping.hpp"
 #include "scene/scene_description.hpp"
 #include "state/device_bodies.hpp"
 
@@ -41,15 +43,19 @@ class Stepper {
   /// Makes the method's tableau, or one for each rate of damping among the bodies.
   void use_tableaus(Stages stages);
   /// Returns a pass for each stage, or one for all stages if the bodies are small enough and springs are their only forces.
-  using SlotOfStage = std::uint32_t (*)(std::uint32_t stage);
-  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, SlotOfStage slot_of_stage) const;
-  [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() ? 1 : 0; }
+  using StateOfStage = std::function<StageState(std::uint32_t stage)>;
+  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half,
+                                               const StateOfStage& state_of_stage) const;
+  /// Returns passes that set the forces beside the springs, for one stage.
+  [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
+  [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 
   DeviceBodies& bodies_;
   AddedForces added_forces_;
+  InternalDamping internal_damping_;
   const Integrator& integrator_;
-  std::uint32_t law_;
+  std::uint32_t law_;  // as kernels of stages know it
   double time_step_;
   std::uint32_t stage_count_;
 };

@@ -174,7 +174,8 @@ class TableReader {
 
 const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none), DampingLaw::none},
                                                       {name_of(DampingLaw::constant), DampingLaw::constant},
-                                                      {name_of(DampingLaw::adaptive), DampingLaw::adaptive}};
+                                                      {name_of(DampingLaw::adaptive), DampingLaw::adaptive},
+                                                      {name_of(DampingLaw::internal), DampingLaw::internal}};
 const std::vector<Choice<BodyKind>> kinds = {{"soft", BodyKind::soft}, {"static", BodyKind::immovable}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},

@@ -21,10 +21,11 @@ struct Named {
 
 enum class BodyKind { soft, immovable };
 enum class PressureLaw { gas, constant };
-enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2 };
+enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2, internal = 3 };
 /// Returns the law's name in scenes and reports.
 constexpr const char* name_of(DampingLaw law) {
-  return law == DampingLaw::none ? "none" : law == DampingLaw::constant ? "constant" : "adaptive";
+  constexpr const char* names[] = {"none", "constant", "adaptive", "internal"};
+  return names[static_cast<unsigned>(law)];
 }
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };

@@ -75,8 +75,8 @@ void expect_method_damps(const TimePlan& plan, const Origin& where) {
   throw Error(
       where,
       is_nystrom
-          ? fmt::format("{} can't meet adaptive damping, which needs velocities that its stages do not have",
-                        plan.integrator->name)
+          ? fmt::format("{} can't meet {} damping, which needs velocities that its stages do not have", plan.integrator->name,
+                        name_of(plan.damping_law))
           : fmt::format("{} is for bodies without damping: its steps have kicks back in time, which damping makes unstable",
                         plan.integrator->name),
       fmt::format("set simulation.damping_law = \"{}\" or choose another integrator, such as verlet",

@@ -21,6 +21,7 @@
 #include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
 #include "physics/pull.glsl"
+#include "physics/rigid_motion.glsl"
 
 namespace pliant {
 
@@ -54,6 +55,8 @@ PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")
 PLIANT_ELEMENT(physics::Pressure, "Pressure")
+PLIANT_ELEMENT(physics::Moments, "Moments")
+PLIANT_ELEMENT(physics::RigidMotion, "RigidMotion")
 PLIANT_ELEMENT(physics::Surface, "Surface")
 PLIANT_ELEMENT(physics::Ground, "Ground")
 PLIANT_ELEMENT(physics::StepParts, "StepParts")

@@ -119,7 +119,7 @@ void choose_step(const Facts& facts, Settings& settings) {
 }
 
 void choose_damping(DampingLaw& law) {
-  constexpr std::array laws = {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive};
+  constexpr std::array laws = {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal};
   if (!ImGui::BeginCombo("damping law", name_of(law))) return;
   for (const DampingLaw one : laws)
     if (ImGui::Selectable(name_of(one), one == law)) law = one;

@@ -108,6 +108,18 @@ std::vector<double> numbers_of(const physics::Tally& tally) {
   return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes)};
 }
 
+std::vector<double> numbers_of(const physics::Moments& moments) {
+  std::vector<double> numbers(sizeof(physics::Moments) / sizeof(double));
+  std::memcpy(numbers.data(), &moments, sizeof(physics::Moments));
+  return numbers;
+}
+
+std::vector<double> numbers_of(const physics::RigidMotion& motion) {
+  std::vector<double> numbers(sizeof(physics::RigidMotion) / sizeof(double));
+  std::memcpy(numbers.data(), &motion, sizeof(physics::RigidMotion));
+  return numbers;
+}
+
 std::vector<double> numbers_of(const physics::Control& control) {
   std::vector<double> numbers{control.time_step};
   std::uint32_t words[(sizeof(physics::Control) - offsetof(physics::Control, step)) / 4];
@@ -272,6 +284,10 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       check_structs<physics::Status>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Tally") {
       check_structs<physics::Tally>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
+    } else if (element == "Moments") {
+      check_structs<physics::Moments>(cpu, gpu, a, b, cpu.bodies.arrays.get<physics::Moments>(name).size(), 1e-12);
+    } else if (element == "RigidMotion") {
+      check_structs<physics::RigidMotion>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-12);
     } else if (element == "Pace") {
       const auto x = numbers_of(cpu.read<physics::Pace>(a).front()), y = numbers_of(gpu.read<physics::Pace>(b).front());
       constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // it comes from powers of floats
@@ -362,7 +378,9 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   start = build_model(setups, {0, -1, 0}, {&ground, 1});
   for (const ResponseRow& response : responses())
     for (auto [method, collision] : {std::pair<Method, CollisionDescription>{{"cv8", 0.01, DampingLaw::adaptive}, tree},
-                                     {{"verlet", 0.01, DampingLaw::constant}, brute}}) {
+                                     {{"verlet", 0.01, DampingLaw::constant}, brute},
+                                     {{"verlet", 0.01, DampingLaw::internal}, tree},
+                                     {{"rk4", 0.01, DampingLaw::internal}, tree}}) {
       CAPTURE(response.name, method.integrator);
       collision.response = Named{std::string(response.name)};
       Bench cpu(make_cpu_device(2, 32), start, method, collision), gpu(make_gpu_device(0), start, method, collision);

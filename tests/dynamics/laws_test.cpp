@@ -72,7 +72,7 @@ TEST_CASE("halving the step shrinks the error as the method's order says") {
   BodySetup setup = tumbling();
   setup.description.damping = 0.1;  // with more the motion dies away, and its error with it, before the error is large enough
   const ModelAndState start = built(setup);
-  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant})
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::internal})
     for (const Integrator& integrator : integrators()) {
       if (!allows_damping(integrator, law)) continue;
       CAPTURE(integrator.name, static_cast<int>(law));
@@ -165,7 +165,7 @@ TEST_CASE("without damping the energy error of an order-8 method falls with its 
 TEST_CASE("damping takes energy away, and never gives any", "[gl]") {
   const ModelAndState start = built(tumbling());
   for (const TestDevice& test : all_devices())
-    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) {
+    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal}) {
       CAPTURE(test.name, static_cast<int>(law));
       double energy = measured(start.model, start.state).energy();
       State state = start.state;

@@ -232,7 +232,8 @@ TEST_CASE("the largest damping rate is the one that the law reaches at the stron
   body.damping = 3;
   body.vertex_mass = 2;
   for (const auto& [law, number] :
-       {std::pair(DampingLaw::constant, physics::damping_constant), std::pair(DampingLaw::adaptive, physics::damping_adaptive)})
+       {std::pair(DampingLaw::constant, physics::damping_constant), std::pair(DampingLaw::adaptive, physics::damping_adaptive),
+        std::pair(DampingLaw::internal, physics::damping_constant)})
     CHECK(largest_damping_rate(body, law) == Approx(physics::damping_rate(number, 3, 0.5, 1e12)));
   CHECK(largest_damping_rate(body, DampingLaw::none) == 0);
 }

@@ -476,7 +476,8 @@ TEST_CASE("splittings with negative kicks bear no damping, Nystrom methods the c
     const bool is_nystrom = integrator.name == "dprkn8" || integrator.name == "dprkn12";
     CHECK(allows_damping(integrator, DampingLaw::none));
     CHECK(allows_damping(integrator, DampingLaw::constant) == (integrator.name != "srkn11b"));
-    CHECK(allows_damping(integrator, DampingLaw::adaptive) == (integrator.name != "srkn11b" && !is_nystrom));
+    for (const DampingLaw law : {DampingLaw::adaptive, DampingLaw::internal})
+      CHECK(allows_damping(integrator, law) == (integrator.name != "srkn11b" && !is_nystrom));
   }
 }
 

@@ -228,9 +228,15 @@ TEST_CASE("a value out of range is an error that gives the range") {
   }
 }
 
+TEST_CASE("every damping law is read by its name") {
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal})
+    CHECK(load_text("[simulation]\ndamping_law = \"" + std::string(name_of(law)) + "\"\n" + smallest).simulation.damping_law ==
+          law);
+}
+
 TEST_CASE("a word that is no choice is an error that lists the choices") {
   check_input_error("[simulation]\ndamping_law = \"strong\"\n" + smallest, 2,
-                    {"\"strong\" is no choice", "none, constant, adaptive"});
+                    {"\"strong\" is no choice", "none, constant, adaptive, internal"});
   check_input_error("[collision]\nsearch = \"grid\"\n" + smallest, 2, {"tree, brute_force"});
   check_input_error("[collision]\ntriangle_test = \"exact\"\n" + smallest, 2, {"certified, moller"});
   check_input_error("[collision.tree]\nsplit = \"median\"\n" + smallest, 2, {"centre"});

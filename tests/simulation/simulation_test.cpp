@@ -51,7 +51,7 @@ void check_thread_counts(int precision, const Method& method, const CollisionDes
   const ModelAndState start = build_model(colliding_spheres(), {0, -1, 0});
   const Outcome one = collide(*make_cpu_device(1, precision), start, method, 30, collision);
   CHECK(one.report.contact_steps > 5);
-  for (const unsigned threads : {2u, 7u}) {
+  for (const unsigned threads : {2u, 7u, 16u}) {
     CAPTURE(threads);
     const Outcome many = collide(*make_cpu_device(threads, precision), start, method, 30, collision);
     CHECK(many.state.motion == one.state.motion);
@@ -61,25 +61,28 @@ void check_thread_counts(int precision, const Method& method, const CollisionDes
   }
 }
 
-TEST_CASE("the CPU gives the same bits on 1, 2 and 7 threads") {
+TEST_CASE("the CPU gives the same bits on 1, 2, 7 and 16 threads") {
   for (const int precision : {32, 64})
     for (const char* integrator : {"cv8", "verlet"})
       for (const ContactSearch search : {ContactSearch::tree, ContactSearch::brute_force}) {
         CAPTURE(precision, integrator, static_cast<int>(search));
-        check_thread_counts(precision, {integrator, 0.01, DampingLaw::adaptive}, searched_by(search));
+        for (const DampingLaw law : {DampingLaw::adaptive, DampingLaw::internal})
+          check_thread_counts(precision, {integrator, 0.01, law}, searched_by(search));
       }
 }
 
 TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
   if (test::lacks_gl()) return;
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
-  const Outcome first = collide(*make_gpu_device(0), start, usual, 30);
-  const Outcome second = collide(*make_gpu_device(0), start, usual, 30);
-  CHECK(first.report.contact_steps > 5);
-  CHECK(first.state.motion == second.state.motion);
-  CHECK(same_bits(first.state.poses, second.state.poses));
-  CHECK(first.positions == second.positions);
-  CHECK(first.report.node_tests == second.report.node_tests);
+  for (const Method& method : {usual, {"verlet", 0.01, DampingLaw::internal}}) {
+    const Outcome first = collide(*make_gpu_device(0), start, method, 30);
+    const Outcome second = collide(*make_gpu_device(0), start, method, 30);
+    CHECK(first.report.contact_steps > 5);
+    CHECK(first.state.motion == second.state.motion);
+    CHECK(same_bits(first.state.poses, second.state.poses));
+    CHECK(first.positions == second.positions);
+    CHECK(first.report.node_tests == second.report.node_tests);
+  }
 }
 
 TEST_CASE("steps queued together and one by one give the same bits") {

@@ -176,7 +176,7 @@ TEST_CASE("the damped kick is needed: a Runge-Kutta method blows up where verlet
     const double step = 1.9 / stiffest_omega(start.model);
     CollisionDescription apart;
     apart.response = Named{"none"};
-    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive}) {
+    for (const DampingLaw law : {DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal}) {
       CAPTURE(damping, static_cast<int>(law));
       Trial verlet(start, plan_of({"verlet", step, law}), apart);
       const double before = verlet.measured().energy();

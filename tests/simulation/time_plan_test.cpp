@@ -134,6 +134,12 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
   const auto without_velocities = error_of([&] { return plan_time(scene_with("dprkn12", DampingLaw::adaptive), model); });
   CHECK(without_velocities.kind() == ErrorKind::input);
   check_says(without_velocities, {"scene.toml:3", "dprkn12", "velocities", "\"constant\"", "verlet"});
+  for (const char* name : {"srkn11b", "dprkn8", "dprkn12"}) {
+    const auto refused = error_of([&] { return plan_time(scene_with(name, DampingLaw::internal), model); });
+    CHECK(refused.kind() == ErrorKind::input);
+    check_says(refused, {"scene.toml:3", name, "damping", "verlet"});
+  }
+  check_says(error_of([&] { return plan_time(scene_with("dprkn8", DampingLaw::internal), model); }), {"internal damping"});
   for (const char* name : {"srkn11b", "dprkn12"}) CHECK_NOTHROW(plan_time(scene_with(name, DampingLaw::none), model));
   CHECK_NOTHROW(plan_time(scene_with("dprkn12", DampingLaw::constant), model));
 }
@@ -220,7 +226,7 @@ TEST_CASE("a tolerance needs a method that estimates its error, and the remedy l
 
 TEST_CASE("an automatic integrator estimates its error, whatever the law and the tolerance, and needs one") {
   const Model model = built(sphere(0)).model;
-  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive}) {
+  for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal}) {
     SceneDescription scene = scene_with("auto", law);
     const Error error = error_of([&] { return plan_time(scene, model); });
     CHECK(error.kind() == ErrorKind::input);
@@ -264,7 +270,7 @@ TEST_CASE("a scene's method that can't meet the tolerance of an option gives way
   setup.description.damping = 3;
   const Model model = built(setup).model;
   for (const Integrator& integrator : integrators())
-    for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive}) {
+    for (const DampingLaw law : {DampingLaw::none, DampingLaw::constant, DampingLaw::adaptive, DampingLaw::internal}) {
       CAPTURE(integrator.name, static_cast<int>(law));
       SceneDescription scene = scene_with(std::string(integrator.name), law);
       scene.simulation.tolerance = 1e-4;

@@ -74,8 +74,9 @@ TEST_CASE("fixed steps go on from a saved state to the bit, with stages and kept
   CollisionDescription by_force;
   by_force.search = ContactSearch::brute_force;
   for (const TestDevice& test : all_devices())
-    for (const Method& method : {Method{"cv8", 0.01, DampingLaw::adaptive}, Method{"verlet", 0.01, DampingLaw::adaptive},
-                                 Method{"srkn11b", 0.01}, Method{"dprkn8", 0.01, DampingLaw::constant}}) {
+    for (const Method& method :
+         {Method{"cv8", 0.01, DampingLaw::adaptive}, Method{"verlet", 0.01, DampingLaw::adaptive}, Method{"srkn11b", 0.01},
+          Method{"dprkn8", 0.01, DampingLaw::constant}, Method{"verlet", 0.01, DampingLaw::internal}}) {
       CAPTURE(test.name, method.integrator);
       check_fixed(*test.device, method, {});
       check_fixed(*test.device, method, {}, 3);

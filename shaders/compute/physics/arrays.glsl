@@ -23,7 +23,7 @@ ARRAY(control, Control, run, carried, "the step's length, clock and counters")
 
 // integrators
 ARRAY(kept_force, double, vertex, carried, "[vertex][3] spring forces of a splitting method, kept for the next step [N]")
-ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity")
+ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting with internal damping")
 ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
 ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")
 ARRAY(error_scale, double, body, fixed, "[body][2] 1 / r [1/m], 1 / (r omega) [s/m]")
@@ -37,6 +37,12 @@ ARRAY(shell_part, uvec4, part, fixed, "body, first triangle, end of triangles, 0
 ARRAY(volume_part, double, part, step, "what these triangles add to the body's volume [m^3]")
 ARRAY(fan_begin, uint, vertex, fixed, "[vertex + 1] where the vertex's triangles begin in `fan`")
 ARRAY(fan, uvec2, corner, fixed, "the other two vertices of a triangle around a vertex, in its order")
+
+// internal damping
+ARRAY(moment_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread sums of a body with internal damping")
+ARRAY(moment_range, uvec2, body, fixed, "first part, number of parts; none without internal damping")
+ARRAY(moment, Moments, part, step, "sums over these vertices, for the body's rigid motion")
+ARRAY(rigid_motion, RigidMotion, body, step, "what internal damping leaves alone, at a stage; zeros for bodies without it")
 
 // contacts
 ARRAY(tree, uvec2, body, fixed, "root, number of leaves")

@@ -17,6 +17,7 @@ PeerSystem::PeerSystem(const Model& model, DampingLaw law, double omega)
       displacements_(vertex_count_),
       sums_(vertex_count_) {
   PLIANT_EXPECT(model.bodies.size() == 1 && model.bodies.front().inflation.pressure == 0);
+  PLIANT_EXPECT(law != DampingLaw::internal);
   for (const glm::vec4& rest : model.rest_positions)
     rest_.emplace_back(glm::dvec3(rest) / model.bodies.front().unit_of_length(), 0.0);
 }

@@ -17,7 +17,8 @@ namespace pliant::bench {
 /// tolerances weigh both alike.
 class PeerSystem {
  public:
-  /// Expects one body, with springs alone and without gravity, in a frame that is not turned. `model` must outlive the system.
+  /// Expects one body, with springs alone and without gravity or internal damping, in a frame that is not turned. `model` must
+  /// outlive the system.
   PeerSystem(const Model& model, DampingLaw law, double omega /* [rad/s] */);
 
   [[nodiscard]] std::vector<double> numbers_of(const State& state) const;

@@ -32,6 +32,7 @@ struct EnergyQuestion {
   const std::function<bool()>& stopped;
 };
 
+/// A force within a body. The forces on a body's vertices add up to no force and no torque. Internal damping counts on that.
 struct Force {
   std::string_view name;
   bool is_zero_at_rest;  // a body in its rest shape feels nothing
