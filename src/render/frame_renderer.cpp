@@ -198,6 +198,7 @@ struct FrameRenderer::Impl {
   std::optional<Picture> picture;  // empty only while it is replaced
   Fill fill_mode = Fill::surface;
   std::optional<Speeds> speeds;
+  std::optional<LineOverlay> overlay;  // made for the first lines
 };
 
 void FrameRenderer::Impl::upload_camera() {
@@ -393,6 +394,13 @@ void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_ver
   impl_->shade();
   tell("shading");
   glUseProgram(0);  // else drivers check the program against textures that are bound or deleted later
+}
+
+void FrameRenderer::draw_lines(std::span<const LineEnd> ends) {
+  if (ends.empty()) return;
+  if (!impl_->overlay) impl_->overlay.emplace();
+  impl_->picture->shaded_target.bind();
+  impl_->overlay->draw(ends, impl_->options.camera, impl_->options.size);
 }
 
 void FrameRenderer::copy_to_window() const {

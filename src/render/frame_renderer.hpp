@@ -5,10 +5,12 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "model/model.hpp"
 #include "render/camera.hpp"
 #include "render/image.hpp"
+#include "render/line_overlay.hpp"
 
 namespace pliant::render {
 
@@ -65,6 +67,8 @@ class FrameRenderer {
   /// Draws into the renderer's own framebuffer. `positions_buffer` is a GL buffer of vec4, whose xyz is the world position [m].
   /// The model's vertex 0 is its element `first_vertex`. Allocates nothing.
   void draw(std::uint32_t positions_buffer, std::uint32_t first_vertex, const PassObserver& after_pass = {});
+  /// Draws lines over the last picture.
+  void draw_lines(std::span<const LineEnd> ends);
   /// Waits for the last draw() and reads its picture.
   [[nodiscard]] Image read() const;
   /// Copies the last picture, pixel by pixel, to the bottom left of the window whose context is current.

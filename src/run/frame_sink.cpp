@@ -7,6 +7,7 @@
 
 #include "device/gpu/gpu_device.hpp"
 #include "output/png.hpp"
+#include "render/contact_marks.hpp"
 #include "render/drawn_buffers.hpp"
 #include "render/frame_renderer.hpp"
 
@@ -42,10 +43,18 @@ class FrameSink::Painter {
   render::Image paint() {
     const render::DrawnBuffer positions = buffers_.positions(*run_.device, *run_.simulation);
     renderer_.draw(positions.id, positions.first_vertex);
+    if (run_.scene.output.marks == Marks::contacts) renderer_.draw_lines(contacts());
     return renderer_.read();
   }
 
  private:
+  render::Lines contacts() {
+    render::Lines lines;
+    const Model& model = run_.start.model;
+    render::add_contacts(lines, *run_.simulation, model, run_.simulation->state().world_positions(model));
+    return lines;
+  }
+
   PreparedRun& run_;
   std::unique_ptr<gl::Context> own_context_;
   render::DrawnBuffers buffers_;

@@ -183,6 +183,7 @@ const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", Triangle
 const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
 const std::vector<Choice<bool>> splits = {{"centre", true}};  // so far there is nothing to choose
 const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
+const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts", Marks::contacts}};
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("integrator", simulation.integrator);
@@ -238,6 +239,7 @@ void read_table(TableReader& table, OutputDescription& output) {
   table.read("size", output.size, pixel_count);
   table.section("camera", output.camera);
   table.read("coloring", output.coloring, colorings);
+  table.read("marks", output.marks, all_marks);
   table.read("ground_height", output.ground_height, coordinate);
 }
 

@@ -30,6 +30,7 @@ constexpr const char* name_of(DampingLaw law) {
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };
 enum class Coloring { body, deformation };
+enum class Marks { none, contacts };
 
 struct SimulationDescription {
   Named integrator{"dop853", {Origin::From::nowhere, "simulation.integrator"}};
@@ -76,6 +77,7 @@ struct OutputDescription {
   glm::uvec2 size{1280, 720};               // [pixels]
   std::optional<CameraDescription> camera;  // frames the scene if empty
   Coloring coloring = Coloring::body;
+  Marks marks = Marks::none;            // drawn over bodies
   std::optional<double> ground_height;  // [m], just below where the bodies start if empty
 };
 

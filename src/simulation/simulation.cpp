@@ -73,6 +73,7 @@ std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
 
 void Simulation::queue(std::uint64_t steps) {
   known_control_.reset();
+  is_restored_ = false;
   for (std::uint64_t k = 0; k < steps; ++k) {
     const std::vector<Pass>& step = schedules_[queued_steps_++ & 1];
     if (timed_)
@@ -183,6 +184,7 @@ std::string Simulation::save() {
 void Simulation::restore(std::string_view saved) {
   ByteReader from(saved);
   known_control_.reset();
+  is_restored_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
@@ -196,6 +198,11 @@ std::vector<std::uint32_t> Simulation::touching_vertices() {
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (latest > 0 && marks[i] == latest) touching.push_back(i);
   return touching;
+}
+
+std::vector<ContactImpulse> Simulation::contact_impulses() {
+  if (is_restored_ || collider_.response() == nullptr) return {};
+  return collider_.response()->contact_impulses();
 }
 
 Intersections Simulation::intersections() {

@@ -106,6 +106,9 @@ class Simulation {
   void restore(std::string_view saved);
   /// Returns the vertices that touched another body in the latest queued step. Waits for it.
   [[nodiscard]] std::vector<std::uint32_t> touching_vertices();
+  /// Returns the impulses that contacts gave in the latest queued step, in no fixed order. There are none after restore(), or if
+  /// the response gives no impulses. Waits for the step.
+  [[nodiscard]] std::vector<ContactImpulse> contact_impulses();
   /// Tests the current world positions with the scene's own search and triangle test.
   [[nodiscard]] Intersections intersections();
 
@@ -137,7 +140,7 @@ class Simulation {
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
-  bool timed_ = false;
+  bool timed_ = false, is_restored_ = false;       // restored: no step has been queued since
   std::map<std::string_view, double> pass_seconds_;
 };
 

@@ -8,11 +8,10 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "simulation/overlap.hpp"
 
 namespace pliant {
 namespace {
-
-const char* const way_apart = "move them apart, or write response = \"reflect\" in [collision], which lets bodies begin tangled";
 
 // How deep the body's deepest vertex stands in the ground [m], or below 0 if none does.
 double depth_in(const Ground& ground, const ModelBody& body, std::span<const glm::dvec3> positions) {
@@ -27,10 +26,29 @@ void expect_above_grounds(const Model& model, const State& state, const std::str
   for (const ModelBody& body : model.bodies)
     for (const Ground& ground : model.grounds)
       if (const double depth = depth_in(ground, body, positions); !body.is_static && depth >= 0)
-        throw Error(ErrorKind::input, place,
-                    depth == 0 ? fmt::format("body \"{}\" touches a ground", body.name)
-                               : fmt::format("body \"{}\" stands {:.4g} m deep in a ground", body.name, depth),
-                    "leave a small distance between them, as of a twentieth of an edge");
+        throw Error(
+            ErrorKind::input, place,
+            depth == 0 ? fmt::format("body \"{}\" touches a ground", body.name)
+                       : fmt::format("body \"{}\" stands {:.4g} m deep in a ground", body.name, depth),
+            fmt::format("raise the body by {:.4g} m, which leaves a twentieth of an edge between them, or lower the ground",
+                        depth + usual_gap(model, body)));
+}
+
+std::string described(const Model& model, const Overlap& overlap) {
+  const std::string names =
+      fmt::format("bodies \"{}\" and \"{}\" intersect", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
+  return overlap.depth > 0 ? fmt::format("{}, at least {:.3g} m deep", names, overlap.depth)
+                           : fmt::format("{}, less deep than an edge is long", names);
+}
+
+std::string way_apart(const Model& model, const Overlap& overlap) {
+  const bool moves_first = model.bodies[overlap.second].is_static;
+  const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
+  const glm::dvec3 way = (moves_first ? -1.0 : 1.0) * overlap.way_out;
+  const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_static);
+  return fmt::format("move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}", body.name, way.x, way.y, way.z,
+                     may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
+                                 : "give one of them a smaller scale");
 }
 
 }  // namespace
@@ -54,8 +72,10 @@ bool keeps_apart(const Simulation& simulation) {
 void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
   if (!keeps_apart(simulation)) return;
   expect_above_grounds(model, simulation.state(), place);
-  if (const std::string overlap = told_overlap(simulation, model); !overlap.empty())
-    throw Error(ErrorKind::input, place, overlap, way_apart);
+  const Intersections found = simulation.intersections();
+  if (found.pairs == 0) return;
+  const Overlap overlap = find_overlap(model, simulation.state().world_positions(model), found.bodies);
+  throw Error(ErrorKind::input, place, described(model, overlap), way_apart(model, overlap));
 }
 
 }  // namespace pliant

@@ -13,7 +13,7 @@ namespace pliant {
 [[nodiscard]] bool keeps_apart(const Simulation& simulation);
 
 /// Throws Error (input) that blames `place` if bodies intersect, or stand in a ground, though the scene's response keeps them
-/// apart.
+/// apart. It names two bodies, how deep they are in each other, and a way out.
 void expect_apart(Simulation& simulation, const Model& model, const std::string& place);
 
 }  // namespace pliant

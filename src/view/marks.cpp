@@ -5,13 +5,9 @@
 namespace pliant::view {
 namespace {
 
-constexpr glm::vec4 box_color(1.0f, 0.85f, 0.3f, 0.7f), velocity_color(0.35f, 0.9f, 0.55f, 0.8f),
-    contact_color(1.0f, 0.2f, 0.3f, 1.0f);
+using render::add_line;
 
-void add_line(Lines& lines, const glm::dvec3& from, const glm::dvec3& to, const glm::vec4& color) {
-  lines.push_back({glm::vec4(from, 1.0), color});
-  lines.push_back({glm::vec4(to, 1.0), color});
-}
+constexpr glm::vec4 box_color(1.0f, 0.85f, 0.3f, 0.7f), velocity_color(0.35f, 0.9f, 0.55f, 0.8f);
 
 void add_box(Lines& lines, const render::SceneBox& box) {
   for (unsigned corner = 0; corner < 8; ++corner)
@@ -41,16 +37,6 @@ void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> p
 void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     add_line(lines, positions[i], positions[i] + 0.1 * velocities[i], velocity_color);
-}
-
-void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions,
-                  std::span<const std::uint32_t> touching) {
-  for (const std::uint32_t vertex : touching)
-    for (int axis = 0; axis < 3; ++axis) {
-      glm::dvec3 arm(0.0);
-      arm[axis] = 0.05 * model.body_of(vertex).radius;
-      add_line(lines, positions[vertex] - arm, positions[vertex] + arm, contact_color);
-    }
 }
 
 }  // namespace pliant::view

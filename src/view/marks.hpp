@@ -5,11 +5,11 @@
 
 #include "collision/trees/tree.hpp"
 #include "model/model.hpp"
-#include "render/line_overlay.hpp"
+#include "render/contact_marks.hpp"
 
 namespace pliant::view {
 
-using Lines = std::vector<render::LineEnd>;
+using render::Lines;
 
 /// Adds the boxes of all trees' nodes at a level, and of leaves above it. The root's level is 0. `positions` are the vertices'
 /// [m].
@@ -17,9 +17,5 @@ void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> p
 
 /// Adds a line from each vertex to where its velocity takes it in a tenth of a second.
 void add_velocities(Lines& lines, std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
-
-/// Adds a cross at each touching vertex. It is a tenth of the body's radius wide.
-void add_contacts(Lines& lines, const Model& model, std::span<const glm::dvec3> positions,
-                  std::span<const std::uint32_t> touching);
 
 }  // namespace pliant::view

@@ -50,7 +50,7 @@ Lines SceneView::lines(const Shows& shows) {
   const std::vector<glm::dvec3> positions = state.world_positions(session_.model());
   if (shows.tree_level) add_boxes(lines, simulation.collider().forest(), positions, *shows.tree_level);
   if (shows.velocities) add_velocities(lines, positions, state.world_velocities(session_.model()));
-  if (shows.contacts) add_contacts(lines, session_.model(), positions, simulation.touching_vertices());
+  if (shows.contacts) render::add_contacts(lines, simulation, session_.model(), positions);
   return lines;
 }
 

@@ -154,6 +154,7 @@ void Session::change(const Settings& wanted) {
   expect_carried(changed->description, plan, device_->precision());
   const bool starts_anew = report_.non_finite.has_value();
   auto simulation = make_simulation(*device_, *changed, starts_anew ? changed->start.state : simulation_->state(), plan);
+  expect_apart(*simulation, changed->start.model, changed->description.file.string());
   const double at_time = starts_anew ? 0 : time();
   plan_ = plan;
   begin_with(std::move(simulation), starts_anew ? 0 : step(), at_time);

@@ -41,7 +41,8 @@ class Session {
  public:
   static constexpr std::size_t history_bytes = std::size_t{256} << 20;  // most memory of the history
 
-  /// `device` must outlive it. Throws Error if plan_time can't plan the scene's steps, or the device has no room for the scene.
+  /// `device` must outlive it. Throws Error if plan_time can't plan the scene's steps, the device has no room for the scene, or
+  /// bodies intersect that the response keeps apart.
   Session(Device& device, LoadedScene scene, std::size_t most_history_bytes = history_bytes);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -79,7 +80,8 @@ class Session {
   [[nodiscard]] unsigned deepest_level() const { return simulation_->collider().forest().depth; }  // of the trees
   [[nodiscard]] Settings settings() const;
   /// Goes on from the current state with other settings, or from the start if that state is not finite. Recorded states are
-  /// forgotten. If plan_time can't plan the scene's steps, it throws Error and changes nothing.
+  /// forgotten. If plan_time can't plan the scene's steps, or bodies intersect that the response keeps apart, it throws Error and
+  /// changes nothing.
   void change(const Settings& wanted);
   /// Turns on or off that the device's time is measured for each pass, which slows it down.
   void time_passes(bool timed);

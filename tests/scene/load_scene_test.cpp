@@ -103,6 +103,7 @@ frame_rate = 24
 size = [640, 480]
 camera = { eye = [0, 2, 6], target = [1, 0, 0], field_of_view = 50 }
 coloring = "deformation"
+marks = "contacts"
 ground_height = -1.5
 [[body]]
 name = "thing"
@@ -141,6 +142,7 @@ color = [0.1, 0.2, 0.3]
   CHECK(scene.output.camera->target == glm::dvec3(1, 0, 0));
   CHECK(scene.output.camera->field_of_view == 50);
   CHECK(scene.output.coloring == Coloring::deformation);
+  CHECK(scene.output.marks == Marks::contacts);
   CHECK(scene.output.ground_height == -1.5);
   const BodyDescription& body = scene.bodies.at(0);
   CHECK((body.name == "thing" && body.mesh == "thing.obj" && body.weld == 1e-6 && body.scale == 2));
@@ -241,6 +243,7 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
   check_input_error("[collision]\ntriangle_test = \"exact\"\n" + smallest, 2, {"certified, moller"});
   check_input_error("[collision.tree]\nsplit = \"median\"\n" + smallest, 2, {"centre"});
   check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
+  check_input_error("[output]\nmarks = \"boxes\"\n" + smallest, 2, {"none, contacts"});
 }
 
 TEST_CASE("keys that contradict each other are an error") {

@@ -1,11 +1,11 @@
 // The scenes that come with the project hold what the paper says of them.
 #include "support/shipped_scenes.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <glm/vector_relational.hpp>
 
-#include "mesh/report.hpp"
+#include "bench/contact/apart.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -18,32 +18,20 @@ std::vector<double> stiffnesses(const SceneDescription& scene) {
   return values;
 }
 
-/// One body's bounding box in the world at the start.
-std::pair<glm::dvec3, glm::dvec3> box(const ModelAndState& built, const ModelBody& body) {
-  const std::vector<glm::dvec3> world = built.state.world_positions(built.model);
-  TriangleMesh mesh;
-  mesh.positions.assign(world.begin() + body.first_vertex, world.begin() + body.first_vertex + body.vertex_count);
-  const MeshReport report = report_mesh(mesh);
-  return {report.lowest, report.highest};
-}
-
 }  // namespace
 
 TEST_CASE("every shipped scene builds without a warning, with bodies clear of each other") {
   const std::vector<SceneDescription> scenes = test::load_shipped_scenes();
-  REQUIRE(scenes.size() >= 7);
+  REQUIRE(scenes.size() >= 22);
   for (const SceneDescription& scene : scenes) {
     CAPTURE(scene.file.string());
     std::vector<std::string> warnings;
-    const ModelAndState built = build_model(load_bodies(scene, &warnings), scene.simulation.gravity);
+    const ModelAndState built = build_model(load_bodies(scene, &warnings), scene.simulation.gravity, scene.grounds);
     CHECK(warnings == std::vector<std::string>{});
-    for (std::size_t i = 0; i < built.model.bodies.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const auto [low_i, high_i] = box(built, built.model.bodies[i]);
-        const auto [low_j, high_j] = box(built, built.model.bodies[j]);
-        CHECK((glm::any(glm::lessThan(high_i, low_j)) || glm::any(glm::lessThan(high_j, low_i))));
-      }
-    }
+    const std::vector<glm::dvec3> positions = built.state.world_positions(built.model);
+    const bench::ApartOracle oracle(built.model);
+    CHECK(oracle.pairs_not_apart(positions) == 0);
+    CHECK(oracle.vertices_inside_others(positions) == 0);
   }
 }
 
@@ -66,6 +54,25 @@ TEST_CASE("the paper's scenes have its stiffness, damping, elasticity, depth and
   CHECK(test::load_shipped_scene("bunnies_undamped").simulation.damping_law == DampingLaw::none);
   for (const char* name : {"two_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot", "three_spheres"})
     for (const BodyDescription& body : test::load_shipped_scene(name).bodies) CHECK(body.damping == 1);
+}
+
+TEST_CASE("a scene's twin with impulses differs from it by nothing but its response") {
+  const auto same = [](const BodyDescription& a, const BodyDescription& b) {
+    return a.mesh == b.mesh && a.scale == b.scale && a.position == b.position && a.velocity == b.velocity &&
+           a.stiffness == b.stiffness && a.vertex_mass == b.vertex_mass && a.damping == b.damping && a.kind == b.kind;
+  };
+  for (const char* name : {"two_spheres", "soft_and_hard", "sphere_bunny", "bunny_teapot", "three_spheres"}) {
+    CAPTURE(name);
+    const SceneDescription scene = test::load_shipped_scene(name),
+                           twin = test::load_shipped_scene(std::string(name) + "_impulse");
+    CHECK(scene.collision.response.value == "reflect");
+    CHECK(twin.collision.response.value == "impulse");
+    CHECK(std::ranges::equal(scene.bodies, twin.bodies, same));
+    CHECK(scene.simulation.time_step == twin.simulation.time_step);
+    CHECK(scene.simulation.integrator.value == twin.simulation.integrator.value);
+    CHECK(scene.simulation.duration == twin.simulation.duration);
+    CHECK(scene.collision.elasticity == twin.collision.elasticity);
+  }
 }
 
 }  // namespace pliant

@@ -73,7 +73,7 @@ void check_settles(const SceneDescription& scene, const ModelAndState& start, do
 }
 
 void check_all_settle(DampingLaw law, std::initializer_list<double> parts_of_bound, std::uint64_t steps, std::uint64_t stride) {
-  for (const SceneDescription& shipped : test::load_shipped_scenes()) {
+  for (const SceneDescription& shipped : test::load_reflecting_scenes()) {
     const SceneDescription scene = overdamped(shipped, law);
     const ModelAndState start = squeezed(build_model(load_bodies(scene), scene.simulation.gravity));
     for (const double part : parts_of_bound) check_settles(scene, start, part, steps, stride);

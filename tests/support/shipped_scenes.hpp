@@ -20,4 +20,11 @@ inline std::vector<SceneDescription> load_shipped_scenes() {
   return scenes;
 }
 
+/// Those whose bodies meet by `reflect`. The others have the same bodies, or gravity, grounds and static bodies.
+inline std::vector<SceneDescription> load_reflecting_scenes() {
+  std::vector<SceneDescription> scenes = load_shipped_scenes();
+  std::erase_if(scenes, [](const SceneDescription& scene) { return scene.collision.response.value != "reflect"; });
+  return scenes;
+}
+
 }  // namespace pliant::test

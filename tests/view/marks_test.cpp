@@ -1,4 +1,4 @@
-// Boxes, velocities and contacts as lines.
+// Boxes and velocities as lines.
 #include "view/marks.hpp"
 
 #include <catch2/catch.hpp>
@@ -71,20 +71,6 @@ TEST_CASE("velocities are lines from the vertices, as long as a tenth of a secon
   for (std::size_t i = 0; i < scene.positions.size(); ++i) {
     CHECK(glm::distance(glm::dvec3(lines[2 * i].place), scene.positions[i]) < 1e-6);
     CHECK(glm::distance(glm::dvec3(lines[2 * i + 1].place - lines[2 * i].place), 0.1 * velocities[i]) < 1e-6);
-  }
-}
-
-TEST_CASE("contacts are crosses at the touching vertices, a tenth of their body's radius wide") {
-  const Scene scene;
-  const auto last = static_cast<std::uint32_t>(scene.positions.size() - 1);
-  const std::vector<std::uint32_t> touching{3, last};
-  Lines lines;
-  add_contacts(lines, scene.start.model, scene.positions, touching);
-  REQUIRE(lines.size() == 6 * touching.size());
-  for (std::size_t k = 0; k < lines.size(); k += 2) {
-    const std::uint32_t vertex = touching[k / 6];
-    CHECK(glm::distance(glm::dvec3(lines[k].place + lines[k + 1].place) * 0.5, scene.positions[vertex]) < 1e-6);
-    CHECK(glm::distance(lines[k].place, lines[k + 1].place) == Approx(0.1 * scene.start.model.body_of(vertex).radius));
   }
 }
 

@@ -263,6 +263,30 @@ TEST_CASE("settings without a plan leave a session as it was") {
   CHECK(session.step() == 2);
 }
 
+TEST_CASE(
+    "bodies that intersect can't begin where contacts keep them apart, and others can be changed and restarted in contact") {
+  const auto cpu = make_cpu_device(2, 32);
+  LoadedScene overlapping = colliding();
+  overlapping.description.collision.response.value = "impulse";
+  LoadedScene apart = overlapping;
+  overlapping.start.state.poses[1].origin[0] = 0.5;
+  const Error error = error_of([&] { Session(*cpu, std::move(overlapping)); });
+  check_says(error, {"meeting.toml", "\"body0\" and \"body1\"", "m deep", "move them apart", "reflect"});
+
+  Session session(*cpu, std::move(apart));
+  while (session.report().contact_steps < 5) session.step_once();
+  for (const double stiffness : {1.0, 80.0}) {
+    Settings wanted = session.settings();
+    for (Material& material : wanted.materials) material.stiffness = stiffness;
+    CHECK_NOTHROW(session.change(wanted));
+    while (session.report().contact_steps < 5) session.step_once();
+  }
+  session.restart();
+  CHECK(session.step() == 0);
+  session.step_once();
+  CHECK(session.step() == 1);
+}
+
 TEST_CASE("a session draws a body while it is pulled, and not when it is let go", "[gl]") {
   on_every_device([](Device& device) {
     Session pulled(device, colliding()), free(device, colliding());

@@ -124,6 +124,14 @@ TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scen
   CHECK_THAT(kept["scene"].get<std::string>(), Catch::EndsWith("small.toml"));
   CHECK(are_alike(viewed.saved_picture(), before));
 
+  const auto overlapping = folder.path / "overlapping.toml";
+  std::ofstream(overlapping) << "[collision]\nresponse = \"impulse\"\n[[body]]\nmesh = \"icosphere:1\"\n"
+                                "[[body]]\nmesh = \"icosphere:1\"\nposition = [1.5, 0, 0]\n";
+  viewed.drop(overlapping);
+  CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("\"body0\" and \"body1\" intersect"));
+  viewed.await([](const ReadJson& line) { return line["message"].get<std::string>().find("intersect") != std::string::npos; });
+  CHECK(are_alike(viewed.saved_picture(), before));
+
   viewed.drop(source_dir() + "/meshes/teapot.obj");
   viewed.await([](const ReadJson& line) { return line["title"].get<std::string>().starts_with("teapot"); });
   const render::Image teapot = viewed.saved_picture();

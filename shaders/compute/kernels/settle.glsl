@@ -60,6 +60,8 @@ void end_step_part(bool is_made) {
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
     contact_list[0].fastest = 0u;
+    bool is_empty = contact_list[0].contact_count == 0u && control[0].time_step == double(0);
+    if (!is_empty) contact_list[0].latest_count = lists_are_full() ? 0u : contact_list[0].contact_count;
     end_step_part(control[0].non_finite_step == 0u && control[0].time_step > double(0));
   }
   if (i != body[b].first_vertex) return;

@@ -1,6 +1,7 @@
 #include "collision/responses/impulse.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <set>
 #include <utility>
@@ -122,8 +123,8 @@ class Impulse final : public Response {
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
-    arrays.make_reals("contact", std::size_t{16} * contact_capacity);
-    arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
+    contacts_ = &arrays.make_reals("contact", std::size_t{16} * contact_capacity);
+    impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
     arrays.make<std::uint32_t>("contact_weight", vertices);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
     arrays.make<double>("way", 3 * vertices);
@@ -163,6 +164,23 @@ class Impulse final : public Response {
     const std::vector<double> impulse = bodies_.arrays.get<double>("outside_impulse").download();
     return {.outside_impulse = {impulse[0], impulse[1], impulse[2]}};
   }
+  bool gives_impulses() const override { return true; }
+  std::vector<ContactImpulse> contact_impulses() const override {
+    const std::size_t count = bodies_.arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
+    if (count == 0) return {};
+    const std::vector<glm::uvec4> vertices = bodies_.arrays.get<glm::uvec4>("contact_vertex").download(0, count);
+    const std::vector<double> rows = download_reals(*contacts_, 16 * count), impulses = download_reals(*impulses_, 4 * count);
+    std::vector<ContactImpulse> contacts;
+    for (std::size_t c = 0; c < count; ++c) {
+      const double *const row = &rows[16 * c], *const impulse = &impulses[4 * c];
+      if (impulse[0] == 0) continue;
+      contacts.push_back(
+          {.vertex = vertices[c],
+           .weight = {row[4], row[5], row[6], row[7]},
+           .impulse = impulse[0] * glm::dvec3(row[0], row[1], row[2]) + glm::dvec3(impulse[1], impulse[2], impulse[3])});
+    }
+    return contacts;
+  }
   bool keeps_apart() const override { return true; }
   bool answers_touching() const override { return false; }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
@@ -191,6 +209,17 @@ class Impulse final : public Response {
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
   }
 
+  // The first `count` numbers of the device's precision.
+  std::vector<double> download_reals(const DeviceArray<std::uint32_t>& array, std::size_t count) const {
+    const bool is_double = bodies_.arrays.device().precision() == 64;
+    const std::vector<std::uint32_t> words = array.download(0, is_double ? 2 * count : count);
+    std::vector<double> numbers(count);
+    for (std::size_t i = 0; i < count; ++i)
+      numbers[i] = is_double ? std::bit_cast<double>(std::uint64_t{words[2 * i + 1]} << 32 | words[2 * i])
+                             : static_cast<double>(std::bit_cast<float>(words[i]));
+    return numbers;
+  }
+
   // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].
   double least_speed() const { return smallest_gap_ / time_step_; }
 
@@ -201,6 +230,7 @@ class Impulse final : public Response {
   std::uint32_t items_at_once_, ground_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
+  const DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
 };
 
 }  // namespace

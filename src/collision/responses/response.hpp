@@ -18,6 +18,14 @@ struct ResponseReport {
   glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
 };
 
+/// An impulse that a contact gave in the latest step. A contact lies between four vertices of two bodies, or between one vertex
+/// and a ground. Missing vertices are physics::no_vertex.
+struct ContactImpulse {
+  glm::uvec4 vertex{0};
+  glm::dvec4 weight{0.0};   // of the vertices, above 0 on the first body and below 0 on the second
+  glm::dvec3 impulse{0.0};  // on the first body, in the world [Ns]
+};
+
 /// Records the passes of one response. Each response decides what a contact holds: it makes the arrays for that, or uses the
 /// marks of touching vertices. No result may depend on the order in which contacts were found.
 class Response {
@@ -29,6 +37,11 @@ class Response {
   [[nodiscard]] virtual const DeviceArray<physics::StepParts>* step_parts() const { return nullptr; }
   /// Waits for the queued steps.
   [[nodiscard]] virtual ResponseReport report() const { return {}; }
+  /// Returns whether contact_impulses() says what contacts gave.
+  [[nodiscard]] virtual bool gives_impulses() const { return false; }
+  /// Returns the impulses of the latest step, in no fixed order, without those that are zero. Waits for the queued steps. Nothing
+  /// is read back without this call.
+  [[nodiscard]] virtual std::vector<ContactImpulse> contact_impulses() const { return {}; }
   /// Returns whether bodies that are apart at the start stay apart. Those that are not then can't begin.
   [[nodiscard]] virtual bool keeps_apart() const { return false; }
   /// Returns whether after_step() answers triangles that touch at the step's end, so that the step looks for them.

@@ -313,12 +313,58 @@ TEST_CASE("bodies that begin in each other or in the ground are an error that na
   Simulation overlapping(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), by_impulses);
   const Error error = error_of([&] { expect_apart(overlapping, start.model, "scene.toml"); });
   CHECK(error.kind() == ErrorKind::input);
-  check_says(error, {"scene.toml", "left, right", "move them apart"});
+  check_says(error, {"scene.toml", "bodies \"left\" and \"right\" intersect", "m deep", "move them apart, such as \"right\" by [",
+                     "response = \"reflect\""});
   const ModelAndState sunk = on_ground("icosphere:1", 0.75, 0, 0.5);
   Simulation buried(*device, sunk.model, sunk.state, plan_of(Method{"verlet", 0.01}), by_impulses);
-  check_says(error_of([&] { expect_apart(buried, sunk.model, "scene.toml"); }), {"body \"body\"", "deep in a ground"});
+  check_says(error_of([&] { expect_apart(buried, sunk.model, "scene.toml"); }),
+             {"body \"body\"", "deep in a ground", "raise the body by", "lower the ground"});
   Simulation reflecting(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), {});
   CHECK_NOTHROW(expect_apart(reflecting, start.model, "scene.toml"));
+}
+
+// What contacts gave a body in the latest part of a step [Ns].
+glm::dvec3 given_to(const Model& model, std::uint32_t body, std::span<const ContactImpulse> contacts) {
+  glm::dvec3 sum(0.0);
+  for (const ContactImpulse& contact : contacts)
+    for (int k = 0; k < 4; ++k)
+      if (contact.vertex[k] != physics::no_vertex && model.body_index(contact.vertex[k]) == body)
+        sum += contact.weight[k] * contact.impulse;
+  return sum;
+}
+
+TEST_CASE("the impulses of contacts are what bodies got from each other and from grounds") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "left"), soft(generate_mesh("icosphere:1"), "right")};
+  setups[0].description.position = {-1.01, 1.01, 0};
+  setups[0].description.velocity = {1, 0, 0};
+  setups[1].description.position = {1.01, 1.03, 0.05};
+  const glm::dvec3 gravity(0, -9.81, 0);
+  const GroundDescription ground;
+  const ModelAndState start = build_model(setups, gravity, {&ground, 1});
+  ThreadPool pool(1);
+  for (const int precision : {32, 64}) {
+    const auto device = make_cpu_device(1, precision);
+    for (const bool has_tolerance : {false, true}) {
+      CAPTURE(precision, has_tolerance);
+      const TimePlan plan = has_tolerance ? plan_of(Adaptive{.tolerance = 1e-5}, start.model) : plan_of(Method{"verlet", 0.005});
+      Simulation simulation(*device, start.model, start.state, plan, by_impulses);
+      CHECK(simulation.contact_impulses().empty());
+      glm::dvec3 before(0.0);
+      for (int part = 0; part < 60; ++part) {
+        has_tolerance ? void(simulation.advance_toward(10, 1)) : simulation.advance_part();
+        const glm::dvec3 outside = simulation.report().outside_impulse;
+        const std::vector<ContactImpulse> contacts = simulation.contact_impulses();
+        const glm::dvec3 sum = given_to(start.model, 0, contacts) + given_to(start.model, 1, contacts);
+        const bool is_undone = has_tolerance && outside == before;
+        if (!is_undone) CHECK(glm::length(sum - (outside - before)) < 1e-6);
+        before = outside;
+      }
+      CHECK(before.y > 0.1);
+      CHECK_FALSE(simulation.contact_impulses().empty());
+      simulation.restore(simulation.save());
+      CHECK(simulation.contact_impulses().empty());
+    }
+  }
 }
 
 }  // namespace

@@ -27,11 +27,13 @@ struct Ground {
 struct ContactList {
   double longer;             // the step's length over that of the last one
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
-  uint contact_count;        // contacts between them
+  uint contact_count;        // contacts between them, and with grounds
   uint uncertified;          // pairs of triangles that were not proven to stay apart
   uint changed_rounds;       // of certificates, as bits: motions were cut shorter in them
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
+  uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
+  uint padding;
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected

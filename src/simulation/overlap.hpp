@@ -1,0 +1,26 @@
+// Says how two bodies that intersect lie in each other. It is for messages: it takes a while for large meshes.
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "model/model.hpp"
+
+namespace pliant {
+
+/// Two bodies that intersect.
+struct Overlap {
+  std::uint32_t first = 0, second = 0;
+  double depth = 0;         // from a vertex of one to the surface of the other that it is inside, at least [m]; 0: none is inside
+  glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by the larger of their usual gaps [m]
+};
+
+/// Returns the distance that contacts by impulses keep to the body [m], unless the scene says otherwise.
+[[nodiscard]] double usual_gap(const Model& model, const ModelBody& body);
+
+/// Returns the two of these bodies that lie deepest in each other, as far as it can tell. There have to be two or more.
+/// `positions` are those of the model's vertices in the world [m].
+[[nodiscard]] Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions,
+                                   std::span<const std::uint32_t> bodies);
+
+}  // namespace pliant

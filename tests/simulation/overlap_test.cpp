@@ -1,0 +1,67 @@
+// How bodies lie in each other, and the way out.
+#include "simulation/overlap.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "bench/contact/apart.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+// A cube of side 1 at the origin, and others of these sides at these places.
+ModelAndState cubes(std::initializer_list<std::pair<double, glm::dvec3>> others) {
+  std::vector<BodySetup> setups = {body_of_mesh(generate_mesh("cube:2"))};
+  for (const auto& [side, place] : others) {
+    BodySetup& setup = setups.emplace_back(body_of_mesh(generate_mesh("cube:2")));
+    setup.description.scale = side;
+    setup.description.position = place;
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+std::vector<glm::dvec3> moved(const Model& model, std::vector<glm::dvec3> positions, const Overlap& overlap) {
+  const ModelBody& body = model.bodies[overlap.second];
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) positions[i] += overlap.way_out;
+  return positions;
+}
+
+std::size_t not_apart(const Model& model, const std::vector<glm::dvec3>& positions) {
+  return bench::ApartOracle(model).pairs_not_apart(positions);
+}
+
+TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bodies") {
+  const ModelAndState start = cubes({{0.5, {0.6, 0.02, 0}}});  // its corners are 0.15 m deep
+  const std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
+  const std::uint32_t both[] = {0, 1};
+  const Overlap overlap = find_overlap(start.model, positions, both);
+  CHECK(overlap.first == 0);
+  CHECK(overlap.second == 1);
+  CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
+  CHECK(overlap.way_out.x == Approx(0.15 + usual_gap(start.model, start.model.bodies[0])).epsilon(1e-6));
+  CHECK(not_apart(start.model, positions) > 0);
+  CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
+}
+
+TEST_CASE("of several bodies the two that are deepest in each other are named") {
+  const ModelAndState start = cubes({{0.5, {0.7, 0.02, 0}}, {0.5, {-0.6, 0.02, 0}}, {0.5, {0, 0.73, 0}}});
+  const std::uint32_t all[] = {0, 1, 2, 3};
+  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all);
+  CHECK(overlap.first == 0);
+  CHECK(overlap.second == 2);
+  CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
+}
+
+TEST_CASE("bodies of which one is longer have a way out, too") {
+  const ModelAndState start = cubes({{1, {0.9, 0.9, 0.03}}});
+  std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
+  for (std::uint32_t i = start.model.bodies[1].first_vertex; i < positions.size(); ++i)
+    positions[i].z *= 2;  // longer than the other
+  const std::uint32_t both[] = {0, 1};
+  const Overlap overlap = find_overlap(start.model, positions, both);
+  CHECK(not_apart(start.model, positions) > 0);
+  CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
+}
+
+}  // namespace
+}  // namespace pliant
