@@ -10,6 +10,7 @@ WRITE(control)
 READ(step_parts)
 READ(pose)
 READ(surface)
+READ(room)
 READ(rest_position)
 READ(motion)
 READ(surplus)
@@ -32,6 +33,12 @@ void empty_lists() {
   contact_list[0].arrivals = 0u;
 }
 
+// How much further than expected a vertex may go. Bodies that are far from all others have more room.
+double reach_beyond(uint b) {
+  double edge = surface[b].edge;
+  return clamp(double(uintBitsToFloat(room[b])), reach_in_edges() * edge, double(1000) * edge);
+}
+
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
@@ -50,7 +57,7 @@ void expect_motion(uint i) {
   STORE3(unkicked, force_of(i), in_frame)
   STORE3(expected, force_of(i), mean)
   dvec3 reach = abs(time_step * mean);
-  if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_in_edges() * surface[b].edge);
+  if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_beyond(b));
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + reach * double(1.2e-7);
   dvec3 lower = position - reach - slack, upper = position + reach + slack;

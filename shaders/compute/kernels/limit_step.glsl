@@ -1,5 +1,6 @@
-// One thread compares two bodies, and bounds the length of the step. Between two of them no two vertices may come nearer than
-// their distance and a quarter edge beyond. A body that was pressed a while ago has a bound of its own.
+// One thread compares two bodies, and bounds the length of the step. No two vertices of them may come nearer than their distance and a
+// quarter edge beyond. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
+// much further than expected bodies that are far from each other may move without meeting.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
@@ -9,6 +10,7 @@ READ(body_box)
 READ(body_motion)
 READ(pressed)
 WRITE(step_parts)
+WRITE(room)
 PARAMETER(uint, body_count)
 
 // The largest that a number of the first box can be above one of the second.
@@ -30,6 +32,13 @@ double distance_of_boxes(uint a, uint b) {
   return size_of_larger(-all_above(body_box[a], body_box[b]), -all_above(body_box[b], body_box[a]));
 }
 
+// Shares the distance that is left of two bodies after the step. Rounding takes less than what is held back.
+void keep_apart(uint a, uint b, double distance) {
+  uint share_of_it = floatBitsToUint(max(float(distance) * 0.45f, 0.0f));
+  LOWER_TO(room[a], share_of_it)
+  LOWER_TO(room[b], share_of_it)
+}
+
 void limit_step(uint item) {
   uint a = item / body_count, b = item % body_count;
   if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
@@ -37,8 +46,11 @@ void limit_step(uint item) {
   if (a == b) {
     if (pressed[a] != 0u && step_parts[0].parts - pressed[a] < pressed_for) longest = surface[a].longest_pressed;
   } else {
-    double speed = approach(a, b), room = distance_of_boxes(a, b) + double(0.25) * edge_of_pair(surface[a], surface[b]);
-    if (speed * longest > room) longest = room / speed;
+    double speed = approach(a, b), distance = distance_of_boxes(a, b);
+    double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
+    if (speed * longest > most) longest = most / speed;
+    if (speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
+    keep_apart(a, b, distance - speed * longest);
   }
   if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
 }

@@ -110,6 +110,7 @@ class Impulse final : public Response {
                                                                          .divides = divides_steps_ ? 1u : 0u}});
     if (divides_steps_) arrays.set_parameter("parts_of", time_step_);
     arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
+    arrays.make("room", std::vector(bodies_.body_count, physics::no_bound));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
     arrays.make<glm::uvec2>("outside_sum", 3);
     arrays.make<double>("outside_impulse", 3);
