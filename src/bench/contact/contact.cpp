@@ -72,11 +72,11 @@ struct Pairing {
 
 // Waits until bodies that come fast have parted, too. They make many parts of a step.
 bool part_at_last(Simulation& simulation, const Model& model) {
-  constexpr int most_steps = 100;
+  constexpr int most_parts = 3000;
   const ApartOracle oracle(model);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int part = 0; part < most_parts; part += 16) {
     if (oracle.have_parted(simulation.state().world_positions(model))) return true;
-    simulation.advance(1);
+    for (int k = 0; k < 16; ++k) simulation.advance_part();
   }
   return false;
 }
