@@ -189,9 +189,8 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
-                  "Measure roughly: seconds for forces and draw, one to three minutes for precision and stability, seconds for "
-                  "contact. The suite steps leaves "
-                  "out what takes over a second");
+                  "Measure roughly: seconds for forces, contact and draw, one to three minutes for precision and stability. The "
+                  "suite steps leaves out what takes over a second");
   return suite;
 }
 

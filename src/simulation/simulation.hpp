@@ -82,8 +82,8 @@ class Simulation {
   void advance(std::uint64_t steps);
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
-  /// With a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits
-  /// and reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
+  /// With a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits and
+  /// reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
   /// how many steps are queued at a time.
   StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);
   /// Goes on until report().time is `time` [s], or a step was non-finite.

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double apart_omega_step = 0.5;
 constexpr std::uint64_t apart_parts = 900, quick_apart_parts = 90;  // of steps, twice as many for bodies that come fast
-constexpr std::uint32_t measured_every_part = 400;  // vertices of both bodies: more take longer to measure than to move
+constexpr std::uint32_t few_vertices = 400;                         // of both bodies: more take longer to measure than to move
 
 CollisionDescription by(const char* response, double elasticity = 0.5) {
   return {.response = {response}, .elasticity = elasticity};
@@ -87,8 +87,8 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
   const std::uint32_t vertices = model.vertex_count();
   Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
                         by("impulse"));
-  const Seen seen = watch(simulation, meeting.start,
-                          {.steps = parts, .most_parts = parts, .stride = vertices > measured_every_part ? 16u : 1u});
+  const Seen seen =
+      watch(simulation, meeting.start, {.steps = parts, .most_parts = parts, .stride = vertices > few_vertices ? 16u : 1u});
   return {.bodies = pair.name,
           .device = device.info().kind,
           .precision = device.precision(),
@@ -259,7 +259,7 @@ double seconds_a_part(Simulation& simulation, Device& device) {
   return median(std::move(seconds));
 }
 
-// Waits until spheres press each other as they do most, and times what follows.
+// Lets spheres meet, and times what follows while they press each other.
 CostRow measure_cost(Device& device, int level, double edges_a_step) {
   const Partner sphere{.mesh = generate_mesh(fmt::format("icosphere:{}", level))};
   const Meeting meeting = meeting_of(sphere, sphere, {.edges_a_step = edges_a_step, .omega_step = 0.3});

@@ -23,15 +23,15 @@ struct ContactOptions {
 // Members' names are the keys of the file. Bodies have a radius of 1 m, and 1 kg and N k = 1000 N/m unless the row says
 // otherwise.
 
-/// Two bodies that meet off their centres and part again, without friction or with it.
+/// Two bodies that meet off their centres and part again, with elasticity 0.5 and friction 0.5.
 struct ApartRow {
   std::string bodies;
   DeviceKind device = DeviceKind::cpu;
   int precision = 64;
   std::uint32_t vertices = 0;  // of both
-  double mass_ratio = 1;
-  double edges_a_step = 0;  // how fast they come near each other
-  double omega_step = 0;    // step times the stiffest frequency
+  double mass_ratio = 1;       // of the second body to the first
+  double edges_a_step = 0;     // how fast they come near each other
+  double omega_step = 0;       // step times the stiffest frequency
   std::uint64_t steps = 0;
   std::uint64_t parts = 0;             // that steps fell into
   std::uint64_t contact_parts = 0;     // parts with an impulse

@@ -17,7 +17,7 @@ struct StepParts {
   uint divides;      // 1: steps fall into parts; 0: they are made shorter
 };
 
-// The smallest part of a step is this fraction of it. Motions that would need smaller ones are cut short.
+// A step falls into so many parts at most. Motions that would need smaller ones are cut short.
 const uint smallest_parts = 4096u;
 
 const uint no_bound = 0x7f800000u;  // bits of infinity

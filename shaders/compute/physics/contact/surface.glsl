@@ -9,7 +9,7 @@ struct Surface {
   double inverse_mass;  // of a vertex [1/kg], 0 if the body is immovable
   double elasticity;
   double friction;
-  double gap;           // that contacts keep, in edges
+  double gap;              // that contacts keep, in edges
   double longest_pressed;  // step in which contacts do not pump energy into the body [s]
 };
 
