@@ -2,6 +2,7 @@
 // the cuts of the rounds before. From the fifth on, motions that can't be proven are not made at all.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/separation.glsl"
 #include "../physics/contact/surface.glsl"
 SHARED_WRITE(contact_list)
@@ -9,10 +10,12 @@ READ(triangle)
 READ(triangle_pair)
 READ(start)
 READ(way)
+READ(cage)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
+#include "parts/box_of_caged_triangle.glsl"
 
 uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
 uint rounds_at_most() { return cut_rounds; }
@@ -106,6 +109,7 @@ void cut_short(IN(Case) c, uint cut_round) {
 
 void certify(uint item, uint cut_round) {
   uvec2 triangles = triangle_pair[item];
+  if (!overlaps(box_of_ways(triangles.x), box_of_ways(triangles.y))) return;
   uint who[6];
   bool changed = false;
   for (uint k = 0u; k < 3u; ++k) {

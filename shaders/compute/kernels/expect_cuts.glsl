@@ -1,4 +1,5 @@
-// One thread serves one vertex after the integrator. It finds the way that the vertex went, and the part of it that stays in its cage.
+// One thread serves one vertex after the integrator. It finds the way that the vertex went, its box, and the part of it that stays in the
+// cage.
 // If a step was undone, it takes the kick back.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
@@ -12,7 +13,7 @@ READ(rest_position)
 WRITE(motion)
 READ(start)
 READ(unkicked)
-READ(cage)
+WRITE(cage)
 READ(ground)
 WRITE(contact_list)
 WRITE(outside_sum)
@@ -24,6 +25,7 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
+PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/quantum.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
@@ -49,6 +51,14 @@ void tell_outside_impulse() {
   }
 }
 
+// Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
+void bound_way(uint i, dvec3 from, dvec3 to) {
+  double far = abs(from.x) + abs(from.y) + abs(from.z) + abs(to.x) + abs(to.y) + abs(to.z) + double(4) * largest_body;
+  dvec3 slack = max(abs(from), abs(to)) * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
+  cage[way_box_of(i)] = vec4(vec3(min(from, to) - slack), 0);
+  cage[way_box_of(i) + 1u] = vec4(vec3(max(from, to) + slack), 0);
+}
+
 void expect_cuts(uint i) {
   if (i == 0u) {
     tell_outside_impulse();
@@ -64,9 +74,10 @@ void expect_cuts(uint i) {
   dvec3 from = LOAD3(start, start_position_of(i));
   double part = double(1);
   for (int k = 0; k < 3; ++k)
-    part = min(part, part_to(from[k], gone[k], double(cage[lower_of(i)][k]), double(cage[upper_of(i)][k])));
+    part = min(part, part_to(from[k], gone[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
   for (uint g = 0u; g < ground_count; ++g)
     if (is_movable) part = min(part, part_above(g, from, gone, mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge));
+  bound_way(i, from, from + part * gone);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint k = 1u; k <= cut_rounds; ++k) cut[k * vertex_count + i] = floatBitsToUint(1.0f);
 }

@@ -1,5 +1,5 @@
 // One thread serves one vertex at a step's start. It finds where the vertex is and how it is expected to move. It bounds both by a cage
-// that the vertex will not leave in this step.
+// that the vertex will not leave in this step, and its expected way by another box.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -19,6 +19,7 @@ WRITE(unkicked)
 WRITE(expected)
 WRITE(cage)
 WRITE(contact_list)
+WRITE(contact_weight)
 WRITE(body_box)
 WRITE(status)
 PARAMETER(uint, vertex_count)
@@ -31,6 +32,7 @@ void empty_lists() {
   contact_list[0].uncertified = 0u;
   contact_list[0].changed_rounds = 0u;
   contact_list[0].arrivals = 0u;
+  contact_list[0].presses = 0u;
 }
 
 // How much further than expected a vertex may go. Bodies that are far from all others have more room.
@@ -56,13 +58,17 @@ void expect_motion(uint i) {
   STORE3(start, start_velocity_of(i), velocity)
   STORE3(unkicked, force_of(i), in_frame)
   STORE3(expected, force_of(i), mean)
+  contact_weight[i] = 0u;
   dvec3 reach = abs(time_step * mean);
   if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_beyond(b));
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + reach * double(1.2e-7);
   dvec3 lower = position - reach - slack, upper = position + reach + slack;
-  cage[lower_of(i)] = vec4(vec3(lower), 0);
-  cage[upper_of(i)] = vec4(vec3(upper), 0);
+  cage[cage_of(i)] = vec4(vec3(lower), 0);
+  cage[cage_of(i) + 1u] = vec4(vec3(upper), 0);
+  dvec3 end = position + time_step * mean, near = dvec3(surface[b].nearness) + slack;
+  cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
+  cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(lower[int(k)]));
     bound(i, b, k, float(upper[int(k)]));

@@ -8,8 +8,8 @@ READ(control)
 READ(rest_position)
 READ(surface)
 READ(triangle)
-READ(triangle_owns)
-READ(triangle_neighbor)
+READ(triangle_around)
+READ(cage)
 READ(triangle_pair)
 READ(start)
 READ(expected)
@@ -19,6 +19,10 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, pairs_at_once)
 
+bool boxes_meet(IN(vec3) lower, IN(vec3) upper, IN(vec3) others_lower, IN(vec3) others_upper) {
+  return lower.x <= others_upper.x && others_lower.x <= upper.x && lower.y <= others_upper.y && others_lower.y <= upper.y &&
+         lower.z <= others_upper.z && others_lower.z <= upper.z;
+}
 #include "parts/add_contact.glsl"
 
 // What is the same for all contacts of a pair of triangles.
@@ -97,7 +101,7 @@ bool leans_over(real3 third, IN(real3) along, IN(real3) away) {
 
 // Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is. `face` is 0 for the first triangle.
 bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part) {
-  uint beyond = triangle_neighbor[corner_of(face == 0u ? p.first : p.second, edge)];
+  uint beyond = triangle_around[across_edge_of(face == 0u ? p.first : p.second, edge)];
   if (beyond == no_vertex) return false;
   uint from = 3u * face + edge, to = 3u * face + (edge == 2u ? 0u : edge + 1u);
   return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away);
@@ -112,7 +116,7 @@ bool leads_to(IN(real3) edge, IN(real3) away) { return dot(away, edge) > real(1e
 bool is_nearer_to_its_faces(IN(Pair) p, uint corner, IN_ARRAY(real3, places, 6), IN(real3) away, real part) {
   uint face = corner / 3u, k = corner % 3u, before = k == 0u ? 2u : k - 1u, after = k == 2u ? 0u : k + 1u;
   if (leads_to(places[3u * face + before] - places[corner], away) || leads_to(places[3u * face + after] - places[corner], away)) return true;
-  uint t = face == 0u ? p.first : p.second, across_next = triangle_neighbor[corner_of(t, k)], across_last = triangle_neighbor[corner_of(t, before)];
+  uint t = face == 0u ? p.first : p.second, across_next = triangle_around[across_edge_of(t, k)], across_last = triangle_around[across_edge_of(t, before)];
   if (across_next != no_vertex && leads_to(place_of(p, across_next, part) - places[corner], away)) return true;
   return across_last != no_vertex && leads_to(place_of(p, across_last, part) - places[corner], away);
 }
@@ -231,34 +235,57 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   if (crosses && !is_nearer_to_faces(p, j, k, f, later, part)) consider_later(p, f, later);
 }
 
-// Whether the triangles come so near each other in the step, as far as the boxes of their expected ways tell.
-bool may_meet(IN(Pair) p) {
-  real3 lower = min(p.place[0], p.place[0] + p.way[0]), upper = max(p.place[0], p.place[0] + p.way[0]);
-  for (uint k = 1u; k < 3u; ++k) {
-    lower = min(lower, min(p.place[k], p.place[k] + p.way[k]));
-    upper = max(upper, max(p.place[k], p.place[k] + p.way[k]));
+// Features 0 to 5 are the corners of both, and 6 to 14 pairs of their edges. Returns those that both triangles own, as bits.
+uint owned_features(uvec2 triangles) {
+  uint first = triangle_around[owned_features_of(triangles.x)], second = triangle_around[owned_features_of(triangles.y)];
+  uint owned = (first & 7u) | (second & 7u) << 3u;
+  for (uint j = 0u; j < 3u; ++j)
+    if ((first >> (3u + j) & 1u) != 0u) owned |= second >> 3u << (6u + 3u * j);
+  return owned;
+}
+
+void meet_feature(IN(Pair) p, uint feature) {
+  if (feature < 6u)
+    meet_vertex(p, feature, feature < 3u ? real(1) : real(-1));
+  else
+    meet_edges(p, (feature - 6u) / 3u, (feature - 6u) % 3u);
+}
+
+// Returns the features whose ways come near each other, as far as the boxes of the corners' ways tell. `wanted` are those asked for.
+uint near_features(uvec2 triangles, uint wanted) {
+  vec3 lower[6], upper[6];
+  for (uint k = 0u; k < 3u; ++k) {
+    uint a = way_box_of(triangle[corner_of(triangles.x, k)]), b = way_box_of(triangle[corner_of(triangles.y, k)]);
+    lower[k] = vec3(cage[a]);
+    upper[k] = vec3(cage[a + 1u]);
+    lower[3u + k] = vec3(cage[b]);
+    upper[3u + k] = vec3(cage[b + 1u]);
   }
-  real3 lowest = min(p.place[3], p.place[3] + p.way[3]), highest = max(p.place[3], p.place[3] + p.way[3]);
-  for (uint k = 4u; k < 6u; ++k) {
-    lowest = min(lowest, min(p.place[k], p.place[k] + p.way[k]));
-    highest = max(highest, max(p.place[k], p.place[k] + p.way[k]));
+  vec3 first_lower = min(min(lower[0], lower[1]), lower[2]), first_upper = max(max(upper[0], upper[1]), upper[2]);
+  vec3 second_lower = min(min(lower[3], lower[4]), lower[5]), second_upper = max(max(upper[3], upper[4]), upper[5]);
+  uint near = 0u;
+  if (!boxes_meet(first_lower, first_upper, second_lower, second_upper)) return near;
+  for (uint k = 0u; k < 3u; ++k) {
+    if ((wanted >> k & 1u) != 0u && boxes_meet(lower[k], upper[k], second_lower, second_upper)) near |= 1u << k;
+    if ((wanted >> (3u + k) & 1u) != 0u && boxes_meet(lower[3u + k], upper[3u + k], first_lower, first_upper)) near |= 8u << k;
   }
-  real3 apart = max(max(lowest - upper, lower - highest), real3(0));
-  real enough = real(1.5) * p.gap;
-  return dot(apart, apart) < enough * enough;
+  for (uint j = 0u; j < 3u; ++j)
+    for (uint k = 0u; k < 3u; ++k) {
+      uint feature = 6u + 3u * j + k, after_j = j == 2u ? 0u : j + 1u, after_k = k == 2u ? 3u : k + 4u;
+      if ((wanted >> feature & 1u) != 0u &&
+          boxes_meet(min(lower[j], lower[after_j]), max(upper[j], upper[after_j]), min(lower[3u + k], lower[after_k]),
+                     max(upper[3u + k], upper[after_k])))
+        near |= 1u << feature;
+    }
+  return near;
 }
 
 void meet(uvec2 triangles) {
+  uint wanted = near_features(triangles, owned_features(triangles));
+  if (wanted == 0u) return;
   Pair p = pair_of(triangles);
-  if (!may_meet(p)) return;
-  uint first = triangle_owns[triangles.x], second = triangle_owns[triangles.y];
-  for (uint k = 0u; k < 3u; ++k) {
-    if ((first >> k & 1u) != 0u) meet_vertex(p, k, real(1));
-    if ((second >> k & 1u) != 0u) meet_vertex(p, 3u + k, real(-1));
-  }
-  for (uint j = 0u; j < 3u; ++j)
-    for (uint k = 0u; k < 3u; ++k)
-      if ((first >> (3u + j) & 1u) != 0u && (second >> (3u + k) & 1u) != 0u) meet_edges(p, j, k);
+  for (uint feature = 0u; feature < 15u; ++feature)
+    if ((wanted >> feature & 1u) != 0u) meet_feature(p, feature);
 }
 
 void find_contacts(uint item) {

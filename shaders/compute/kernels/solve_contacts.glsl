@@ -1,22 +1,31 @@
 // A kernel in rounds. One thread serves one contact in one round of a kick. It finds the impulse that its velocity asks for, with all
-// impulses of the round before, and adds it to its vertices.
+// impulses of the round before, and adds it to its vertices. After the last of these rounds it kicks those of its vertices that no other
+// contact has kicked yet.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/contact.glsl"
 #include "../physics/contact/exact_sum.glsl"
+#include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 WRITE(control)
+READ(pose)
 READ(rest_position)
 READ(surface)
+WRITE(status)
+WRITE(motion)
+READ(step_parts)
+WRITE(pressed)
+WRITE(outside_sum)
 READ(start)
 READ(contact_vertex)
 WRITE_AS(contact, real4, contact_row)
 WRITE_AS(contact_impulse, real4, impulse_row)
-READ(contact_weight)
+SHARED_WRITE(contact_weight)
 SHARED_WRITE(contact_list)
 SHARED_WRITE(impulse_sum)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, least_speed)
@@ -25,8 +34,9 @@ PARAMETER(double, heaviest_vertex)
 #include "parts/impulse_sums.glsl"
 
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
-uint rounds_at_most() { return kick_rounds; }
-bool goes_on(uint kick_round) { return kick_round < kick_rounds; }
+uint rounds_at_most() { return kick_rounds + 1u; }
+// If no contact presses in the first round, none does in the others.
+bool goes_on(uint kick_round) { return kick_round > 0u || contact_list[0].presses != 0u; }
 
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
 
@@ -58,27 +68,44 @@ real3 relative_velocity(uvec4 who, real4 weight, real4 resistance, uint kick_rou
   return weight.y * y + weight.z * z + weight.w * w;
 }
 
-void add_impulse(uint i, dvec3 quanta, uint kick_round) {
-  uint at = impulse_sum_of(buffer_of(kick_round + 1u), vertex_count, i);
-  for (uint k = 0u; k < 3u; ++k) ADD_EXACTLY(impulse_sum[at + k], quanta[int(k)])
-}
-
 dvec3 nearest(dvec3 v) { return dvec3(nearest_whole(v.x), nearest_whole(v.y), nearest_whole(v.z)); }
 
-// The fourth vertex of a contact gets what the others leave, so that their sum is zero.
-void spread_impulse(uvec4 who, real4 weight, dvec3 total, uint kick_round) {
-  if (who.y == no_vertex) {
-    add_impulse(who.x, nearest(total), kick_round);
-    return;
+// Adds an impulse to a vertex's sum [quanta]. All low halves are added before the high ones.
+#define ADD_LOW_HALVES(before, to, quanta)                                                                         \
+  uvec3 before = uvec3(ADD_LOW_HALF(impulse_sum[to], (quanta).x), ADD_LOW_HALF(impulse_sum[(to) + 1u], (quanta).y), \
+                       ADD_LOW_HALF(impulse_sum[(to) + 2u], (quanta).z));
+#define ADD_HIGH_HALVES(before, to, quanta)                       \
+  {                                                               \
+    ADD_HIGH_HALF(impulse_sum[to], (quanta).x, (before).x)        \
+    ADD_HIGH_HALF(impulse_sum[(to) + 1u], (quanta).y, (before).y) \
+    ADD_HIGH_HALF(impulse_sum[(to) + 2u], (quanta).z, (before).z) \
   }
-  dvec3 of_y = nearest(double(weight.y) * total), of_z = nearest(double(weight.z) * total), of_w = nearest(double(weight.w) * total);
-  add_impulse(who.x, -(of_y + of_z + of_w), kick_round);
-  add_impulse(who.y, of_y, kick_round);
-  add_impulse(who.z, of_z, kick_round);
-  add_impulse(who.w, of_w, kick_round);
+
+// Adds an impulse on the one vertex of a contact with a ground.
+void push_off(uint i, dvec3 quanta, uint sums) {
+  uint to = impulse_sum_of(sums, vertex_count, i);
+  ADD_LOW_HALVES(before, to, quanta)
+  ADD_HIGH_HALVES(before, to, quanta)
 }
 
-void solve_contacts(uint c, uint kick_round) {
+// Adds an impulse to four vertices. The first gets what the others leave, so that their sum is zero. There are no loops and no arrays:
+// compilers for GPUs would wait for each addition in turn.
+void push_apart(uvec4 who, real4 weight, dvec3 total, uint sums) {
+  dvec3 of_y = nearest(double(weight.y) * total), of_z = nearest(double(weight.z) * total), of_w = nearest(double(weight.w) * total);
+  dvec3 of_x = -(of_y + of_z + of_w);
+  uint to_x = impulse_sum_of(sums, vertex_count, who.x), to_y = impulse_sum_of(sums, vertex_count, who.y),
+       to_z = impulse_sum_of(sums, vertex_count, who.z), to_w = impulse_sum_of(sums, vertex_count, who.w);
+  ADD_LOW_HALVES(before_x, to_x, of_x)
+  ADD_LOW_HALVES(before_y, to_y, of_y)
+  ADD_LOW_HALVES(before_z, to_z, of_z)
+  ADD_LOW_HALVES(before_w, to_w, of_w)
+  ADD_HIGH_HALVES(before_x, to_x, of_x)
+  ADD_HIGH_HALVES(before_y, to_y, of_y)
+  ADD_HIGH_HALVES(before_z, to_z, of_z)
+  ADD_HIGH_HALVES(before_w, to_w, of_w)
+}
+
+void push(uint c, uint kick_round) {
   uvec4 who = contact_vertex[c];
   real4 normal_row = contact_row[contact_rows * c], weight = contact_row[contact_rows * c + 1u],
         goal_row = contact_row[contact_rows * c + 2u];
@@ -90,9 +117,39 @@ void solve_contacts(uint c, uint kick_round) {
   real4 impulse = next_impulse(impulse_row[c], normal_row, goal_row, velocity, resistance.z);
   impulse_row[c] = impulse;
   if (kick_round + 1u == kick_rounds && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
-  for (int k = 0; k < 4; ++k)
-    if (who[k] != no_vertex) clear_impulse(buffer_of(kick_round + 2u), who[k]);
+  clear_impulse(buffer_of(kick_round + 2u), who.x);
+  if (who.y != no_vertex) {
+    clear_impulse(buffer_of(kick_round + 2u), who.y);
+    clear_impulse(buffer_of(kick_round + 2u), who.z);
+    clear_impulse(buffer_of(kick_round + 2u), who.w);
+  }
   if (impulse.x == real(0)) return;
-  dvec3 total = (dvec3(real3(impulse.x * real3(normal_row))) + dvec3(real3(impulse.y, impulse.z, impulse.w))) / of_quantum;
-  spread_impulse(who, weight, total, kick_round);
+  if (kick_round == 0u) ATOMIC_STORE(contact_list[0].presses, 1u);
+  dvec3 total = (dvec3(real3(impulse.x * real3(normal_row))) + dvec3(real3(impulse.y, impulse.z, impulse.w))) * (double(1) / of_quantum);
+  if (who.y == no_vertex)
+    push_off(who.x, nearest(total), buffer_of(kick_round + 1u));
+  else
+    push_apart(who, weight, total, buffer_of(kick_round + 1u));
+}
+
+void kick(uint i) {
+  if (i == no_vertex || atomicExchange(contact_weight[i], 0u) == 0u) return;  // another contact has kicked it
+  dvec3 quanta = impulse_on(buffer_of(kick_rounds), i);
+  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(k, i);
+  uint b = uint(rest_position[i].w);
+  if (quanta == dvec3(0) || surface[b].inverse_mass == double(0)) return;
+  uint at = velocity_of(in_half(from_half, vertex_count, i));
+  dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * quantum()) * rotate_back(pose[b], quanta);
+  STORE3(motion, at, velocity)
+  ATOMIC_STORE(status[b].deformed, 1u);
+  ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
+  for (uint k = 0u; k < 3u; ++k)
+    if (quanta[int(k)] != double(0)) ADD_EXACTLY(outside_sum[k], quanta[int(k)])
+}
+
+void solve_contacts(uint c, uint kick_round) {
+  if (kick_round < kick_rounds)
+    push(c, kick_round);
+  else
+    for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k]);
 }

@@ -84,6 +84,7 @@ using std::abs, std::sqrt;
 FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }  // glm's branches on every sign
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
 FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
+FN uint atomicExchange(uint& target, uint value) { return std::atomic_ref(target).exchange(value, std::memory_order_relaxed); }
 FN uint atomicMin(uint& target, uint value) {
   std::atomic_ref shared(target);
   uint before = shared.load(std::memory_order_relaxed);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "dynamics/stability.hpp"
@@ -24,7 +26,19 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .elasticity = body.surface.elasticity.value_or(description.elasticity),
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
-          .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30)};
+          .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30),
+          .nearness = 0};
+}
+
+// Contacts matter within 1.5 gaps. A pair's gap is at most the mean of what its bodies have. A static body takes the other's
+// edge, so that the moving one has to count for both.
+void find_nearness(std::span<physics::Surface> surfaces) {
+  double largest_static_gap = 0;
+  for (const physics::Surface& surface : surfaces)
+    if (surface.inverse_mass == 0) largest_static_gap = std::max(largest_static_gap, surface.gap);
+  for (physics::Surface& surface : surfaces)
+    if (surface.inverse_mass != 0)
+      surface.nearness = 1.5 * surface.edge * std::max(0.5 * surface.gap, std::sqrt(surface.gap * largest_static_gap));
 }
 
 physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
@@ -36,40 +50,33 @@ physics::Ground ground_of(const Ground& ground, const CollisionDescription& desc
           .padding = 0};
 }
 
-// Gives each vertex and each edge to the first triangle that has it, so that a contact is found once.
-std::vector<std::uint32_t> owned_features(const Forest& forest) {
-  std::vector<std::uint32_t> owns;
-  std::set<std::uint32_t> vertices;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const auto& corners : forest.triangles) {
-    std::uint32_t own = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = corners[k], next = corners[(k + 1) % 3];
-      if (vertices.insert(corner).second) own |= 1u << k;
-      if (edges.insert(std::minmax(corner, next)).second) own |= 8u << k;
-    }
-    owns.push_back(own);
-  }
-  return owns;
-}
-
-// Returns [triangle][3], in leaf order: the third vertex of the triangle across the edge from corner k to the next. Edges of more
-// than two triangles have none.
-std::vector<std::uint32_t> neighbors_of(const Forest& forest) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> thirds;
-  const auto edge = [](const std::array<std::uint32_t, 3>& corners, std::size_t k) {
+// Returns [triangle][4], in leaf order.
+// - Of each edge, from corner k to the next, the third vertex of the triangle across it. Edges of more than two triangles have
+// none.
+// - As bits, the vertices and edges that belong to the triangle: those that no triangle before it has. So a contact is found
+// once.
+std::vector<std::uint32_t> surroundings(const Forest& forest) {
+  using Corners = std::array<std::uint32_t, 3>;
+  const auto edge = [](const Corners& corners, std::size_t k) {
     return std::pair(std::minmax(corners[k], corners[(k + 1) % 3]));
   };
-  for (const auto& corners : forest.triangles)
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> thirds;
+  for (const Corners& corners : forest.triangles)
     for (std::size_t k = 0; k < 3; ++k) thirds[edge(corners, k)].push_back(corners[(k + 2) % 3]);
-  std::vector<std::uint32_t> neighbors;
-  for (const auto& corners : forest.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
+  std::vector<std::uint32_t> around;
+  std::set<std::uint32_t> owned_vertices;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> owned_edges;
+  for (const Corners& corners : forest.triangles) {
+    std::uint32_t owned = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
       const std::vector<std::uint32_t>& both = thirds[edge(corners, k)];
-      const bool has_one = both.size() == 2;
-      neighbors.push_back(has_one ? (both[0] == corners[(k + 2) % 3] ? both[1] : both[0]) : physics::no_vertex);
+      around.push_back(both.size() != 2 ? physics::no_vertex : both[0] == corners[(k + 2) % 3] ? both[1] : both[0]);
+      if (owned_vertices.insert(corners[k]).second) owned |= 1u << k;
+      if (owned_edges.insert(edge(corners, k)).second) owned |= 8u << k;
     }
-  return neighbors;
+    around.push_back(owned);
+  }
+  return around;
 }
 
 class Impulse final : public Response {
@@ -92,6 +99,7 @@ class Impulse final : public Response {
       heaviest_vertex_ = std::max(heaviest_vertex_, body.vertex_mass);
       smallest_gap_ = std::min(smallest_gap_, surfaces.back().gap * surfaces.back().edge);
     }
+    find_nearness(surfaces);
     arrays.make("surface", surfaces);
     std::vector<physics::Ground> grounds;
     for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));
@@ -114,13 +122,12 @@ class Impulse final : public Response {
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
     arrays.make<glm::uvec2>("outside_sum", 3);
     arrays.make<double>("outside_impulse", 3);
-    arrays.make("triangle_owns", owned_features(setting.forest));
-    arrays.make("triangle_neighbor", neighbors_of(setting.forest));
+    arrays.make("triangle_around", surroundings(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked", 3 * vertices);
     arrays.make<double>("expected", 3 * vertices);
     arrays.make<double>("surplus", 6 * vertices);
-    arrays.make<glm::vec4>("cage", 2 * vertices);
+    arrays.make<glm::vec4>("cage", 4 * vertices);
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
@@ -151,13 +158,11 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "meet_grounds",
                                  {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
-    passes.push_back(round_pass("solve_contacts", {{"contact_capacity", contact_capacity},
+    passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
+                                                   {"contact_capacity", contact_capacity},
                                                    {"triangle_pair_capacity", triangle_pair_capacity},
                                                    {"least_speed", least_speed()},
                                                    {"heaviest_vertex", heaviest_vertex_}}));
-    passes.push_back(make_pass(arrays, "kick_vertices",
-                               {{"from_half", from_half}, {"least_speed", least_speed()}, {"heaviest_vertex", heaviest_vertex_}},
-                               bodies_.vertex_count));
     return passes;
   }
 
@@ -192,7 +197,8 @@ class Impulse final : public Response {
                                           {{"from_half", from_half},
                                            {"ground_count", ground_count_},
                                            {"least_speed", least_speed()},
-                                           {"heaviest_vertex", heaviest_vertex_}},
+                                           {"heaviest_vertex", heaviest_vertex_},
+                                           {"largest_body", largest_body_}},
                                           bodies_.vertex_count)};
     if (has_pairs_)
       passes.push_back(

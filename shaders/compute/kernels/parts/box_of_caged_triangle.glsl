@@ -1,9 +1,15 @@
-// The box of the cages of a triangle's corners, at a place in leaf order.
-Box box_of_triangle(uint t) {
-  uint a = triangle[corner_of(t, 0u)], b = triangle[corner_of(t, 1u)], c = triangle[corner_of(t, 2u)];
+// Boxes around a triangle's corners, at a place in leaf order: of their cages, and of the ways they go.
+Box box_around(uint a, uint b, uint c) {
   Box box;
-  box.lower = vec3(cage[lower_of(a)]);
-  box.upper = vec3(cage[upper_of(a)]);
-  box = grow(grow(box, vec3(cage[lower_of(b)])), vec3(cage[upper_of(b)]));
-  return grow(grow(box, vec3(cage[lower_of(c)])), vec3(cage[upper_of(c)]));
+  box.lower = vec3(min(min(cage[a], cage[b]), cage[c]));
+  box.upper = vec3(max(max(cage[a + 1u], cage[b + 1u]), cage[c + 1u]));
+  return box;
+}
+
+Box box_of_triangle(uint t) {
+  return box_around(cage_of(triangle[corner_of(t, 0u)]), cage_of(triangle[corner_of(t, 1u)]), cage_of(triangle[corner_of(t, 2u)]));
+}
+
+Box box_of_ways(uint t) {
+  return box_around(way_box_of(triangle[corner_of(t, 0u)]), way_box_of(triangle[corner_of(t, 1u)]), way_box_of(triangle[corner_of(t, 2u)]));
 }

@@ -16,12 +16,12 @@ FN double nearest_whole(double number) {
 #ifdef __cplusplus
 FN double whole_of(IN(uvec2) halves) { return static_cast<double>(std::bit_cast<std::int64_t>(halves)); }
 
-// Adds a whole number to a sum that other threads add to.
 FN void add_exactly(uvec2& sum, double whole) {
   using Sum [[gnu::may_alias]] = std::int64_t;
   std::atomic_ref(reinterpret_cast<Sum&>(sum)).fetch_add(static_cast<std::int64_t>(whole), std::memory_order_relaxed);
 }
-#define ADD_EXACTLY(sum, whole) add_exactly(sum, whole);
+#define ADD_LOW_HALF(sum, whole) (add_exactly(sum, whole), 0u)
+#define ADD_HIGH_HALF(sum, whole, before) static_cast<void>(before);
 #else
 double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967296.0) + double(halves.x); }
 
@@ -30,14 +30,18 @@ uvec2 halves_of(double whole) {
   return uvec2(uint(whole - high * double(4294967296.0)), uint(int(high)));
 }
 
-#define ADD_EXACTLY(sum, whole)                                       \
-  {                                                                   \
-    uvec2 halves = halves_of(whole);                                  \
-    uint before = atomicAdd((sum).x, halves.x);                       \
-    uint carried = halves.y + (before + halves.x < before ? 1u : 0u); \
-    if (carried != 0u) atomicAdd((sum).y, carried);                   \
-  }
+#define ADD_LOW_HALF(sum, whole) atomicAdd((sum).x, halves_of(whole).x)
+#define ADD_HIGH_HALF(sum, whole, before) \
+  atomicAdd((sum).y, halves_of(whole).y + ((before) + halves_of(whole).x < (before) ? 1u : 0u));
 #endif
+
+// Adds a whole number to a sum that other threads add to. An addition whose result is used takes 0.7 us on an H200. Who adds several
+// numbers therefore adds all low halves first, which returns what was there, and then the high halves.
+#define ADD_EXACTLY(sum, whole)                 \
+  {                                             \
+    uint before_it = ADD_LOW_HALF(sum, whole);  \
+    ADD_HIGH_HALF(sum, whole, before_it)        \
+  }
 
 SHARED_END
 #endif

@@ -11,6 +11,7 @@ struct Surface {
   double friction;
   double gap;              // that contacts keep, in edges
   double longest_pressed;  // step in which contacts do not pump energy into the body [s]
+  double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
 };
 
 // A half-space that bodies stay out of: all points x with normal . x < offset.
@@ -33,7 +34,7 @@ struct ContactList {
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
   uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
-  uint padding;
+  uint presses;              // 1: a contact gave an impulse in the first round of a kick
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
