@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <future>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <thread>
 
@@ -46,21 +49,32 @@ struct Task {
 
 bool runs_beside_others(const Task& task) { return task.place.device == DeviceKind::cpu && !task.is_timed; }
 
-// Runs each task on a thread of its own.
-std::vector<std::vector<ContactRow>> run_together(std::span<const Task> tasks) {
-  std::vector<std::future<std::vector<ContactRow>>> running;
-  for (const Task& task : tasks)
-    running.push_back(std::async(std::launch::async, [&task] { return task.measure(*open(task.place)); }));
-  std::vector<std::vector<ContactRow>> rows;
-  for (auto& one : running) rows.push_back(one.get());
-  return rows;
-}
-
-// How many of the tasks, from the first on, run at once.
-std::size_t count_together(std::span<const Task> tasks, std::size_t most) {
-  std::size_t count = 0;
-  while (count < std::min(most, tasks.size()) && runs_beside_others(tasks[count])) ++count;
-  return std::max<std::size_t>(count, 1);
+// Runs tasks beside each other, the longest first, and returns their rows in the order of the tasks. Asks `goes_on` all the time,
+// with the cost of what has begun. After a no those that have not begun are left out.
+std::vector<ContactRow> run_together(std::span<const Task> tasks, unsigned threads, const std::function<bool(double)>& goes_on) {
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return tasks[k].cost; });
+  std::vector<std::vector<ContactRow>> rows(tasks.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < order.size(); k = next++) {
+      const Task& task = tasks[order[k]];
+      rows[order[k]] = task.measure(*open(task.place));
+    }
+  };
+  std::vector<std::future<void>> workers;
+  for (unsigned k = 0; k < threads; ++k) workers.push_back(std::async(std::launch::async, work));
+  for (std::future<void>& worker : workers)
+    while (worker.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+      double begun = 0;
+      for (std::size_t k = 0; k < std::min(next.load(), order.size()); ++k) begun += tasks[order[k]].cost;
+      if (!goes_on(begun)) next = order.size();
+    }
+  std::vector<ContactRow> all;
+  for (std::future<void>& worker : workers) worker.get();
+  for (std::vector<ContactRow>& some : rows) std::ranges::move(some, std::back_inserter(all));
+  return all;
 }
 
 // --- apart
@@ -316,17 +330,22 @@ ContactResult bench_contact(const ContactOptions& options, const Progress& progr
   add_apart(tasks, options);
   add_impacts(tasks, options);
   add_costs(tasks, options);
+  const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);
   double total = 0, done = 0;
   for (const Task& task : tasks) total += task.cost;
   ContactResult result;
+  const auto goes_on = [&](double begun, const std::string& name) {
+    result.interrupted = result.interrupted || !progress((done + begun) / total, name);
+    return !result.interrupted;
+  };
+  const std::span<const Task> together(tasks.begin(), alone.begin());
   const unsigned threads = options.devices.threads != 0 ? options.devices.threads : std::thread::hardware_concurrency();
-  for (std::span<const Task> left = tasks; !left.empty();) {
-    result.interrupted = !progress(done / total, left.front().name);
-    if (result.interrupted) break;
-    const auto together = left.first(count_together(left, threads));
-    for (std::vector<ContactRow>& rows : run_together(together)) std::ranges::move(rows, std::back_inserter(result.rows));
-    for (const Task& task : together) done += task.cost;
-    left = left.subspan(together.size());
+  result.rows = run_together(together, threads, [&](double begun) { return goes_on(begun, "on the CPU"); });
+  for (const Task& task : together) done += task.cost;
+  for (const Task& task : alone) {
+    if (!goes_on(0, task.name)) break;
+    std::ranges::move(task.measure(*open(task.place)), std::back_inserter(result.rows));
+    done += task.cost;
   }
   if (!result.interrupted) progress(1, "");
   result.notes = notes_of(result.rows);
