@@ -44,7 +44,8 @@ def set_style():
 
 
 def hardware_of(data):
-    machine, devices = data["machine"], {row["device"] for row in data["rows"]}
+    """Rows without a device were measured on the CPU."""
+    machine, devices = data["machine"], {row.get("device", "cpu") for row in data["rows"]}
     names = {"gpu": short(machine["gpu"] or ""), "cpu": machine["cpu"].replace("(R)", "")}
     return f"{', '.join(names[device] for device in names if device in devices)} · {machine['date'][:10]}"
 
