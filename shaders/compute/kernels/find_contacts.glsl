@@ -3,6 +3,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/contact.glsl"
 READ(control)
 READ(rest_position)
@@ -19,10 +20,6 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, pairs_at_once)
 
-bool boxes_meet(IN(vec3) lower, IN(vec3) upper, IN(vec3) others_lower, IN(vec3) others_upper) {
-  return lower.x <= others_upper.x && others_lower.x <= upper.x && lower.y <= others_upper.y && others_lower.y <= upper.y &&
-         lower.z <= others_upper.z && others_lower.z <= upper.z;
-}
 #include "parts/add_contact.glsl"
 
 // What is the same for all contacts of a pair of triangles.
@@ -251,33 +248,35 @@ void meet_feature(IN(Pair) p, uint feature) {
     meet_edges(p, (feature - 6u) / 3u, (feature - 6u) % 3u);
 }
 
+Box joined(IN(Box) a, IN(Box) b) {
+  Box box;
+  box.lower = min(a.lower, b.lower);
+  box.upper = max(a.upper, b.upper);
+  return box;
+}
+
 // Returns the features whose ways come near each other, as far as the boxes of the corners' ways tell. `wanted` are those asked for.
 uint near_features(uvec2 triangles, uint wanted) {
-  vec3 lower[6], upper[6];
+  Box corner[6];
   for (uint k = 0u; k < 3u; ++k) {
-    uint a = way_box_of(triangle[corner_of(triangles.x, k)]), b = way_box_of(triangle[corner_of(triangles.y, k)]);
-    lower[k] = vec3(cage[a]);
-    upper[k] = vec3(cage[a + 1u]);
-    lower[3u + k] = vec3(cage[b]);
-    upper[3u + k] = vec3(cage[b + 1u]);
+    uint of_first = way_box_of(triangle[corner_of(triangles.x, k)]), of_second = way_box_of(triangle[corner_of(triangles.y, k)]);
+    corner[k].lower = vec3(cage[of_first]);
+    corner[k].upper = vec3(cage[of_first + 1u]);
+    corner[3u + k].lower = vec3(cage[of_second]);
+    corner[3u + k].upper = vec3(cage[of_second + 1u]);
   }
-  vec3 first_lower = min(min(lower[0], lower[1]), lower[2]), first_upper = max(max(upper[0], upper[1]), upper[2]);
-  vec3 second_lower = min(min(lower[3], lower[4]), lower[5]), second_upper = max(max(upper[3], upper[4]), upper[5]);
+  Box first = joined(joined(corner[0], corner[1]), corner[2]), second = joined(joined(corner[3], corner[4]), corner[5]);
   uint near = 0u;
-  if (!boxes_meet(first_lower, first_upper, second_lower, second_upper)) return near;
+  if (!overlaps(first, second)) return near;
   for (uint k = 0u; k < 3u; ++k) {
-    if ((wanted >> k & 1u) != 0u && boxes_meet(lower[k], upper[k], second_lower, second_upper)) near |= 1u << k;
-    if ((wanted >> (3u + k) & 1u) != 0u && boxes_meet(lower[3u + k], upper[3u + k], first_lower, first_upper)) near |= 8u << k;
+    if (overlaps(corner[k], second)) near |= 1u << k;
+    if (overlaps(corner[3u + k], first)) near |= 8u << k;
   }
   for (uint j = 0u; j < 3u; ++j)
-    for (uint k = 0u; k < 3u; ++k) {
-      uint feature = 6u + 3u * j + k, after_j = j == 2u ? 0u : j + 1u, after_k = k == 2u ? 3u : k + 4u;
-      if ((wanted >> feature & 1u) != 0u &&
-          boxes_meet(min(lower[j], lower[after_j]), max(upper[j], upper[after_j]), min(lower[3u + k], lower[after_k]),
-                     max(upper[3u + k], upper[after_k])))
-        near |= 1u << feature;
-    }
-  return near;
+    for (uint k = 0u; k < 3u; ++k)
+      if (overlaps(joined(corner[j], corner[j == 2u ? 0u : j + 1u]), joined(corner[3u + k], corner[k == 2u ? 3u : k + 4u])))
+        near |= 1u << (6u + 3u * j + k);
+  return near & wanted;
 }
 
 void meet(uvec2 triangles) {

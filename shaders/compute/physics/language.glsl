@@ -81,7 +81,9 @@ SHARED_BEGIN
 using glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec2, glm::dvec3;
 using glm::abs, glm::cross, glm::dot, glm::inversesqrt, glm::length, glm::max, glm::min;
 using std::abs, std::sqrt;
-FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }  // glm's branches on every sign
+// glm's branches on every sign
+FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
+FN dvec3 abs(IN(dvec3) v) { return dvec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
 FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
 FN uint atomicExchange(uint& target, uint value) { return std::atomic_ref(target).exchange(value, std::memory_order_relaxed); }
