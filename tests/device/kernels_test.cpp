@@ -150,6 +150,8 @@ std::vector<double> numbers_of(const physics::ContactList& list) {
           double(std::bit_cast<float>(list.fastest))};
 }
 
+std::vector<double> numbers_of(const physics::Debt& debt) { return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2]}; }
+
 std::vector<double> numbers_of(const physics::StepParts& parts) {
   return {parts.full, parts.last, parts.simulated, double(parts.left), double(parts.steps), double(parts.parts)};
 }
@@ -246,6 +248,8 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     check_structs<physics::ContactList>(cpu, gpu, a, b, 1, 1e-6);
   } else if (name == "step_parts") {
     check_structs<physics::StepParts>(cpu, gpu, a, b, 1, 1e-13);
+  } else if (name == "debt") {
+    check_structs<physics::Debt>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-9);
   } else if (name == "triangle_pair") {
     const auto count = cpu.bodies.arrays.get<physics::ContactList>("contact_list").download().front().triangle_pair_count;
     CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));

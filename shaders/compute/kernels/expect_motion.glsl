@@ -31,8 +31,9 @@ void empty_lists() {
   contact_list[0].contact_count = 0u;
   contact_list[0].uncertified = 0u;
   contact_list[0].changed_rounds = 0u;
-  contact_list[0].arrivals = 0u;
+  contact_list[0].arrivals &= waited_in_vain;
   contact_list[0].presses = 0u;
+  contact_list[0].has_cuts = 0u;
 }
 
 // How much further than expected a vertex may go. Bodies that are far from all others have more room.

@@ -15,7 +15,7 @@ WRITE(motion)
 WRITE(world_position)
 WRITE(surplus)
 WRITE(last_cut)
-READ(cut)
+WRITE(cut)
 WRITE(contact_list)
 WRITE(step_parts)
 WRITE(body_motion)
@@ -44,6 +44,8 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
                                             : vec4(vec3(to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement)), 1);
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
+  cut[i] = floatBitsToUint(float(part));
+  ATOMIC_STORE(contact_list[0].has_cuts, 1u);
   ATOMIC_STORE(status[b].force_stale, 1u);
   ATOMIC_STORE(status[b].deformed, 1u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
@@ -61,6 +63,7 @@ void end_step_part(bool is_made) {
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
     contact_list[0].fastest = 0u;
+    contact_list[0].arrivals &= waited_in_vain;
     bool is_empty = contact_list[0].contact_count == 0u && control[0].time_step == double(0);
     if (!is_empty) contact_list[0].latest_count = lists_are_full() ? 0u : contact_list[0].contact_count;
     end_step_part(control[0].non_finite_step == 0u && control[0].time_step > double(0));

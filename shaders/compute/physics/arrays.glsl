@@ -80,6 +80,11 @@ ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^
 ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses in quanta, as 64 bits in two halves; 0 between steps")
 ARRAY(way, double, vertex, step, "[vertex][3] how far the integrator moved the vertex [m]")
 ARRAY(cut, uint, vertex, step, "[round][vertex] part of its way that a vertex may go, as bits of a float; the least counts")
+ARRAY(vertex_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread serves of a body that moves")
+ARRAY(vertex_part_range, uvec2, body, fixed, "first part, number of parts; none for a body that does not move")
+ARRAY(part_moment, Moments, part, step, "sums over these vertices, if motions were cut short")
+ARRAY(part_energy, double, part, step, "[part][3] kinetic energy of the deformation and of the rigid motion, and what cuts added to springs [J]")
+ARRAY(debt, Debt, body, carried, "[body + 1] what the body owes for cuts; the last one is the sum")
 ARRAY(last_cut, uint, vertex, carried, "1: its motion was cut short in the last step")
 
 // pulls

@@ -11,6 +11,7 @@
 #include "dynamics/stability.hpp"
 #include "model/mean_edge.hpp"
 #include "physics/contact/surface.glsl"
+#include "state/vertex_parts.hpp"
 
 namespace pliant {
 namespace {
@@ -138,6 +139,7 @@ class Impulse final : public Response {
     arrays.make<double>("way", 3 * vertices);
     arrays.make<std::uint32_t>("cut", (physics::cut_rounds + 1) * vertices);
     arrays.make<std::uint32_t>("last_cut", vertices);
+    make_debts(setting.model);
   }
 
   std::vector<Pass> before_step(std::uint32_t from_half) const override {
@@ -207,10 +209,22 @@ class Impulse final : public Response {
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity}, {"contact_capacity", contact_capacity}},
         bodies_.vertex_count));
+    passes.push_back(round_pass("pay_for_cuts", {{"from_half", from_half}, {"part_count", part_count_}}));
     return passes;
   }
 
  private:
+  void make_debts(const Model& model) {
+    Arrays& arrays = bodies_.arrays;
+    const VertexParts all = vertex_parts(model, [](const ModelBody& body) { return !body.is_static; });
+    part_count_ = all.count();
+    arrays.make("vertex_part", all.parts);
+    arrays.make("vertex_part_range", all.ranges);
+    arrays.make<physics::Moments>("part_moment", part_count_);
+    arrays.make<double>("part_energy", std::size_t{3} * part_count_);
+    arrays.make<physics::Debt>("debt", bodies_.body_count + 1);
+  }
+
   Pass round_pass(std::string_view name, Parameters parameters) const {
     Device& device = bodies_.arrays.device();
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
@@ -230,11 +244,11 @@ class Impulse final : public Response {
   // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].
   double least_speed() const { return smallest_gap_ / time_step_; }
 
-  const DeviceBodies& bodies_;
+  DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
   bool has_pairs_, divides_steps_;
-  std::uint32_t items_at_once_, ground_count_ = 0;
+  std::uint32_t items_at_once_, ground_count_ = 0, part_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   const DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision

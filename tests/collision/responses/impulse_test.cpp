@@ -97,7 +97,7 @@ TEST_CASE("steps that a tolerance governs keep bodies apart, too, and a kick is 
       CHECK(seen.touching == 0);
       CHECK(seen.inside == 0);
       CHECK(seen.report.contact_steps > 0);
-      if (speed > 0.1) CHECK(seen.report.adaptive->rejected > 0);  // slow ones foresee all
+      if (speed > 0.1) CHECK(seen.report.adaptive->rejected > 0);      // slow ones foresee all
       CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 1e-7));  // of the springs' forces in fp32
       CHECK(seen.most_energy < 1e-3);
     }
@@ -148,6 +148,101 @@ TEST_CASE("motions are cut short where a kick could not have foreseen them, and 
   CHECK(seen.touching == 0);
   CHECK(seen.inside == 0);
   CHECK(seen.report.reverted_vertices > 0);
+}
+
+// Measures a run in parts of steps.
+struct Energies {
+  double first = 0, most = 0, last = 0;  // [J]
+  glm::dvec3 momentum{0.0};              // the last one, less what gravity and what does not move have given [Ns]
+  glm::dvec3 angular_momentum_change{0.0};
+  StepReport report;
+};
+
+Energies energies_of(Simulation& simulation, const ModelAndState& start, const glm::dvec3& gravity, double duration) {
+  ThreadPool pool(1);
+  const Measurement before = measure(start.model, start.state, gravity, pool);
+  Energies seen;
+  seen.first = seen.most = before.energy();
+  Measurement now = before;
+  while (simulation.report().time < duration) {
+    simulation.advance(2);
+    now = measure(start.model, simulation.state(), gravity, pool);
+    seen.most = larger(seen.most, now.energy());
+  }
+  seen.report = simulation.report();
+  seen.last = now.energy();
+  double mass = 0;
+  for (const ModelBody& body : start.model.bodies)
+    if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
+  seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.outside_impulse;
+  seen.angular_momentum_change = now.angular_momentum - before.angular_momentum;
+  return seen;
+}
+
+// A ball that falls on a small static one.
+ModelAndState ball_over_knob(double stiffness) {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "knob"), soft(generate_mesh("icosphere:2"), "ball")};
+  setups[0].description.kind = BodyKind::immovable;
+  setups[0].description.scale = 0.12;
+  setups[1].description.position = {0.03, 1.3, 0.02};
+  setups[1].description.rotation = {10, 20, 30};
+  setups[1].description.total_stiffness = stiffness;
+  GroundDescription ground;
+  ground.point = {0, -1.03, 0};
+  return build_model(setups, {0, -9.81, 0}, {&ground, 1});
+}
+
+TEST_CASE("motions that are cut short add no energy, and what does not move tells what it gave") {
+  struct Fall {
+    double stiffness, time_step, friction;
+  };
+  for (const Fall& fall : {Fall{1000, 0.005, 0.3}, Fall{2000, 0.002, 0}, Fall{5000, 0.002, 0}}) {
+    for (const int precision : {64, 32}) {
+      CAPTURE(fall.stiffness, precision);
+      const ModelAndState start = ball_over_knob(fall.stiffness);
+      const auto device = make_cpu_device(1, precision);
+      Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", fall.time_step}),
+                            {.response = {"impulse"}, .elasticity = 0, .friction = fall.friction});
+      const Energies seen = energies_of(simulation, start, {0, -9.81, 0}, 2);
+      CHECK(seen.report.reverted_vertices > 200);
+      CHECK(seen.most < 1.001 * seen.first);
+      CHECK(glm::length(seen.momentum) < (precision == 64 ? 1e-11 : 1e-4));
+    }
+  }
+}
+
+// A body that oscillates wildly beside another one.
+ModelAndState wild_beside_still() {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "wild"), soft(generate_mesh("icosphere:1"), "still")};
+  setups[0].description.stretch = {0.3, 1, 1};
+  setups[0].description.velocity = {1, 0.3, 0};
+  setups[1].description.position = {1.45, 0, 0};
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("cuts between bodies that move keep momentum, and pay for their energy") {
+  const ModelAndState start = wild_beside_still();
+  const bench::Seen seen = watch(*make_cpu_device(1, 64), start, Method{"cv8", 1.0 / omega}, 60);
+  CHECK(seen.report.reverted_vertices > 0);
+  CHECK(seen.momentum_change < 1e-14);
+  CHECK(seen.most_energy < 1e-3);
+}
+
+TEST_CASE("paying for cuts gives the same bits on any number of threads, and after saving") {
+  const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0};
+  const ModelAndState start = ball_over_knob(2000);
+  const auto simulation_on = [&](Device& device) {
+    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.005}), without_bounce);
+  };
+  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
+  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
+  whole->advance(200);
+  REQUIRE(whole->report().reverted_vertices > 0);
+  resumed->restore(whole->save());
+  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(60);
+  shared_out->advance(260);
+  CHECK(shared_out->state().motion == whole->state().motion);
+  CHECK(resumed->state().motion == whole->state().motion);
 }
 
 TEST_CASE("contact by impulses gives the same bits on any number of threads, and the same motion on a GPU", "[gl]") {

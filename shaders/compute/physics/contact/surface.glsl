@@ -35,6 +35,8 @@ struct ContactList {
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
   uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
   uint presses;              // 1: a contact gave an impulse in the first round of a kick
+  uint has_cuts;             // 1: motions were cut short in this step
+  uint padding;
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
