@@ -69,6 +69,7 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.is_static = description.kind == BodyKind::immovable;
   if (body.is_static) body.stiffness = body.damping = 0;
   body.surface = description.surface;
+  body.restitution = description.restitution;
   body.color = description.color;
   return body;
 }

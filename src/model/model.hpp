@@ -43,6 +43,7 @@ struct ModelBody {
   double radius = 0;       // largest distance of a rest position from the centroid [m]
   Inflation inflation;
   SurfaceDescription surface;
+  std::optional<double> restitution;
   glm::dvec3 color{1.0};  // linear RGB
 
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are

@@ -217,6 +217,7 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("response", collision.response);
   table.read("elasticity", collision.elasticity, fraction);
   table.read("friction", collision.friction, not_negative);
+  table.read("restitution", collision.restitution, fraction);
   table.read("gap", collision.gap, edge_part);
   table.read("search", collision.search, searches);
   table.read("triangle_test", collision.triangle_test, triangle_tests);
@@ -274,6 +275,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
   read_surface(table, body.surface);
+  table.read("restitution", body.restitution, fraction);
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);

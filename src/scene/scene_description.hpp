@@ -51,7 +51,8 @@ struct CollisionDescription {
   Named response{"reflect"};  // a name in the list of responses, or "none"
   double elasticity = 0.9;
   double friction = 0.5;
-  double gap = 0.05;  // that contacts keep, in mean edges of the meshes
+  std::optional<double> restitution = {};  // of bodies that have none of their own
+  double gap = 0.05;                       // that contacts keep, in mean edges of the meshes
   ContactSearch search = ContactSearch::tree;
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
@@ -105,7 +106,8 @@ struct BodyDescription {
   std::optional<double> total_mass;       // [kg], m = total / N
   double damping = 1.0;                   // c [kg/s]
   SurfaceDescription surface;
-  double pressure = 0.0;  // inside, at the rest volume, with nothing outside [Pa]
+  std::optional<double> restitution = {};  // the scene's if empty; a static body then has none
+  double pressure = 0.0;                   // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
 };

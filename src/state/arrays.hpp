@@ -16,6 +16,7 @@
 #include "device/device.hpp"
 #include "physics/body.glsl"
 #include "physics/contact/debt.glsl"
+#include "physics/contact/impact.glsl"
 #include "physics/contact/parts.glsl"
 #include "physics/contact/surface.glsl"
 #include "physics/control.glsl"
@@ -63,6 +64,7 @@ PLIANT_ELEMENT(physics::Ground, "Ground")
 PLIANT_ELEMENT(physics::StepParts, "StepParts")
 PLIANT_ELEMENT(physics::ContactList, "ContactList")
 PLIANT_ELEMENT(physics::Debt, "Debt")
+PLIANT_ELEMENT(physics::Impact, "Impact")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT

@@ -152,6 +152,8 @@ std::vector<double> numbers_of(const physics::ContactList& list) {
 
 std::vector<double> numbers_of(const physics::Debt& debt) { return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2]}; }
 
+std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, impact.kept}; }
+
 std::vector<double> numbers_of(const physics::StepParts& parts) {
   return {parts.full, parts.last, parts.simulated, double(parts.left), double(parts.steps), double(parts.parts)};
 }
@@ -250,12 +252,14 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     check_structs<physics::StepParts>(cpu, gpu, a, b, 1, 1e-13);
   } else if (name == "debt") {
     check_structs<physics::Debt>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-9);
+  } else if (name == "impact") {
+    check_structs<physics::Impact>(cpu, gpu, a, b, physics::impact_count(cpu.bodies.body_count), 1e-6);
   } else if (name == "triangle_pair") {
     const auto count = cpu.bodies.arrays.get<physics::ContactList>("contact_list").download().front().triangle_pair_count;
     CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
   } else if (name == "contact_vertex" || name == "contact" || name == "contact_impulse") {
     check_same_contacts(cpu, gpu);
-  } else if (name == "impulse_sum" || name == "outside_sum") {
+  } else if (name == "impulse_sum" || name == "outside_sum" || name == "impact_sum") {
     const auto [x, y] = read_both<glm::uvec2>(cpu, gpu, a, b);
     CHECK(largest_difference(whole_numbers_of(y), whole_numbers_of(x)) < 1e-4);
   } else if (name == "contact_weight") {
@@ -367,6 +371,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   const double stiffness = setups.back().description.stiffness;
   for (const ForceExample& example : force_examples()) example.set(setups.back().description);  // it feels all forces at once
   setups.back().description.stiffness = stiffness;
+  setups.front().description.restitution = 0.5;
   BodySetup plate = sphere(0);
   plate.description.name = "plate";
   plate.description.kind = BodyKind::immovable;

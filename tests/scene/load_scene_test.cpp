@@ -258,11 +258,11 @@ TEST_CASE("keys that contradict each other are an error") {
 const std::string impulse = "[collision]\nresponse = \"impulse\"\n";
 
 TEST_CASE("grounds, static bodies and what contacts need to know of them are read into their places") {
-  const SceneDescription scene =
-      load_text(impulse +
-                "friction = 0.25\ngap = 0.02\n[[ground]]\nheight = -1\nfriction = 2\n[[ground]]\npoint = [1, 2, "
-                "3]\nnormal = [0, 3, 4]\nelasticity = 0.5\n" +
-                smallest + "kind = \"static\"\nfriction = 0.1\nelasticity = 0.2\ngap = 0.1\n");
+  const SceneDescription scene = load_text(
+      impulse +
+      "friction = 0.25\nrestitution = 0.7\ngap = 0.02\n[[ground]]\nheight = -1\nfriction = 2\n[[ground]]\npoint = [1, 2, "
+      "3]\nnormal = [0, 3, 4]\nelasticity = 0.5\n" +
+      smallest + "kind = \"static\"\nfriction = 0.1\nelasticity = 0.2\nrestitution = 0.4\ngap = 0.1\n");
   CHECK((scene.collision.friction == 0.25 && scene.collision.gap == 0.02));
   REQUIRE(scene.grounds.size() == 2);
   CHECK((scene.grounds[0].point == glm::dvec3(0, -1, 0) && scene.grounds[0].normal == glm::dvec3(0, 1, 0)));
@@ -274,7 +274,9 @@ TEST_CASE("grounds, static bodies and what contacts need to know of them are rea
   CHECK((scene.bodies[0].surface.friction == 0.1 && scene.bodies[0].surface.elasticity == 0.2 &&
          scene.bodies[0].surface.gap == 0.1));
   CHECK(load_text(smallest).bodies[0].kind == BodyKind::soft);
+  CHECK((scene.collision.restitution == 0.7 && scene.bodies[0].restitution == 0.4));
   CHECK(load_text(smallest).collision.friction == 0.5);
+  CHECK((!load_text(smallest).collision.restitution && !load_text(smallest).bodies[0].restitution));
 }
 
 TEST_CASE("what never moves needs contact by impulses, and does not move") {

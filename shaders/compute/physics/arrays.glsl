@@ -85,6 +85,9 @@ ARRAY(vertex_part_range, uvec2, body, fixed, "first part, number of parts; none 
 ARRAY(part_moment, Moments, part, step, "sums over these vertices, if motions were cut short")
 ARRAY(part_energy, double, part, step, "[part][3] kinetic energy of the deformation and of the rigid motion, and what cuts added to springs [J]")
 ARRAY(debt, Debt, body, carried, "[body + 1] what the body owes for cuts; the last one is the sum")
+ARRAY(impact_sum, uvec2, pair, carried, "[body][body + 1][3] sum of the impulses of a pair's contacts in an impact, on the first body, as 64 bits in two halves; the last partner stands for the grounds")
+ARRAY(impact, Impact, pair, carried, "[body][body + 1] how fast two bodies came, and what they keep of their deformation velocities")
+ARRAY(impact_part, uint, pair, carried, "[body][body + 1] number of the latest part of a step in which the pair got an impulse, 0: none; behind these that of all pairs")
 ARRAY(last_cut, uint, vertex, carried, "1: its motion was cut short in the last step")
 
 // pulls

@@ -4,12 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "dynamics/stability.hpp"
 #include "model/mean_edge.hpp"
+#include "physics/contact/impact.glsl"
 #include "physics/contact/surface.glsl"
 #include "state/vertex_parts.hpp"
 
@@ -21,12 +23,18 @@ constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u
 constexpr double longest_pressed = 0.8;
 constexpr std::uint32_t least_threads = 4096;  // tree_search.cpp says why threads must not be too few
 
+// Static bodies take part in impacts only if they have a restitution of their own.
+std::optional<double> restitution_of(const ModelBody& body, const CollisionDescription& description) {
+  return body.restitution || body.is_static ? body.restitution : description.restitution;
+}
+
 physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
   return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
           .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
           .elasticity = body.surface.elasticity.value_or(description.elasticity),
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
+          .restitution = restitution_of(body, description).value_or(-1),
           .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30),
           .nearness = 0};
 }
@@ -140,13 +148,18 @@ class Impulse final : public Response {
     arrays.make<std::uint32_t>("cut", (physics::cut_rounds + 1) * vertices);
     arrays.make<std::uint32_t>("last_cut", vertices);
     make_debts(setting.model);
+    if (std::ranges::any_of(surfaces, [](const physics::Surface& surface) { return surface.restitution >= 0; })) make_impacts();
   }
 
   std::vector<Pass> before_step(std::uint32_t from_half) const override {
     const Arrays& arrays = bodies_.arrays;
-    std::vector<Pass> passes = {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
-                                make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count),
-                                make_pass(arrays, "expect_motion", {{"from_half", from_half}}, bodies_.vertex_count)};
+    std::vector<Pass> passes;
+    if (restores_)
+      passes.push_back(
+          round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"impact_unit", impact_unit()}}));
+    passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
+    passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
+    passes.push_back(make_pass(arrays, "expect_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     if (has_pairs_) {
       passes.push_back(body_pairs_.pairing_pass());
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));
@@ -165,6 +178,13 @@ class Impulse final : public Response {
                                                    {"triangle_pair_capacity", triangle_pair_capacity},
                                                    {"least_speed", least_speed()},
                                                    {"heaviest_vertex", heaviest_vertex_}}));
+    if (restores_)
+      passes.push_back(make_pass(arrays, "sum_impacts",
+                                 {{"contact_capacity", contact_capacity},
+                                  {"triangle_pair_capacity", triangle_pair_capacity},
+                                  {"contacts_at_once", items_at_once_},
+                                  {"impact_unit", impact_unit()}},
+                                 items_at_once_));
     return passes;
   }
 
@@ -225,6 +245,17 @@ class Impulse final : public Response {
     arrays.make<physics::Debt>("debt", bodies_.body_count + 1);
   }
 
+  void make_impacts() {
+    const std::size_t pairs = physics::impact_count(bodies_.body_count);
+    bodies_.arrays.make<glm::uvec2>("impact_sum", 3 * pairs);
+    bodies_.arrays.make<physics::Impact>("impact", pairs);
+    bodies_.arrays.make<std::uint32_t>("impact_part", pairs + 1);
+    restores_ = true;
+  }
+
+  // Directions of impulses on bodies are found from whole numbers of this [Ns].
+  double impact_unit() const { return heaviest_vertex_ * least_speed() / 1024; }
+
   Pass round_pass(std::string_view name, Parameters parameters) const {
     Device& device = bodies_.arrays.device();
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
@@ -247,7 +278,7 @@ class Impulse final : public Response {
   DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
-  bool has_pairs_, divides_steps_;
+  bool has_pairs_, divides_steps_, restores_ = false;
   std::uint32_t items_at_once_, ground_count_ = 0, part_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;

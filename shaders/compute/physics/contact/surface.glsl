@@ -10,6 +10,7 @@ struct Surface {
   double elasticity;
   double friction;
   double gap;              // that contacts keep, in edges
+  double restitution;      // negative: none
   double longest_pressed;  // step in which contacts do not pump energy into the body [s]
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
 };

@@ -1,0 +1,120 @@
+// A kernel in rounds, at a step's start. One thread serves some vertices of a body. Bodies that touch and part faster than their restitution
+// allows lose their deformation velocities. So they have nothing that would drive them further apart. Both momenta stay.
+#include "../physics/body.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/rigid_motion.glsl"
+#include "../physics/contact/exact_sum.glsl"
+#include "../physics/contact/impact.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/contact/surface.glsl"
+READ(body)
+READ(pose)
+READ(status)
+READ(surface)
+READ(step_parts)
+READ(rest_position)
+WRITE(motion)
+READ(vertex_part)
+READ(vertex_part_range)
+SHARED_WRITE(contact_list)
+SHARED_WRITE(part_moment)
+SHARED_WRITE(impact_sum)
+SHARED_WRITE(impact)
+SHARED_WRITE(impact_part)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
+PARAMETER(uint, from_half)
+PARAMETER(uint, part_count)
+PARAMETER(double, impact_unit)
+
+const uint last_round = 2u;
+
+bool goes_on_at(uint at) { return impact_part[at] != 0u && step_parts[0].parts - impact_part[at] < impact_ends_after; }
+bool is_needed() { return impact_part[impact_count(body_count)] != 0u && step_parts[0].parts - impact_part[impact_count(body_count)] <= impact_ends_after; }
+uint items_in_a_round() { return is_needed() ? part_count : 0u; }
+uint rounds_at_most() { return last_round + 1u; }
+bool goes_on(uint number) { return number < last_round && is_needed(); }
+
+uint at_start(uint i) { return in_half(from_half, vertex_count, i); }
+dvec3 place_of(uint i) { return dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at_start(i))); }
+dvec3 velocity_of_vertex(uint i) { return LOAD3(motion, velocity_of(at_start(i))); }
+
+void sum_moments_of(uvec4 part, uint item) {
+  dvec3 origin = place_of(body[part.x].first_vertex);
+  Moments sum = no_moments();
+  for (uint i = part.y; i < part.z; ++i) add_vertex(sum, place_of(i) - origin, velocity_of_vertex(i));
+  part_moment[item] = sum;
+}
+
+RigidMotion rigid_motion_of_body(uint b) {
+  uvec2 range = vertex_part_range[b];
+  Moments sum = no_moments();
+  for (uint k = range.x; k < range.x + range.y; ++k) add_moments(sum, part_moment[k]);
+  return rigid_motion_with(sum, body[b].vertex_count, place_of(body[b].first_vertex), dvec3(0));
+}
+
+bool is_movable(uint b) { return b < body_count && surface[b].inverse_mass > double(0); }
+
+// The mean velocity of a body's vertices in the world [m/s]. Static bodies and grounds have none.
+dvec3 mean_velocity(uint b) {
+  if (!is_movable(b)) return dvec3(0);
+  uvec2 range = vertex_part_range[b];
+  dvec3 sum = dvec3(0);
+  for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_moment[k].velocity, 0u);
+  return rotate(pose[b], sum / double(body[b].vertex_count));
+}
+double inverse_mass_of(uint b) { return is_movable(b) ? surface[b].inverse_mass / double(body[b].vertex_count) : double(0); }
+double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
+
+void judge_impact(uint a, uint b) {
+  uint at = impact_of(a, b, body_count);
+  if (!goes_on_at(at)) {
+    if (impact_part[at] == 0u) return;
+    for (uint k = 0u; k < 3u; ++k) impact_sum[3u * at + k] = uvec2(0u);
+    impact_part[at] = 0u;
+    impact[at].approach = double(0);
+    impact[at].kept = double(1);
+    return;
+  }
+  double restitution = restitution_of_pair(restitution_of(a), restitution_of(b));
+  dvec3 given = impact_unit * dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
+  double size = length(given);
+  if (restitution < double(0) || size == double(0)) return;
+  double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));
+  if (impact[at].approach == double(0)) impact[at].approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
+  impact[at].approach = max(impact[at].approach, -parts_at);
+  impact[at].kept = parts_at > restitution * impact[at].approach ? double(0) : double(1);
+}
+
+void judge_impacts(uint a) {
+  for (uint b = 0u; b <= body_count; ++b) {
+    if (b == a || (is_movable(b) && b < a)) continue;
+    judge_impact(min(a, b), max(a, b));
+  }
+}
+
+double kept_of(uint a) {
+  double kept = double(1);
+  for (uint b = 0u; b <= body_count; ++b) {
+    uint at = impact_of(min(a, b), max(a, b), body_count);
+    if (b != a && goes_on_at(at) && impact[at].approach > double(0)) kept = min(kept, impact[at].kept);
+  }
+  return kept;
+}
+
+void take_deformation(uvec4 part) {
+  double kept = kept_of(part.x);
+  if (kept == double(1)) return;
+  RigidMotion rigid = rigid_motion_of_body(part.x);
+  for (uint i = part.y; i < part.z; ++i) {
+    dvec3 along = velocity_at(rigid, place_of(i)), velocity = along + kept * (velocity_of_vertex(i) - along);
+    STORE3(motion, velocity_of(at_start(i)), velocity)
+  }
+}
+
+void restore_impacts(uint item, uint number) {
+  uvec4 part = vertex_part[item];
+  if (number == 0u) sum_moments_of(part, item);
+  if (number == 1u && item == vertex_part_range[part.x].x) judge_impacts(part.x);
+  if (number == 2u && status[part.x].activity == moving) take_deformation(part);
+}
