@@ -35,6 +35,7 @@ Observer::Counts Observer::count(Session& session) {
 void Observer::take_sample(Session& session) {
   measure_energy(session);
   const Counts after = count(session);
+  if (before_) note_contacts(session, *before_, after);
   if (before_) note_steps(*before_, after);
   before_ = after;
 }
@@ -50,9 +51,16 @@ void Observer::measure_energy(Session& session) {
   if (observation_.energy_is_known) observation_.energy.add(measured.energy());
 }
 
-void Observer::note_steps(const Counts& before, const Counts& after) {
+void Observer::note_contacts(Session& session, const Counts& before, const Counts& after) {
+  const Response* const response = session.simulation().collider().response();
   const bool goes_on = after.step >= before.step && after.touching >= before.touching;
-  observation_.touching.add(goes_on ? static_cast<double>(after.touching - before.touching) : 0);
+  if (response != nullptr && response->gives_impulses())
+    observation_.touching.add(static_cast<double>(session.simulation().contact_impulses().size()));
+  else
+    observation_.touching.add(goes_on ? static_cast<double>(after.touching - before.touching) : 0);
+}
+
+void Observer::note_steps(const Counts& before, const Counts& after) {
   const auto steps = static_cast<double>(after.stepping.steps - before.stepping.steps);
   if (steps == 0) return;
   observation_.step_milliseconds = 1e3 * (after.stepping.seconds - before.stepping.seconds) / steps;

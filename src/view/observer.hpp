@@ -32,7 +32,7 @@ struct PassTime {
 struct Observation {
   Series energy;                 // of all bodies [J]
   bool energy_is_known = true;   // false: there are too many springs to measure it live
-  Series touching;               // number of vertices that contacts held back between two samples
+  Series touching;               // contacts with an impulse in the latest step, or vertices turned back between two samples
   std::vector<PassTime> passes;  // longest first; empty: not timed
   double step_milliseconds = 0;  // mean time of a step over the latest samples; 0: none was made
 };
@@ -60,6 +60,7 @@ class Observer {
   [[nodiscard]] static Counts count(Session& session);
   void take_sample(Session& session);
   void measure_energy(Session& session);
+  void note_contacts(Session& session, const Counts& before, const Counts& after);
   void note_steps(const Counts& before, const Counts& after);
 
   std::function<double()> clock_;

@@ -142,7 +142,7 @@ void Session::restart() {
 
 Settings Session::settings() const {
   const SimulationDescription& of = scene_->description.simulation;
-  Settings settings{of.integrator.value, of.time_step, of.damping_law, scene_->description.collision.elasticity, {}};
+  Settings settings{of.integrator.value, of.time_step, damping_law_of(scene()), elasticity_of(scene().collision), {}};
   for (const ModelBody& body : scene_->start.model.bodies)
     settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
   return settings;

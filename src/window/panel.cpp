@@ -152,7 +152,7 @@ void tell_what_happens(const Observation& seen) {
   if (!ImGui::CollapsingHeader("Energy and contacts", ImGuiTreeNodeFlags_DefaultOpen)) return;
   plot_energy(seen);
   const std::vector<float>& touching = seen.touching.values();
-  plot("##contacts", seen.touching, fmt::format("vertices held back {:g}", touching.empty() ? 0 : touching.back()));
+  plot("##contacts", seen.touching, fmt::format("contacts {:g}", touching.empty() ? 0 : touching.back()));
 }
 
 void tell_of_work(const Facts& facts, Wishes& wishes) {

@@ -24,8 +24,9 @@ struct Watched {
   [[nodiscard]] const Observation& seen() const { return observer.observation(); }
 };
 
-LoadedScene touching_spheres() {
+LoadedScene touching_spheres(const char* response = "impulse") {
   LoadedScene scene;
+  scene.description.collision.response.value = response;
   scene.description.simulation.time_step = 0.01;
   scene.description.simulation.damping_law = DampingLaw::none;
   scene.start = build_model(colliding_spheres(), {0, 0, 0});
@@ -48,8 +49,21 @@ TEST_CASE("an observer samples energy and contacts ten times a second") {
         Approx(measure(session.model(), session.start(), {0, 0, 0}, *std::make_unique<ThreadPool>(1)).energy()).epsilon(1e-3));
   for (const float value : seen.touching.values()) touching += value;
   CHECK(touching > 0);
-  CHECK(touching <= static_cast<double>(session.report().reverted_vertices));
   CHECK(seen.passes.empty());
+}
+
+TEST_CASE("an observer counts the vertices that reflection turned back, and each at most once") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, touching_spheres("reflect"));
+  Watched watched;
+  for (int k = 0; k < 60; ++k) {
+    session.step_once();
+    watched.look(session, 1000 + 0.02 * k);
+  }
+  double touching = 0;
+  for (const float value : watched.seen().touching.values()) touching += value;
+  CHECK(touching > 0);
+  CHECK(touching <= static_cast<double>(session.report().reverted_vertices));
 }
 
 TEST_CASE("samples take a tenth of the time at most, however long one takes") {
@@ -72,7 +86,7 @@ TEST_CASE("samples take a tenth of the time at most, however long one takes") {
 
 TEST_CASE("an observer counts from its first sample on, whatever happened before it looked") {
   const auto device = make_cpu_device(2, 32);
-  Session session(*device, touching_spheres());
+  Session session(*device, touching_spheres("reflect"));
   Watched watched;
   const auto step_until_touched = [&] {
     const std::uint64_t before = session.report().reverted_vertices;
