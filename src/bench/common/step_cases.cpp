@@ -46,13 +46,14 @@ SceneDescription scene_at(const Family& family, SceneDescription scene, int leve
     body.position.x = std::copysign(family.half_distance, body.position.x);
     if (body.mesh.starts_with("icosphere:")) body.mesh = fmt::format("icosphere:{}", level);
   }
+  scene.collision.response.value = "reflect";  // bodies that overlap are its to answer
   scene.simulation.time_step = family.time_step * std::exp2(family.base_level - level);
   return scene;
 }
 
 StepCase make_case(const SceneDescription& scene, std::span<const BodySetup> setups) {
   StepCase made;
-  made.start = build_model(setups, scene.simulation.gravity);
+  made.start = build_model(setups, scene.simulation.gravity, scene.grounds);
   made.plan = plan_time(scene, made.start.model);
   made.collision = scene.collision;
   return made;
