@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-/// Returns the version, such as "0.1.0".
+/// Returns the version, such as "0.2.0".
 [[nodiscard]] std::string version();
 
 /// Returns the commit that it was built from, or "unknown" outside a git checkout. "-dirty" stands behind it if files differed.

@@ -74,6 +74,8 @@ void show_check(const PreparedRun& run) {
   fmt::print("scene:            {}\n", run.scene.title.empty() ? run.scene.file.string() : run.scene.title);
   for (const ModelBody& body : run.start.model.bodies)
     fmt::print("body:             {} ({} vertices, {} triangles)\n", body.name, body.vertex_count, body.triangle_count);
+  fmt::print("response:         {}\n", run.scene.collision.response.value);
+  fmt::print("damping law:      {}\n", name_of(run.plan.damping_law));
   fmt::print("integrator:       {}\n", run.plan.integrator->name);
   fmt::print("stability bound:  {:.6g} s\n", run.plan.step_bound);
   fmt::print("time step:        {}\n", length_of_steps(run.plan));

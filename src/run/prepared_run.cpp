@@ -80,7 +80,7 @@ void warn_of_masses(PreparedRun& run) {
     heaviest = std::max(heaviest, body.vertex_mass);
     lightest = std::min(lightest, body.vertex_mass);
   }
-  if (run.scene.collision.response.value == "impulse" && heaviest > most * lightest)
+  if (is_by_impulses(run.scene.collision) && heaviest > most * lightest)
     run.warnings.push_back(
         fmt::format("the heaviest vertex has {:.3g} times the mass of the lightest: impulses on light ones are rounded",
                     heaviest / lightest));

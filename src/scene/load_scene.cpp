@@ -222,6 +222,9 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("search", collision.search, searches);
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
+  if (is_by_impulses(collision) && collision.search == ContactSearch::brute_force)
+    throw Error(table.where("search"), "contact by impulses finds pairs by trees alone",
+                "remove search = \"brute_force\", or write response = \"reflect\"");
 }
 
 void read_table(TableReader& table, CameraDescription& camera) {
@@ -342,15 +345,10 @@ void draw_level_ground(SceneDescription& scene) {
 
 // The paper's response turns vertices back, wherever they are, and knows nothing that never moves.
 void expect_response_to_immovable(const SceneDescription& scene) {
-  if (scene.collision.response.value == "impulse") {
-    if (scene.collision.search == ContactSearch::brute_force)
-      throw Error(scene.collision.response.where, "contact by impulses finds pairs by trees alone",
-                  "remove search = \"brute_force\"");
-    return;
-  }
+  if (is_by_impulses(scene.collision)) return;
   const auto fail_at = [&](const Origin& where, const char* what) {
     throw Error(where, fmt::format("{} with the response \"{}\"", what, scene.collision.response.value),
-                "write response = \"impulse\" in [collision]");
+                "write response = \"impulse\" in [collision], which is the default");
   };
   if (!scene.grounds.empty()) fail_at(scene.grounds.front().where, "bodies would fall through a ground");
   for (const BodyDescription& body : scene.bodies)

@@ -69,7 +69,12 @@ void expect_method_estimates(const TimePlan& plan, const Origin& where) {
                           names_that_bear_tolerance(plan.damping_law)));
 }
 
-void expect_method_damps(const TimePlan& plan, const Origin& where) {
+// Contact by impulses divides steps of fixed length, where there is something to touch.
+bool divides_steps(const SceneDescription& scene, const Model& model) {
+  return is_by_impulses(scene.collision) && (model.bodies.size() > 1 || !model.grounds.empty());
+}
+
+void expect_method_damps(const TimePlan& plan, const Origin& where, bool divides) {
   if (allows_damping(*plan.integrator, plan.damping_law)) return;
   const bool is_nystrom = staged_method(*plan.integrator) != nullptr;
   throw Error(
@@ -80,7 +85,7 @@ void expect_method_damps(const TimePlan& plan, const Origin& where) {
           : fmt::format("{} is for bodies without damping: its steps have kicks back in time, which damping makes unstable",
                         plan.integrator->name),
       fmt::format("set simulation.damping_law = \"{}\" or choose another integrator, such as verlet",
-                  is_nystrom ? "constant" : "none"));
+                  is_nystrom && !divides ? "constant" : "none"));
 }
 
 void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin& where) {
@@ -98,13 +103,12 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin&
                   rates.size() <= Stepper::most_drags(find_integrator("dprkn8")) ? "dprkn8" : "dop853"));
 }
 
-void expect_response_fits(const TimePlan& plan, const SceneDescription& scene) {
-  if (scene.collision.response.value != "impulse") return;
-  if (plan.damping_law != DampingLaw::none && std::holds_alternative<Nystrom>(plan.integrator->method))
-    throw Error(scene.simulation.integrator.where,
-                fmt::format("{} meets damping only with steps of one length, and contact by impulses divides them",
-                            plan.integrator->name),
-                "choose another integrator, such as verlet, or set damping_law = \"none\"");
+void expect_method_divides(const TimePlan& plan, const Origin& where, bool divides) {
+  if (!divides || plan.damping_law == DampingLaw::none || !std::holds_alternative<Nystrom>(plan.integrator->method)) return;
+  throw Error(
+      where,
+      fmt::format("{} meets damping only with steps of one length, and contact by impulses divides them", plan.integrator->name),
+      "choose another integrator, such as verlet, set damping_law = \"none\", or write response = \"reflect\"");
 }
 
 void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDescription& simulation) {
@@ -178,14 +182,15 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
     throw Error(ErrorKind::command_line, "--steps", "steps have no fixed length if a tolerance governs them",
                 "give --duration instead");
   TimePlan plan{.frame_rate = scene.output.frame_rate,
-                .damping_law = effective_law(simulation.damping_law, model),
+                .damping_law = effective_law(damping_law_of(scene), model),
                 .tolerance = simulation.tolerance,
                 .duration = simulation.duration};
   plan.integrator = &choose_integrator(simulation, plan.damping_law);
   expect_method_estimates(plan, simulation.integrator.where);  // first, because its remedies also help with damping
-  expect_method_damps(plan, simulation.integrator.where);
+  const bool divides = divides_steps(scene, model);
+  expect_method_damps(plan, simulation.integrator.where, divides);
   expect_tableaus_fit(plan, model, simulation.integrator.where);
-  expect_response_fits(plan, scene);
+  expect_method_divides(plan, simulation.integrator.where, divides);
   plan.step_bound = shortest_bound(plan, model, [](auto&... what) { return step_bound(what...); });
   const double longest_drag = shortest_bound(plan, model, [](auto&... what) { return drag_bound(what...); });
   if (plan.tolerance) {

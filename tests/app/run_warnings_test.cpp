@@ -35,9 +35,10 @@ TEST_CASE("a run that blows up but stays finite says so in its summary") {
 TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity below 1 too") {
   const ScratchFolder folder;
   const auto growth_and_warnings = [&](const std::string& time_step) {
-    const ProgramResult result = run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
-                                             " --device cpu --duration 0.5 --set collision.elasticity=0.9 --quiet --time-step " +
-                                             time_step + " --out " + folder.path.string());
+    const ProgramResult result =
+        run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                    " --device cpu --duration 0.5 --set collision.response=reflect --quiet --time-step " + time_step + " --out " +
+                    folder.path.string());
     REQUIRE(result.exit_code == 0);
     const auto summary = summary_in(folder.path);
     return std::pair(summary["energy"]["final"].get<double>() / summary["energy"]["initial"].get<double>(),
@@ -106,18 +107,18 @@ TEST_CASE("energy that gravity gives, wherever the world's origin is, is no grow
 
 TEST_CASE("bodies that overlap at the start are named in a warning") {
   const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --set body.right.position=[0,0,0] --out " +
-                  folder.path.string());
+  const ProgramResult result = run_program(
+      "run " + small_scene(folder).string() +
+      " --device cpu --steps 0 --set body.right.position=[0,0,0] --set collision.response=reflect --out " + folder.path.string());
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("left, right"));
 }
 
 TEST_CASE("bodies that overlap can't begin with contact by impulses") {
   const ScratchFolder folder;
-  const ProgramResult result = run_program(
-      "run " + small_scene(folder).string() +
-      " --device cpu --set body.right.position=[0,0,0] --set collision.response=impulse --out " + folder.path.string() + "/out");
+  const ProgramResult result =
+      run_program("run " + small_scene(folder).string() + " --device cpu --set body.right.position=[0,0,0] --out " +
+                  folder.path.string() + "/out");
   CHECK(result.exit_code == 3);
   CHECK_THAT(result.output, Catch::Contains("\"left\" and \"right\" intersect, at least") && Catch::Contains("move them apart") &&
                                 Catch::Contains("or write response"));
@@ -128,8 +129,7 @@ TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
       "run " + small_scene(folder, "damping_law = \"none\"\n").string() +
-      " --device cpu --duration 0.5 --time-step 0.01 --set collision.response=impulse --set body.left.velocity=[400,0,0] --out " +
-      folder.path.string());
+      " --device cpu --duration 0.5 --time-step 0.01 --set body.left.velocity=[400,0,0] --out " + folder.path.string());
   CHECK(result.exit_code == 0);
   const auto summary = summary_in(folder.path);
   CHECK(summary["contacts"]["substeps"] > 8);
@@ -142,6 +142,7 @@ TEST_CASE("of many bodies that overlap some are named, and the rest counted") {
   const ScratchFolder folder;
   const auto scene = folder.path / "many.toml";
   std::ofstream file(scene);
+  file << "[collision]\nresponse = \"reflect\"\n";
   for (int k = 0; k < 12; ++k) file << "[[body]]\nmesh = \"icosphere:0\"\n";
   file.close();
   const ProgramResult result =
@@ -152,10 +153,10 @@ TEST_CASE("of many bodies that overlap some are named, and the rest counted") {
 
 TEST_CASE("a run that goes non-finite says where, writes what there is and exits with 5") {
   const ScratchFolder folder;
-  const ProgramResult result =
-      run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
-                  " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set body.left.stretch=[1.1,1,1] --out " +
-                  folder.path.string());
+  const ProgramResult result = run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                                           " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set "
+                                           "collision.response=reflect --set body.left.stretch=[1.1,1,1] --out " +
+                                           folder.path.string());
   CHECK(result.exit_code == 5);
   CHECK_THAT(result.output, Catch::Contains("non-finite in step") && Catch::Contains("body \"left\"") &&
                                 Catch::Contains("shorten the time step"));

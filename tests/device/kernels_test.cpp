@@ -364,7 +364,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   if (test::lacks_gl()) return;
   add_own_rows();
   std::set<std::string_view> seen;
-  CollisionDescription tree, brute;
+  CollisionDescription tree{.response = {"reflect"}}, brute = tree;
   brute.search = ContactSearch::brute_force;
   brute.triangle_test = TriangleTest::moller;
   std::vector<BodySetup> setups = colliding_spheres();

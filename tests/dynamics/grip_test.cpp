@@ -184,7 +184,7 @@ TEST_CASE("a minute of a wild mouse leaves every scene whose step is stable fini
     const Pulled end = pull_wildly(*devices.back().device, start, plan_time(scene, start.model), scene.collision, 60);
     CHECK_FALSE(end.report.non_finite);
     for (const glm::dvec3& position : end.positions) CHECK(std::isfinite(glm::length(position)));
-    if (scene.simulation.damping_law != DampingLaw::none) check_whole(start.model, end.positions);
+    if (damping_law_of(scene) != DampingLaw::none) check_whole(start.model, end.positions);
   }
 }
 

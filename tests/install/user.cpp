@@ -11,7 +11,7 @@
 
 int main(int, char** arguments) {
   const pliant::SceneDescription scene = pliant::load_scene(arguments[1]);
-  const auto [model, start] = pliant::build_model(pliant::load_bodies(scene), scene.simulation.gravity);
+  const auto [model, start] = pliant::build_model(pliant::load_bodies(scene), scene.simulation.gravity, scene.grounds);
   const auto device = pliant::make_cpu_device(0, 32);
   pliant::Simulation simulation(*device, model, start, pliant::plan_time(scene, model), scene.collision);
   simulation.advance(3);

@@ -71,7 +71,8 @@ TEST_CASE("a scene's twin with impulses differs from it by nothing but its respo
     CHECK(scene.simulation.time_step == twin.simulation.time_step);
     CHECK(scene.simulation.integrator.value == twin.simulation.integrator.value);
     CHECK(scene.simulation.duration == twin.simulation.duration);
-    CHECK(scene.collision.elasticity == twin.collision.elasticity);
+    CHECK(elasticity_of(scene.collision) == elasticity_of(twin.collision));
+    CHECK(damping_law_of(scene) == damping_law_of(twin));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <set>
 
 #include "collision/contacts/oracle.hpp"
@@ -16,6 +18,20 @@
 namespace pliant {
 namespace {
 
+// The least distance of two bodies' origins, in sums of their radii.
+double nearest_distance(const ModelAndState& start) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto origin = [&](std::size_t body) {
+    const physics::Pose& frame = start.state.poses[body];
+    return glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]);
+  };
+  for (std::size_t a = 0; a < start.model.bodies.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      nearest =
+          std::min(nearest, glm::distance(origin(a), origin(b)) / (start.model.bodies[a].radius + start.model.bodies[b].radius));
+  return nearest;
+}
+
 // Moves bodies into each other and bends them, as if in the middle of a collision.
 std::vector<glm::vec4> crowded_positions(const ModelAndState& start) {
   const std::vector<glm::dvec3> world = start.state.world_positions(start.model);
@@ -23,9 +39,10 @@ std::vector<glm::vec4> crowded_positions(const ModelAndState& start) {
   for (const physics::Pose& frame : start.state.poses)
     middle += glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]) / static_cast<double>(start.state.poses.size());
   std::vector<glm::vec4> positions;
+  const double nearer = 1 - 0.6 / std::max(1.0, nearest_distance(start));
   for (std::size_t i = 0; i < world.size(); ++i) {
     const physics::Pose& frame = start.state.poses[static_cast<std::size_t>(start.model.rest_positions[i].w)];
-    const glm::dvec3 shift = 0.4 * (middle - glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]));
+    const glm::dvec3 shift = nearer * (middle - glm::dvec3(frame.origin[0], frame.origin[1], frame.origin[2]));
     const glm::dvec3 bend(0.03 * std::sin(7 * world[i].y), 0, 0.05 * std::cos(5 * world[i].x));
     positions.emplace_back(glm::vec3(world[i] + shift + bend), 1.0f);
   }
@@ -148,7 +165,7 @@ TEST_CASE("dented bodies of every scene with reflection move as in fp64 to 1e-5 
     CAPTURE(scene.file.string());
     // The step is within the bound, because beyond it rounding grows with everything else.
     const TimePlan plan = plan_time(scene, start.model);
-    const Method method{plan.integrator->name, std::min(plan.time_step, 0.9 * plan.step_bound), scene.simulation.damping_law};
+    const Method method{plan.integrator->name, std::min(plan.time_step, 0.9 * plan.step_bound), damping_law_of(scene)};
     const State exact = evolve(*make_cpu_device(2, 64), start, method, 8);
     for (const TestDevice& test : all_devices()) {
       if (test.rounding < 1e-12) continue;

@@ -146,6 +146,7 @@ TEST_CASE("an integrator that no one knows, or that cannot meet damping, is an i
 
 TEST_CASE("a Nystrom method meets constant damping at fixed steps alone, and as many rates as it has room for") {
   SceneDescription scene = scene_with("dprkn8", DampingLaw::constant);
+  scene.collision.response.value = "reflect";  // contact by impulses divides steps
   std::vector<BodySetup> bodies(14, sphere(0));
   for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].description.damping = 1e-3 * static_cast<double>(b % 13);
   const auto crowded = error_of([&] { return plan_time(scene, build_model(bodies, glm::dvec3(0.0)).model); });
@@ -182,17 +183,51 @@ TEST_CASE("steps too long for a Nystrom method to resolve the damping are an inp
 }
 
 TEST_CASE("contact by impulses takes any method whose steps can be divided") {
-  BodySetup setup = sphere(0);
-  setup.description.damping = 0.01;
-  const Model model = built(setup).model;
+  std::vector<BodySetup> setups(2, sphere(0));
+  for (BodySetup& setup : setups) setup.description.damping = 0.01;
+  const Model model = build_model(setups, glm::dvec3(0.0)).model;
   SceneDescription scene = scene_with("dprkn8", DampingLaw::constant);
-  scene.collision.response.value = "impulse";
+  CHECK_NOTHROW(plan_time(scene, built(setups.front()).model));  // there is nothing to touch
   check_says(error_of([&] { return plan_time(scene, model); }), {"scene.toml:3", "dprkn8", "choose another integrator"});
   scene.simulation.damping_law = DampingLaw::none;
   CHECK_NOTHROW(plan_time(scene, model));
   scene.simulation.damping_law = DampingLaw::constant;
   scene.simulation.integrator.value = "dop853";
   CHECK_NOTHROW(plan_time(scene, model));
+}
+
+TEST_CASE("a scene that names no damping law has internal damping in gravity where bodies meet by impulses") {
+  const Model model = built(sphere(0)).model;
+  const auto law_with = [&](const char* response, const glm::dvec3& acceleration) {
+    SceneDescription scene;
+    scene.collision.response.value = response;
+    scene.simulation.gravity = acceleration;
+    return plan_time(scene, model).damping_law;
+  };
+  const glm::dvec3 none(0.0), down(0, -9.81, 0);
+  CHECK(law_with("impulse", down) == DampingLaw::internal);
+  for (const char* response : {"reflect", "none"}) CHECK(law_with(response, down) == DampingLaw::adaptive);
+  for (const char* response : {"impulse", "reflect", "none"}) CHECK(law_with(response, none) == DampingLaw::adaptive);
+}
+
+TEST_CASE(
+    "a method that refuses damping takes undamped bodies in gravity, and damped ones are an error with a remedy that works") {
+  for (const char* name : {"srkn11b", "dprkn8", "dprkn12"})
+    for (const std::size_t count : {1u, 2u}) {
+      CAPTURE(name, count);
+      SceneDescription scene = scene_with(name, DampingLaw::none);
+      scene.simulation.damping_law.reset();
+      scene.simulation.gravity = {0, -9.81, 0};
+      std::vector<BodySetup> setups(count, sphere(0));
+      const Model damped = build_model(setups, scene.simulation.gravity).model;
+      for (BodySetup& setup : setups) setup.description.damping = 0;
+      const Model undamped = build_model(setups, scene.simulation.gravity).model;
+      CHECK(plan_time(scene, undamped).damping_law == DampingLaw::none);
+      const std::string remedy = count == 1 && scene.simulation.integrator.value != "srkn11b" ? "constant" : "none";
+      check_says(error_of([&] { return plan_time(scene, damped); }), {"scene.toml:3", name, remedy.c_str()});
+      scene.simulation.damping_law = remedy == "constant" ? DampingLaw::constant : DampingLaw::none;
+      CHECK_NOTHROW(plan_time(scene, damped));
+    }
 }
 
 TEST_CASE("with a tolerance frames are exact, and the first step stays far below the bound") {

@@ -169,7 +169,9 @@ TEST_CASE("a session that moves to another device keeps its state and its way ba
 
 TEST_CASE("touching vertices are those that the latest step held back", "[gl]") {
   on_every_device([](Device& device) {
-    Session session(device, colliding());
+    LoadedScene reflecting = colliding();
+    reflecting.description.collision.response.value = "reflect";
+    Session session(device, std::move(reflecting));
     std::uint64_t reverted = 0;
     bool have_touched = false;
     for (int k = 0; k < 40; ++k) {
@@ -267,7 +269,6 @@ TEST_CASE(
     "bodies that intersect can't begin where contacts keep them apart, and others can be changed and restarted in contact") {
   const auto cpu = make_cpu_device(2, 32);
   LoadedScene overlapping = colliding();
-  overlapping.description.collision.response.value = "impulse";
   LoadedScene apart = overlapping;
   overlapping.start.state.poses[1].origin[0] = 0.5;
   const Error error = error_of([&] { Session(*cpu, std::move(overlapping)); });
@@ -303,12 +304,13 @@ TEST_CASE("a session draws a body while it is pulled, and not when it is let go"
 
 TEST_CASE("a session's history stays within its memory") {
   const auto device = make_cpu_device(1, 32);
-  Session session(*device, colliding(), 200000);
+  const std::size_t room = 15 * Session(*device, colliding()).history().bytes();
+  Session session(*device, colliding(), room);
   for (int k = 0; k < 200; ++k) {
     session.step_once();
     session.record();
   }
-  CHECK(session.history().bytes() <= 200000);
+  CHECK(session.history().bytes() <= room);
   CHECK(session.history().size() > 10);
   int steps_back = 0;
   while (session.step_back()) ++steps_back;

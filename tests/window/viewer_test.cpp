@@ -125,7 +125,7 @@ TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scen
   CHECK(are_alike(viewed.saved_picture(), before));
 
   const auto overlapping = folder.path / "overlapping.toml";
-  std::ofstream(overlapping) << "[collision]\nresponse = \"impulse\"\n[[body]]\nmesh = \"icosphere:1\"\n"
+  std::ofstream(overlapping) << "[[body]]\nmesh = \"icosphere:1\"\n"
                                 "[[body]]\nmesh = \"icosphere:1\"\nposition = [1.5, 0, 0]\n";
   viewed.drop(overlapping);
   CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("\"body0\" and \"body1\" intersect"));
@@ -206,7 +206,9 @@ TEST_CASE("a step that goes non-finite is told at once", "[gl]") {
   if (is_skipped()) return;
   const VirtualDisplay display;
   const ScratchFolder folder;
-  Viewed viewed(display, folder, "cpu", {"--set", "simulation.time_step=1e30", "--set", "body.body1.stretch=[0.8, 1, 1]"});
+  Viewed viewed(
+      display, folder, "cpu",
+      {"--set", "simulation.time_step=1e30", "--set", "collision.response=reflect", "--set", "body.body1.stretch=[0.8, 1, 1]"});
   viewed.press("period");
   CHECK_THAT(viewed.await_text("pliant: the simulation became"), Catch::Contains("at vertex"));
   CHECK_THAT(viewed.await(step_is(1))["title"].get<std::string>(), Catch::Contains("non-finite"));

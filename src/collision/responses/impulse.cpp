@@ -31,7 +31,7 @@ std::optional<double> restitution_of(const ModelBody& body, const CollisionDescr
 physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
   return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
           .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
-          .elasticity = body.surface.elasticity.value_or(description.elasticity),
+          .elasticity = body.surface.elasticity.value_or(elasticity_of(description)),
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
           .restitution = restitution_of(body, description).value_or(-1),
@@ -53,7 +53,7 @@ void find_nearness(std::span<physics::Surface> surfaces) {
 physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
   return {.normal = {ground.normal.x, ground.normal.y, ground.normal.z},
           .offset = ground.offset,
-          .elasticity = ground.surface.elasticity.value_or(description.elasticity),
+          .elasticity = ground.surface.elasticity.value_or(elasticity_of(description)),
           .friction = ground.surface.friction.value_or(description.friction),
           .gap = ground.surface.gap.value_or(description.gap),
           .padding = 0};

@@ -5,7 +5,7 @@ namespace {
 
 class Reflect final : public Response {
  public:
-  explicit Reflect(const ResponseSetting& setting) : bodies_(setting.bodies), elasticity_(setting.description.elasticity) {}
+  explicit Reflect(const ResponseSetting& setting) : bodies_(setting.bodies), elasticity_(elasticity_of(setting.description)) {}
 
   std::vector<Pass> after_step(std::uint32_t from_half) const override {
     return {make_pass(bodies_.arrays, "reflect", {{"from_half", from_half}, {"elasticity", elasticity_}}, bodies_.vertex_count)};
