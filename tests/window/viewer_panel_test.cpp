@@ -102,7 +102,9 @@ TEST_CASE("what was told of a breakdown is gone when the panel goes back to the 
   if (is_skipped()) return;
   const VirtualDisplay display;
   const ScratchFolder folder;
-  Viewed viewed(display, folder, "cpu", {"--set", "simulation.time_step=1e30", "--set", "body.body1.stretch=[0.8, 1, 1]"});
+  Viewed viewed(
+      display, folder, "cpu",
+      {"--set", "simulation.time_step=1e30", "--set", "collision.response=reflect", "--set", "body.body1.stretch=[0.8, 1, 1]"});
   viewed.press("Tab");
   viewed.await([](const ReadJson& line) { return line["panel"].get<bool>(); });
   viewed.press("period");
