@@ -23,6 +23,7 @@ WRITE(contact_weight)
 WRITE(body_box)
 WRITE(status)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
@@ -36,10 +37,11 @@ void empty_lists() {
   contact_list[0].has_cuts = 0u;
 }
 
-// How much further than expected a vertex may go. Bodies that are far from all others have more room.
-double reach_beyond(uint b) {
-  double edge = surface[b].edge;
-  return clamp(double(uintBitsToFloat(room[b])), reach_in_edges() * edge, double(1000) * edge);
+// How much further than expected a vertex may go. Bodies that are far from all others have more room. Those that are hit need more, because
+// a kick changes what is expected: half an edge is what a heavy body gives to a light one by a quarter edge a step.
+double reach_beyond(uint b, double time_step) {
+  double edge = surface[b].edge, pushed = min(time_step * double(uintBitsToFloat(room[body_count + b])), double(0.5) * edge);
+  return clamp(double(uintBitsToFloat(room[b])), reach_in_edges() * edge + pushed, double(1000) * edge);
 }
 
 void expect_motion(uint i) {
@@ -61,7 +63,7 @@ void expect_motion(uint i) {
   STORE3(expected, force_of(i), mean)
   contact_weight[i] = 0u;
   dvec3 reach = abs(time_step * mean);
-  if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_beyond(b));
+  if (surface[b].inverse_mass != double(0)) reach += dvec3(reach_beyond(b, time_step));
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + reach * double(1.2e-7);
   dvec3 lower = position - reach - slack, upper = position + reach + slack;

@@ -1,6 +1,7 @@
 // One thread compares two bodies, and bounds the length of the step. No two vertices of them may come nearer than their distance and a
 // quarter edge beyond. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
-// much further than expected bodies that are far from each other may move without meeting.
+// much further than expected bodies that are far from each other may move without meeting, and how fast bodies that meet may push each
+// other away.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
@@ -39,6 +40,16 @@ void keep_apart(uint a, uint b, double distance) {
   LOWER_TO(room[b], share_of_it)
 }
 
+// The most that a vertex of the first body gets of a speed: it meets a triangle, which weighs as three of the other's vertices.
+double share_of(uint a, uint b) { return surface[a].inverse_mass / (surface[a].inverse_mass + surface[b].inverse_mass / double(3)); }
+
+void push_away(uint a, uint b, double speed) {
+  double change = (double(1) + mean_of_pair(surface[a].elasticity, surface[b].elasticity)) * speed;
+  uint of_a = floatBitsToUint(float(change * share_of(a, b))), of_b = floatBitsToUint(float(change * share_of(b, a)));
+  RAISE_TO(room[body_count + a], of_a)
+  RAISE_TO(room[body_count + b], of_b)
+}
+
 void limit_step(uint item) {
   uint a = item / body_count, b = item % body_count;
   if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
@@ -49,7 +60,10 @@ void limit_step(uint item) {
     double speed = approach(a, b), distance = distance_of_boxes(a, b);
     double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
     if (speed * longest > most) longest = most / speed;
-    if (speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
+    if (speed * longest > distance) {
+      longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
+      push_away(a, b, speed);
+    }
     keep_apart(a, b, distance - speed * longest);
   }
   if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));

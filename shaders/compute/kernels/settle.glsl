@@ -21,6 +21,7 @@ WRITE(step_parts)
 WRITE(body_motion)
 WRITE(room)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
@@ -71,6 +72,7 @@ void prepare_next_step(uint i, uint b) {
   if (i != body[b].first_vertex) return;
   if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
   room[b] = no_bound;
+  room[body_count + b] = 0u;
   for (uint k = 0u; k < 3u; ++k) {
     body_motion[b].lower[k] = 0xffffffffu;
     body_motion[b].upper[k] = 0u;

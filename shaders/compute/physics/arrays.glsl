@@ -60,7 +60,7 @@ ARRAY(mark, uint, vertex, carried, "latest step in which it touched another body
 ARRAY(surface, Surface, body, fixed, "what contacts know of the body")
 ARRAY(step_parts, StepParts, run, carried, "how the scene's steps fall into parts")
 ARRAY(body_motion, BoxBits, body, step, "of the expected velocities of its vertices, as bits that order as floats do; empty between steps")
-ARRAY(room, uint, body, step, "how much further than expected its vertices may go without meeting a body that is far [m], as bits of a float; infinite between steps")
+ARRAY(room, uint, body, step, "[2][body] how much further than expected its vertices may go without meeting a body that is far [m], infinite between steps; then how fast bodies that meet it may push it away [m/s], 0 between steps; as bits of floats")
 ARRAY(pressed, uint, body, carried, "number of the latest part of a step in which a contact gave it an impulse, 0: none")
 ARRAY(ground, Ground, ground, fixed, "half-spaces that bodies stay out of; one that nothing reaches where there are none")
 ARRAY(outside_sum, uvec2, run, step, "[3] sum of impulses on bodies, in quanta, as 64 bits in two halves: what static bodies and grounds gave; 0 between steps")

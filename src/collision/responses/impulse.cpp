@@ -127,7 +127,9 @@ class Impulse final : public Response {
                                                                          .divides = divides_steps_ ? 1u : 0u}});
     if (divides_steps_) arrays.set_parameter("parts_of", time_step_);
     arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
-    arrays.make("room", std::vector(bodies_.body_count, physics::no_bound));
+    std::vector<std::uint32_t> room(2 * std::size_t{bodies_.body_count});
+    std::fill_n(room.begin(), bodies_.body_count, physics::no_bound);
+    arrays.make("room", room);
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
     arrays.make<glm::uvec2>("outside_sum", 3);
     arrays.make<double>("outside_impulse", 3);
