@@ -22,6 +22,7 @@ class Collider {
 
   /// Returns null if contacts are not answered.
   [[nodiscard]] const Response* response() const { return response_.get(); }
+  [[nodiscard]] Response* response() { return response_.get(); }
   /// Returns whether there are two bodies and triangles to touch.
   [[nodiscard]] bool searches() const;
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.

@@ -178,6 +178,7 @@ std::string Simulation::save() {
   ByteWriter saved;
   saved.put(queued_steps_);
   write_arrays(device_, bodies_.arrays.carried(), saved);
+  if (collider_.response() != nullptr) saved.put(collider_.response()->save());
   return saved.take();
 }
 
@@ -187,6 +188,7 @@ void Simulation::restore(std::string_view saved) {
   is_restored_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
+  if (collider_.response() != nullptr) collider_.response()->restore(from.get<std::string>());
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();
 }

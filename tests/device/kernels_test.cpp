@@ -220,6 +220,30 @@ std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts_of(Bench& b
   return contacts;
 }
 
+// What a step has kept of the last one's contacts, in the same way.
+std::map<std::array<std::uint32_t, 4>, std::vector<double>> kept_by(Bench& bench) {
+  const Arrays& arrays = bench.bodies.arrays;
+  const std::uint32_t count = arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
+  const auto vertices = arrays.get<glm::uvec4>("kept_vertex").download(0, count);
+  const auto impulses = bench.read<float>(arrays.buffer("kept_impulse"));
+  std::map<std::array<std::uint32_t, 4>, std::vector<double>> kept;
+  for (std::uint32_t c = 0; c < count; ++c)
+    if (vertices[c].x != physics::no_vertex)
+      kept[{vertices[c].x, vertices[c].y, vertices[c].z, vertices[c].w}].assign(impulses.begin() + 4 * c,
+                                                                                impulses.begin() + 4 * (c + 1));
+  return kept;
+}
+
+void check_same_kept(Bench& cpu, Bench& gpu) {
+  const auto on_cpu = kept_by(cpu), on_gpu = kept_by(gpu);
+  REQUIRE(on_gpu.size() == on_cpu.size());
+  for (const auto& [vertices, numbers] : on_cpu) {
+    const auto found = on_gpu.find(vertices);
+    REQUIRE(found != on_gpu.end());
+    CHECK(largest_difference(found->second, numbers) < 1e-4);
+  }
+}
+
 void check_same_contacts(Bench& cpu, Bench& gpu) {
   const auto on_cpu = contacts_of(cpu), on_gpu = contacts_of(gpu);
   REQUIRE(on_gpu.size() == on_cpu.size());
@@ -259,6 +283,8 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
   } else if (name == "contact_vertex" || name == "contact" || name == "contact_impulse") {
     check_same_contacts(cpu, gpu);
+  } else if (name == "kept_slot" || name == "kept_vertex" || name == "kept_impulse") {
+    check_same_kept(cpu, gpu);
   } else if (name == "impulse_sum" || name == "outside_sum" || name == "impact_sum") {
     const auto [x, y] = read_both<glm::uvec2>(cpu, gpu, a, b);
     CHECK(largest_difference(whole_numbers_of(y), whole_numbers_of(x)) < 1e-4);

@@ -89,24 +89,30 @@ real3 place_of(IN(Pair) p, uint i, real part) {
   return real3(place) + part * real3(way);
 }
 
+// Slopes [m/m] by which features count as nearer than others. Where surfaces press each other flat, edges and faces are both held up to
+// `flat_slope`. If one of the two were left out at once, the other would sink in until they changed places again, step by step.
+const real flat_slope = real(1e-2);
+const real least_slope = real(1e-5);
+
 // Whether a point is nearer to a triangle than to its edge `along`. `third` leads from the edge to the triangle's third corner, and `away`
 // from the edge's closest point to the point.
-bool leans_over(real3 third, IN(real3) along, IN(real3) away) {
+bool leans_over(real3 third, IN(real3) along, IN(real3) away, real slope) {
   third -= dot(third, along) / dot(along, along) * along;
-  return dot(away, third) > real(1e-5) * length(away) * length(third);
+  return dot(away, third) > slope * length(away) * length(third);
 }
 
 // Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is. `face` is 0 for the first triangle.
-bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part) {
+bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part,
+                      real slope) {
   uint beyond = triangle_around[across_edge_of(face == 0u ? p.first : p.second, edge)];
   if (beyond == no_vertex) return false;
   uint from = 3u * face + edge, to = 3u * face + (edge == 2u ? 0u : edge + 1u);
-  return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away);
+  return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away, slope);
 }
 
 // Whether an edge at a vertex leads towards a point. It is asked of static bodies alone: in a soft one pressed flat, vertices that lie a
 // little deeper than their neighbours change from step to step, and all of them have to be held.
-bool leads_to(IN(real3) edge, IN(real3) away) { return dot(away, edge) > real(1e-5) * length(away) * length(edge); }
+bool leads_to(IN(real3) edge, IN(real3) away) { return dot(away, edge) > flat_slope * length(away) * length(edge); }
 
 // Whether a triangle or an edge at the vertex is nearer to a point than the vertex is. `away` leads from the vertex to the point. It looks
 // at the vertex's own triangle and at those across its two edges.
@@ -128,9 +134,9 @@ bool is_nearer_to_others(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, places, 6), 
   bool is_static = surface[uint(rest_position[p.vertex[f.corner.x]].w)].inverse_mass == double(0);
   if (is_static && is_nearer_to_its_faces(p, f.corner.x, places, -away, part)) return true;
   // edge k lies across from corner k + 2, so it has the point where that corner has no weight
-  if (w.z == real(0) && is_nearer_across(p, face, 0u, places, closest, away, part)) return true;
-  if (w.x == real(0) && is_nearer_across(p, face, 1u, places, closest, away, part)) return true;
-  return w.y == real(0) && is_nearer_across(p, face, 2u, places, closest, away, part);
+  if (w.z == real(0) && is_nearer_across(p, face, 0u, places, closest, away, part, least_slope)) return true;
+  if (w.x == real(0) && is_nearer_across(p, face, 1u, places, closest, away, part, least_slope)) return true;
+  return w.y == real(0) && is_nearer_across(p, face, 2u, places, closest, away, part, least_slope);
 }
 
 Feature two_edges(uint j, uint k, IN_ARRAY(real3, p, 6), OUT(bool) crosses) {
@@ -166,7 +172,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = dot(normal, surplus_now) * normal - surplus_now;
-  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction);
+  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction, rests(c));
 }
 
 // A contact whose points are near each other now.
@@ -213,9 +219,10 @@ bool is_nearer_to_faces(IN(Pair) p, uint j, uint k, IN(Feature) f, IN_ARRAY(real
   real3 on_second = -(f.weight.z * places[f.corner.z] + f.weight.w * places[f.corner.w]);
   real3 away = on_first - on_second;
   uint third_of_first = j == 0u ? 2u : j - 1u, third_of_second = k == 0u ? 5u : 2u + k;
-  if (leans_over(places[third_of_first] - on_first, places[f.corner.y] - places[f.corner.x], -away)) return true;
-  if (leans_over(places[third_of_second] - on_second, places[f.corner.w] - places[f.corner.z], away)) return true;
-  return is_nearer_across(p, 0u, j, places, on_first, -away, part) || is_nearer_across(p, 1u, k, places, on_second, away, part);
+  if (leans_over(places[third_of_first] - on_first, places[f.corner.y] - places[f.corner.x], -away, flat_slope)) return true;
+  if (leans_over(places[third_of_second] - on_second, places[f.corner.w] - places[f.corner.z], away, flat_slope)) return true;
+  return is_nearer_across(p, 0u, j, places, on_first, -away, part, flat_slope) ||
+         is_nearer_across(p, 1u, k, places, on_second, away, part, flat_slope);
 }
 
 void meet_edges(IN(Pair) p, uint j, uint k) {

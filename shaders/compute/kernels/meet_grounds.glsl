@@ -32,8 +32,8 @@ void meet_ground(uint i, uint g) {
   c.was_cut = last_cut[i] != 0u;
   if (!is_near(c, a)) return;
   real3 goal = real3(dot(normal, surplus_now) * normal - surplus_now);
-  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, 0), real3(normal), least_velocity(c, a), goal,
-               real(mean_of_pair(s.friction, ground[g].friction)));
+  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), least_velocity(c, a), goal,
+               real(mean_of_pair(s.friction, ground[g].friction)), rests(c));
 }
 
 void meet_grounds(uint i) {

@@ -1,5 +1,6 @@
 // A kernel in rounds. One thread serves one contact in one round of a kick. It finds the impulse that its velocity asks for, with all
-// impulses of the round before, and adds it to its vertices. After the last of these rounds it kicks those of its vertices that no other
+// impulses of the round before, and adds it to its vertices. In the first round contacts at rest add what they had in the last step: the
+// other rounds alone would leave a little of every impulse out, and what rests would creep. After the last of these rounds it kicks those of its vertices that no other
 // contact has kicked yet.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
@@ -35,8 +36,8 @@ PARAMETER(double, heaviest_vertex)
 
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return kick_rounds + 1u; }
-// If no contact presses in the first round, none does in the others.
-bool goes_on(uint kick_round) { return kick_round > 0u || contact_list[0].presses != 0u; }
+// If no contact presses in the first two rounds, none does in the others.
+bool goes_on(uint kick_round) { return kick_round != 1u || contact_list[0].presses != 0u; }
 
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
 
@@ -113,8 +114,9 @@ void push(uint c, uint kick_round) {
   if (kick_round == 0u) contact_row[contact_rows * c + 3u] = resistance_of(who, weight, of_quantum);
   real4 resistance = contact_row[contact_rows * c + 3u];
   if (resistance.z == real(0)) return;  // between immovable bodies
-  real3 velocity = relative_velocity(who, weight, resistance, kick_round);
-  real4 impulse = next_impulse(impulse_row[c], normal_row, goal_row, velocity, resistance.z);
+  real4 impulse = impulse_row[c];
+  if (kick_round > 0u)
+    impulse = next_impulse(impulse, normal_row, goal_row, relative_velocity(who, weight, resistance, kick_round), resistance.z);
   impulse_row[c] = impulse;
   if (kick_round + 1u == kick_rounds && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_impulse(buffer_of(kick_round + 2u), who.x);
@@ -124,7 +126,7 @@ void push(uint c, uint kick_round) {
     clear_impulse(buffer_of(kick_round + 2u), who.w);
   }
   if (impulse.x == real(0)) return;
-  if (kick_round == 0u) ATOMIC_STORE(contact_list[0].presses, 1u);
+  if (kick_round <= 1u) ATOMIC_STORE(contact_list[0].presses, 1u);
   dvec3 total = (dvec3(real3(impulse.x * real3(normal_row))) + dvec3(real3(impulse.y, impulse.z, impulse.w))) * (double(1) / of_quantum);
   if (who.y == no_vertex)
     push_off(who.x, nearest(total), buffer_of(kick_round + 1u));

@@ -101,6 +101,10 @@ FN uint atomicMax(uint& target, uint value) {
   }
   return before;
 }
+FN uint atomicCompSwap(uint& target, uint expected, uint value) {
+  std::atomic_ref(target).compare_exchange_strong(expected, value, std::memory_order_acq_rel);
+  return expected;
+}
 FN uint atomicOr(uint& target, uint bits) { return std::atomic_ref(target).fetch_or(bits, std::memory_order_acq_rel); }
 FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
 FN int bitCount(uint bits) { return std::popcount(bits); }

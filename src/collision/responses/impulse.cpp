@@ -7,8 +7,11 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 
+#include "core/bytes.hpp"
+#include "core/error.hpp"
 #include "dynamics/stability.hpp"
 #include "model/mean_edge.hpp"
 #include "physics/contact/impact.glsl"
@@ -18,7 +21,9 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u << 18;
+constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u << physics::kept_index_bits;
+constexpr std::uint32_t kept_slot_count =
+    4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
 constexpr std::uint32_t least_threads = 4096;  // tree_search.cpp says why threads must not be too few
@@ -144,6 +149,12 @@ class Impulse final : public Response {
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
     contacts_ = &arrays.make_reals("contact", std::size_t{16} * contact_capacity);
     impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
+    arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
+    if (keeps_impulses()) {
+      arrays.make<std::uint32_t>("kept_slot", kept_slot_count);
+      arrays.make<glm::uvec4>("kept_vertex", contact_capacity);
+      arrays.make_reals("kept_impulse", std::size_t{4} * contact_capacity);
+    }
     arrays.make<std::uint32_t>("contact_weight", vertices);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
     arrays.make<double>("way", 3 * vertices);
@@ -162,6 +173,9 @@ class Impulse final : public Response {
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
     passes.push_back(make_pass(arrays, "expect_motion", {{"from_half", from_half}}, bodies_.vertex_count));
+    if (keeps_impulses())
+      passes.push_back(make_pass(arrays, "keep_impulses",
+                                 {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
     if (has_pairs_) {
       passes.push_back(body_pairs_.pairing_pass());
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));
@@ -175,6 +189,11 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "meet_grounds",
                                  {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
+    if (keeps_impulses())
+      passes.push_back(make_pass(
+          arrays, "take_up_impulses",
+          {{"contact_capacity", contact_capacity}, {"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}},
+          items_at_once_));
     passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
                                                    {"contact_capacity", contact_capacity},
                                                    {"triangle_pair_capacity", triangle_pair_capacity},
@@ -196,20 +215,47 @@ class Impulse final : public Response {
   }
   bool gives_impulses() const override { return true; }
   std::vector<ContactImpulse> contact_impulses() const override {
-    const std::size_t count = bodies_.arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
-    if (count == 0) return {};
-    const std::vector<glm::uvec4> vertices = bodies_.arrays.get<glm::uvec4>("contact_vertex").download(0, count);
-    const std::vector<double> rows = download_reals(*contacts_, 16 * count), impulses = download_reals(*impulses_, 4 * count);
     std::vector<ContactImpulse> contacts;
-    for (std::size_t c = 0; c < count; ++c) {
-      const double *const row = &rows[16 * c], *const impulse = &impulses[4 * c];
-      if (impulse[0] == 0) continue;
-      contacts.push_back(
-          {.vertex = vertices[c],
-           .weight = {row[4], row[5], row[6], row[7]},
-           .impulse = impulse[0] * glm::dvec3(row[0], row[1], row[2]) + glm::dvec3(impulse[1], impulse[2], impulse[3])});
+    for (const Held& c : held_contacts()) {
+      const bool has_ground = c.vertex.y == physics::no_vertex;
+      contacts.push_back({.vertex = c.vertex,
+                          .weight = has_ground ? glm::dvec4(1, 0, 0, 0) : c.weight,
+                          .impulse = c.impulse.x * c.normal + glm::dvec3(c.impulse.y, c.impulse.z, c.impulse.w)});
     }
     return contacts;
+  }
+
+  // Contacts are sorted, because lists are in no fixed order.
+  std::string save() const override {
+    std::vector<Held> contacts = held_contacts();
+    const auto key = [](const Held& c) { return std::tuple(c.vertex.x, c.vertex.y, c.vertex.z, c.vertex.w, c.weight.w); };
+    std::ranges::sort(contacts, {}, key);
+    ByteWriter saved;
+    for (const Held& c : contacts) saved(c.vertex, c.weight, c.impulse);
+    return saved.take();
+  }
+  void restore(std::string_view saved) override {
+    std::vector<glm::uvec4> vertices;
+    std::vector<double> rows, impulses;
+    for (ByteReader from(saved); !from.at_end();) {
+      Held c{};
+      from(c.vertex, c.weight, c.impulse);
+      vertices.push_back(c.vertex);
+      rows.resize(rows.size() + 16);
+      std::ranges::copy(std::span(&c.weight.x, 4), rows.end() - 12);
+      impulses.insert(impulses.end(), &c.impulse.x, &c.impulse.x + 4);
+    }
+    if (vertices.size() > contact_capacity)
+      throw Error(ErrorKind::input, "", "its state has more contacts than there is room for", "");
+    Arrays& arrays = bodies_.arrays;
+    arrays.get<glm::uvec4>("contact_vertex").upload(vertices);
+    upload_reals(*contacts_, rows);
+    upload_reals(*impulses_, impulses);
+    auto& list = arrays.get<physics::ContactList>("contact_list");
+    physics::ContactList lengths = list.download().front();
+    lengths.latest_count = static_cast<std::uint32_t>(vertices.size());
+    list.upload(std::span(&lengths, 1));
+    if (keeps_impulses()) arrays.get<std::uint32_t>("kept_slot").upload(std::vector<std::uint32_t>(kept_slot_count));
   }
   bool keeps_apart() const override { return true; }
   bool answers_touching() const override { return false; }
@@ -258,6 +304,32 @@ class Impulse final : public Response {
   // Directions of impulses on bodies are found from whole numbers of this [Ns].
   double impact_unit() const { return heaviest_vertex_ * least_speed() / 1024; }
 
+  // A contact that gave an impulse in the latest step, as physics/contact/contact.glsl says.
+  struct Held {
+    glm::uvec4 vertex{0};
+    glm::dvec3 normal{0.0};
+    glm::dvec4 weight{0.0}, impulse{0.0};
+  };
+  std::vector<Held> held_contacts() const {
+    const std::size_t count = bodies_.arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
+    if (count == 0) return {};
+    const std::vector<glm::uvec4> vertices = bodies_.arrays.get<glm::uvec4>("contact_vertex").download(0, count);
+    const std::vector<double> rows = download_reals(*contacts_, 16 * count), impulses = download_reals(*impulses_, 4 * count);
+    std::vector<Held> contacts;
+    for (std::size_t c = 0; c < count; ++c) {
+      const double *const row = &rows[16 * c], *const impulse = &impulses[4 * c];
+      if (impulse[0] > 0)
+        contacts.push_back({.vertex = vertices[c],
+                            .normal = {row[0], row[1], row[2]},
+                            .weight = {row[4], row[5], row[6], row[7]},
+                            .impulse = {impulse[0], impulse[1], impulse[2], impulse[3]}});
+    }
+    return contacts;
+  }
+
+  // A vertex that only one ground touches gets its impulse in a round.
+  bool keeps_impulses() const { return has_pairs_ || ground_count_ > 1; }
+
   Pass round_pass(std::string_view name, Parameters parameters) const {
     Device& device = bodies_.arrays.device();
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
@@ -274,6 +346,18 @@ class Impulse final : public Response {
     return numbers;
   }
 
+  void upload_reals(DeviceArray<std::uint32_t>& array, std::span<const double> numbers) const {
+    std::vector<std::uint32_t> words;
+    for (const double number : numbers) {
+      const auto bits = std::bit_cast<std::uint64_t>(number);
+      if (bodies_.arrays.device().precision() == 32)
+        words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+      else
+        words.insert(words.end(), {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32)});
+    }
+    array.upload(words);
+  }
+
   // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].
   double least_speed() const { return smallest_gap_ / time_step_; }
 
@@ -284,7 +368,7 @@ class Impulse final : public Response {
   std::uint32_t items_at_once_, ground_count_ = 0, part_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
-  const DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
+  DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
 };
 
 }  // namespace

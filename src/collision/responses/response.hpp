@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,11 @@ class Response {
   [[nodiscard]] virtual const DeviceArray<physics::StepParts>* step_parts() const { return nullptr; }
   /// Waits for the queued steps.
   [[nodiscard]] virtual ResponseReport report() const { return {}; }
+  /// Returns as bytes what the next step has from the contacts of this one, beside carried arrays. Bytes do not depend on the
+  /// device or its precision. Waits for the queued steps.
+  [[nodiscard]] virtual std::string save() const { return {}; }
+  /// Goes on from these bytes.
+  virtual void restore(std::string_view /*saved*/) {}
   /// Returns whether contact_impulses() says what contacts gave.
   [[nodiscard]] virtual bool gives_impulses() const { return false; }
   /// Returns the impulses of the latest step, in no fixed order, without those that are zero. Waits for the queued steps. Nothing

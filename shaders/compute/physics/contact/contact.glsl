@@ -8,7 +8,7 @@ REAL_BEGIN
 
 const uint contact_rows = 4u;  // of four numbers in `contact`
 // row 0: the normal, from the second body to the first, and the least velocity along it [m/s]
-// row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second
+// row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
 // row 2: the goal of the velocity across the normal [m/s], and the friction
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
 //        mass that resists the contact [kg]
@@ -36,6 +36,9 @@ FN bool is_near(IN(Course) c, IN(Approach) a) {
   return c.distance < enough || c.distance + a.time_step * (c.velocity + c.surplus) < enough;
 }
 
+// Whether the points rest against each other, so that what held them in the last step holds them in this one.
+FN bool rests(IN(Course) c) { return abs(c.was) < abs(c.surplus) || c.was_cut; }
+
 // Returns the least velocity along the normal that the contact asks for [m/s].
 // - Points may come as near as the gap, and lost gap comes back slowly, however short steps are.
 // - If they would pass the gap, they part again with the elasticity's part of their approach. Points at rest do not bounce.
@@ -43,8 +46,7 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real need = (a.gap - c.distance) / a.time_step;
   if (c.distance > a.gap && c.distance < real(1.5) * a.gap) need *= real(0.05);
   real mean = need;
-  bool rests = abs(c.was) < abs(c.surplus) || c.was_cut;
-  real kept = rests ? real(0) : a.elasticity;
+  real kept = rests(c) ? real(0) : a.elasticity;
   if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, -kept * c.was);
   real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;

@@ -57,7 +57,10 @@ const uint cut_rounds = 8u;  // in which motions are cut short
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
 
-const uint kick_rounds = 16u;
+const uint kick_rounds = 17u;  // the first one adds what contacts at rest had in the last step
+// `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
+// these lower ones.
+const uint kept_index_bits = 18u;
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
 // Sums of |weight| of a vertex are counted in this unit, so that their order does not matter.
