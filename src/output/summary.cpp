@@ -29,8 +29,14 @@ Json energy_json(const Summary& summary) {
 }
 
 Json contacts_json(const Summary& summary) {
-  const auto& [steps, pairs_max, reverted_vertices, substeps] = summary.contacts;
-  return {{"steps", steps}, {"pairs_max", pairs_max}, {"reverted_vertices", reverted_vertices}, {"substeps", substeps}};
+  const auto& [steps, pairs_max, reverted_vertices, substeps, energy_given, energy_taken, friction_work] = summary.contacts;
+  return {{"steps", steps},
+          {"pairs_max", pairs_max},
+          {"reverted_vertices", reverted_vertices},
+          {"substeps", substeps},
+          {"energy_given", energy_given},
+          {"energy_taken", energy_taken},
+          {"friction_work", friction_work}};
 }
 
 Json work_json(const Summary& summary) {

@@ -106,7 +106,8 @@ Summary summary_of(const RunStatus& status) {
   s.energy = {progress.first.energy(), progress.latest.energy(), {}};
   if (run.plan.damping_law == DampingLaw::none && report.contact_steps == 0)
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
-  s.contacts = {report.contact_steps, report.contact_pairs_max, report.reverted_vertices, report.substeps};
+  s.contacts = {report.contact_steps,         report.contact_pairs_max,     report.reverted_vertices,     report.substeps,
+                report.response.energy_given, report.response.energy_taken, report.response.friction_work};
   if (report.non_finite)
     s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   else
@@ -163,6 +164,9 @@ void show_end(const RunStatus& status) {
                times.writing.seconds(),
                !options.checkpoint.empty() ? fmt::format(" and {:.2f} s for checkpoints", times.saving.seconds()) : "");
   fmt::print("contacts in {} steps, at most {} triangle pairs at once\n", report.contact_steps, report.contact_pairs_max);
+  if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0)
+    fmt::print("contacts took {:.4g} J, of which friction {:.4g} J, and gave {:.4g} J\n", contacts.energy_taken,
+               contacts.friction_work, contacts.energy_given);
   if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }

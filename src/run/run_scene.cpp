@@ -170,7 +170,10 @@ class Run {
                      .angular_momentum = now.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices,
-                     .outside_impulse = report_.outside_impulse});
+                     .outside_impulse = report_.response.outside_impulse,
+                     .contact_given = report_.response.energy_given,
+                     .contact_taken = report_.response.energy_taken,
+                     .friction_work = report_.response.friction_work});
   }
 
   void warn_of_forces() {

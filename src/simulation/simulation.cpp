@@ -150,7 +150,7 @@ StepReport Simulation::report() {
   report.time = static_cast<double>(report.steps) * fixed_step_;
   if (pacer_) add_pace(report);
   if (parts() != nullptr) add_parts(report);
-  if (collider_.response() != nullptr) report.outside_impulse = collider_.response()->report().outside_impulse;
+  if (collider_.response() != nullptr) report.response = collider_.response()->report();
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
     report.non_finite = NonFinite{.step = report.steps,

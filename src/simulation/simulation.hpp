@@ -49,9 +49,9 @@ struct StepReport {
   std::uint64_t contact_steps = 0;      // steps with a pair
   std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
   std::uint64_t reverted_vertices = 0;
-  std::uint64_t substeps = 0;       // parts that steps of a fixed length fell into, beyond one each
-  std::uint64_t held_parts = 0;     // parts of steps in which no body moved, because contacts were too many or not proven apart
-  glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
+  std::uint64_t substeps = 0;    // parts that steps of a fixed length fell into, beyond one each
+  std::uint64_t held_parts = 0;  // parts of steps in which no body moved, because contacts were too many or not proven apart
+  ResponseReport response;       // what contacts gave and took
   std::uint64_t force_evaluations = 0;  // one evaluation is all forces of one body
   std::uint64_t pair_interactions = 0;  // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;

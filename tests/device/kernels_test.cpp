@@ -285,7 +285,7 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     check_same_contacts(cpu, gpu);
   } else if (name == "kept_slot" || name == "kept_vertex" || name == "kept_impulse") {
     check_same_kept(cpu, gpu);
-  } else if (name == "impulse_sum" || name == "outside_sum" || name == "impact_sum") {
+  } else if (name == "impulse_sum" || name == "contact_sum" || name == "impact_sum") {
     const auto [x, y] = read_both<glm::uvec2>(cpu, gpu, a, b);
     CHECK(largest_difference(whole_numbers_of(y), whole_numbers_of(x)) < 1e-4);
   } else if (name == "contact_weight") {

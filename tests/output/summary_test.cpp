@@ -48,7 +48,8 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "version"});
   CHECK(json["device"].keys() == Names{"kind", "name"});
   CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift"});
-  CHECK(json["contacts"].keys() == Names{"steps", "pairs_max", "reverted_vertices", "substeps"});
+  CHECK(json["contacts"].keys() ==
+        Names{"steps", "pairs_max", "reverted_vertices", "substeps", "energy_given", "energy_taken", "friction_work"});
   CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
   CHECK(json["skipped"].is_object());
   CHECK(json["timings_ms"].is_object());

@@ -1,6 +1,5 @@
 // One thread serves one vertex after the integrator. It finds the way that the vertex went, its box, and the part of it that stays in the
-// cage.
-// If a step was undone, it takes the kick back.
+// cage. If a step was undone, it takes the kick back. It empties the sums of the kick.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -16,8 +15,9 @@ READ(unkicked)
 WRITE(cage)
 READ(ground)
 WRITE(contact_list)
-WRITE(outside_sum)
-WRITE(outside_impulse)
+WRITE(impulse_sum)
+WRITE(contact_sum)
+WRITE(contact_total)
 WRITE(way)
 WRITE(cut)
 PARAMETER(uint, vertex_count)
@@ -26,7 +26,7 @@ PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
 PARAMETER(double, largest_body)  // radius at rest [m]
-#include "parts/quantum.glsl"
+#include "parts/impulse_sums.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
 
@@ -43,11 +43,11 @@ double part_above(uint g, dvec3 from, dvec3 gone, double gap) {
   return sinks > room ? double(0.99) * max(room, double(0)) / sinks : double(1);
 }
 
-// What static bodies and grounds have given in this step.
-void tell_outside_impulse() {
-  for (uint k = 0u; k < 3u; ++k) {
-    if (was_made()) outside_impulse[k] += quantum() * whole_of(outside_sum[k]);
-    outside_sum[k] = uvec2(0u);
+// What contacts have done in this step.
+void add_contact_sums() {
+  for (uint k = 0u; k < contact_sums; ++k) {
+    if (was_made()) contact_total[k] += (k < 3u ? quantum() : quantum_of_energy()) * whole_of(contact_sum[k]);
+    contact_sum[k] = uvec2(0u);
   }
 }
 
@@ -61,9 +61,10 @@ void bound_way(uint i, dvec3 from, dvec3 to) {
 
 void expect_cuts(uint i) {
   if (i == 0u) {
-    tell_outside_impulse();
+    add_contact_sums();
     contact_list[0].arrivals &= waited_in_vain;
   }
+  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(k, i);
   uint b = uint(rest_position[i].w);
   uint before = displacement_of(in_half(from_half, vertex_count, i)), after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);

@@ -1,7 +1,7 @@
 // A kernel in rounds. One thread serves one contact in one round of a kick. It finds the impulse that its velocity asks for, with all
 // impulses of the round before, and adds it to its vertices. In the first round contacts at rest add what they had in the last step: the
 // other rounds alone would leave a little of every impulse out, and what rests would creep. After the last of these rounds it kicks those of its vertices that no other
-// contact has kicked yet.
+// contact has kicked yet, and adds up what the contact did to energy.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -17,7 +17,7 @@ WRITE(status)
 WRITE(motion)
 READ(step_parts)
 WRITE(pressed)
-WRITE(outside_sum)
+WRITE(contact_sum)
 READ(start)
 READ(contact_vertex)
 WRITE_AS(contact, real4, contact_row)
@@ -137,7 +137,6 @@ void push(uint c, uint kick_round) {
 void kick(uint i) {
   if (i == no_vertex || atomicExchange(contact_weight[i], 0u) == 0u) return;  // another contact has kicked it
   dvec3 quanta = impulse_on(buffer_of(kick_rounds), i);
-  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(k, i);
   uint b = uint(rest_position[i].w);
   if (quanta == dvec3(0) || surface[b].inverse_mass == double(0)) return;
   uint at = velocity_of(in_half(from_half, vertex_count, i));
@@ -146,12 +145,43 @@ void kick(uint i) {
   ATOMIC_STORE(status[b].deformed, 1u);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
-    if (quanta[int(k)] != double(0)) ADD_EXACTLY(outside_sum[k], quanta[int(k)])
+    if (quanta[int(k)] != double(0)) ADD_EXACTLY(contact_sum[k], quanta[int(k)])
+}
+
+// The mean of the vertex's velocities before and after the kick [m/s].
+dvec3 mean_velocity_of(uint i) {
+  return LOAD3(start, start_velocity_of(i)) + (double(0.5) * inverse_mass_of(i) * quantum()) * impulse_on(buffer_of(kick_rounds), i);
+}
+
+// The same of the contact's points against each other.
+dvec3 mean_velocity_at(uvec4 who, real4 weight) {
+  dvec3 first = mean_velocity_of(who.x);
+  if (who.y == no_vertex) return first;  // against a ground
+  return double(weight.y) * (mean_velocity_of(who.y) - first) + double(weight.z) * (mean_velocity_of(who.z) - first) +
+         double(weight.w) * (mean_velocity_of(who.w) - first);
+}
+
+void add_energy(uint k, double energy) {
+  double whole = nearest_whole(energy / quantum_of_energy());
+  if (whole != double(0)) ADD_EXACTLY(contact_sum[k], whole)
+}
+
+// An impulse gives as much energy as it would along the mean of the velocities before and after.
+void add_work(uint c) {
+  real4 impulse = impulse_row[c], normal_row = contact_row[contact_rows * c];
+  if (!(impulse.x > real(0))) return;
+  dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u]);
+  double along = double(impulse.x) * dot(dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z)), mean);
+  double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
+  add_energy(along + across > double(0) ? energy_given : energy_taken, abs(along + across));
+  add_energy(friction_work, -across);
 }
 
 void solve_contacts(uint c, uint kick_round) {
-  if (kick_round < kick_rounds)
+  if (kick_round < kick_rounds) {
     push(c, kick_round);
-  else
-    for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k]);
+    return;
+  }
+  add_work(c);
+  for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k]);
 }

@@ -136,8 +136,8 @@ class Impulse final : public Response {
     std::fill_n(room.begin(), bodies_.body_count, physics::no_bound);
     arrays.make("room", room);
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<glm::uvec2>("outside_sum", 3);
-    arrays.make<double>("outside_impulse", 3);
+    arrays.make<glm::uvec2>("contact_sum", physics::contact_sums);
+    arrays.make<double>("contact_total", physics::contact_sums);
     arrays.make("triangle_around", surroundings(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked", 3 * vertices);
@@ -210,8 +210,11 @@ class Impulse final : public Response {
   }
 
   ResponseReport report() const override {
-    const std::vector<double> impulse = bodies_.arrays.get<double>("outside_impulse").download();
-    return {.outside_impulse = {impulse[0], impulse[1], impulse[2]}};
+    const std::vector<double> total = bodies_.arrays.get<double>("contact_total").download();
+    return {.outside_impulse = {total[0], total[1], total[2]},
+            .energy_given = total[physics::energy_given],
+            .energy_taken = total[physics::energy_taken],
+            .friction_work = total[physics::friction_work]};
   }
   bool gives_impulses() const override { return true; }
   std::vector<ContactImpulse> contact_impulses() const override {

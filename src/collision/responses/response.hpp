@@ -17,6 +17,11 @@ namespace pliant {
 /// What a response did since the start.
 struct ResponseReport {
   glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
+  // Energy in motion that contacts gave and took [J]. An impulse gives p . (v + v') / 2, with the velocities before and after.
+  double energy_given = 0, energy_taken = 0;
+  double friction_work = 0;  // what friction took of both [J]
+
+  bool operator==(const ResponseReport&) const = default;
 };
 
 /// An impulse that a contact gave in the latest step. A contact lies between four vertices of two bodies, or between one vertex

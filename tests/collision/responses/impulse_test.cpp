@@ -393,12 +393,13 @@ TEST_CASE("a ball comes to rest on a ground, which then bears its weight") {
   Simulation resting(*device, start.model, start.state, plan_of(Method{"cv8", time_step, DampingLaw::constant}), by_impulses);
   resting.advance(4000);
   const auto before = resting.state().world_positions(start.model);
-  const double given = resting.report().outside_impulse.y;
+  const double given = resting.report().response.outside_impulse.y;
   const auto steps = static_cast<std::uint64_t>(seconds / time_step);
   resting.advance(steps);
   const auto after = resting.state().world_positions(start.model);
   for (std::size_t i = 0; i < before.size(); ++i) CHECK(glm::length(after[i] - before[i]) < 1e-9 * static_cast<double>(steps));
-  CHECK(resting.report().outside_impulse.y - given == Approx(9.81 * time_step * static_cast<double>(steps)).epsilon(1e-6));
+  CHECK(resting.report().response.outside_impulse.y - given ==
+        Approx(9.81 * time_step * static_cast<double>(steps)).epsilon(1e-6));
   for (const glm::dvec3& p : after) CHECK(p.y > 0);
   CHECK(resting.report().reverted_vertices == 0);
 }
@@ -446,10 +447,11 @@ TEST_CASE("momentum is what gravity and the ground have given") {
     ThreadPool pool(1);
     const glm::dvec3 momentum = measure(start.model, simulation.state(), glm::dvec3(0.0), pool).momentum;
     const StepReport report = simulation.report();
-    const glm::dvec3 expected = report.time * 9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0) + report.outside_impulse;
+    const glm::dvec3 expected =
+        report.time * 9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0) + report.response.outside_impulse;
     CHECK(report.time == Approx(duration));
     if (has_tolerance) CHECK(report.adaptive->rejected > 0);
-    CHECK(report.outside_impulse.y > 1);
+    CHECK(report.response.outside_impulse.y > 1);
     CHECK(glm::length(momentum - expected) < 1e-11);
   }
 }
@@ -520,7 +522,7 @@ TEST_CASE("a static body stays where it is, has no energy and bears others") {
   ThreadPool pool(1);
   const Measurement now = measure(start.model, simulation.state(), {0, -9.81, 0}, pool);
   CHECK((now.gravitational > 9.81 * 5 && now.gravitational < 9.81 * 7));  // the ball's alone: a plate of 1 kg would add 29 J
-  CHECK(simulation.report().outside_impulse.y > 0);
+  CHECK(simulation.report().response.outside_impulse.y > 0);
   CHECK(simulation.report().force_evaluations <= 1500u * 30);
 }
 
@@ -570,7 +572,7 @@ TEST_CASE("the impulses of contacts are what bodies got from each other and from
       glm::dvec3 before(0.0);
       for (int part = 0; part < 60; ++part) {
         has_tolerance ? void(simulation.advance_toward(10, 1)) : simulation.advance_part();
-        const glm::dvec3 outside = simulation.report().outside_impulse;
+        const glm::dvec3 outside = simulation.report().response.outside_impulse;
         const std::vector<ContactImpulse> contacts = simulation.contact_impulses();
         const glm::dvec3 sum = given_to(start.model, 0, contacts) + given_to(start.model, 1, contacts);
         const bool is_undone = has_tolerance && outside == before;

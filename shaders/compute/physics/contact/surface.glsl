@@ -61,6 +61,12 @@ const uint kick_rounds = 17u;  // the first one adds what contacts at rest had i
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
 const uint kept_index_bits = 18u;
+// Where the sums of a step stand in `contact_sum`, behind the three components of the impulse.
+const uint energy_given = 3u;
+const uint energy_taken = 4u;
+const uint friction_work = 5u;
+const uint contact_sums = 6u;
+
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
 // Sums of |weight| of a vertex are counted in this unit, so that their order does not matter.
