@@ -74,16 +74,21 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
 // Impulses are counted in quanta that the heaviest vertex sets.
 void warn_of_masses(PreparedRun& run) {
   constexpr double most = 1e9;
-  double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
+  const ModelBody *heaviest = nullptr, *lightest = nullptr;
   for (const ModelBody& body : run.start.model.bodies) {
     if (body.is_static) continue;
-    heaviest = std::max(heaviest, body.vertex_mass);
-    lightest = std::min(lightest, body.vertex_mass);
+    if (heaviest == nullptr || body.vertex_mass > heaviest->vertex_mass) heaviest = &body;
+    if (lightest == nullptr || body.vertex_mass < lightest->vertex_mass) lightest = &body;
   }
-  if (is_by_impulses(run.scene.collision) && heaviest > most * lightest)
+  if (heaviest != nullptr && is_by_impulses(run.scene.collision) && heaviest->vertex_mass > most * lightest->vertex_mass)
     run.warnings.push_back(
-        fmt::format("the heaviest vertex has {:.3g} times the mass of the lightest: impulses on light ones are rounded",
-                    heaviest / lightest));
+        fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded",
+                    heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name));
+}
+
+void warn_of_rounding(PreparedRun& run) {
+  for (std::string& told : told_rounding(run.start.model, run.start.state, run.scene.collision, run.device->precision()))
+    run.warnings.push_back(std::move(told));
 }
 
 void warn_of_overlap(PreparedRun& run) {
@@ -113,11 +118,13 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);
-  if (keeps_apart(*run.simulation))
+  if (keeps_apart(*run.simulation)) {
     expect_apart(*run.simulation, run.start.model, run.scene.file.string());
-  else
+    warn_of_masses(run);
+    warn_of_rounding(run);
+  } else {
     warn_of_overlap(run);
-  warn_of_masses(run);
+  }
   run.build_time.stop();
   return prepared;
 }

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 
 #include "core/error.hpp"
+#include "model/mean_edge.hpp"
+#include "physics/contact/surface.glsl"
 #include "simulation/overlap.hpp"
 
 namespace pliant {
@@ -51,7 +54,63 @@ std::string way_apart(const Model& model, const Overlap& overlap) {
                                  : "give one of them a smaller scale");
 }
 
+double longest_edge(const Model& model, const ModelBody& body) {
+  double longest = 0;
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, glm::length(model.rest_position(model.triangles[t][k]) -
+                                              model.rest_position(model.triangles[t][(k + 1) % 3])));
+  return longest;
+}
+
+// The largest sum of a vertex's coordinates, without signs [m].
+double distance_from_origin(const ModelBody& body, std::span<const glm::dvec3> positions) {
+  double farthest = 0;
+  for (const glm::dvec3& p : positions.subspan(body.first_vertex, body.vertex_count))
+    farthest = std::max(farthest, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+  return farthest;
+}
+
+// What contacts of two bodies know of lengths [m].
+struct Resolution {
+  double margin = 0;  // of proofs
+  double gap = 0;
+};
+
+double gap_in_edges(const ModelBody& body, const CollisionDescription& collision) {
+  return body.surface.gap.value_or(collision.gap);
+}
+
+Resolution resolution_of(const Model& model, const ModelBody& body, const ModelBody& other, double far,
+                         const CollisionDescription& collision, int precision) {
+  const double epsilon = precision == 64 ? 0x1p-52 : 0x1p-23;
+  const double size = std::sqrt(3.0) * (longest_edge(model, body) + longest_edge(model, other));
+  const double edge = other.is_static ? mean_edge(model, body) : std::min(mean_edge(model, body), mean_edge(model, other));
+  return {.margin = physics::margin_of_rounding(epsilon, size, far + 4 * std::max(body.radius, other.radius)),
+          .gap = physics::mean_of_pair(gap_in_edges(body, collision), gap_in_edges(other, collision)) * edge};
+}
+
 }  // namespace
+
+std::vector<std::string> told_rounding(const Model& model, const State& state, const CollisionDescription& collision,
+                                       int precision) {
+  const std::vector<glm::dvec3> positions = state.world_positions(model);
+  std::vector<std::string> told;
+  for (const ModelBody& body : model.bodies) {
+    const double far = distance_from_origin(body, positions);
+    for (const ModelBody& other : model.bodies) {
+      if (body.is_static || &other == &body || body.triangle_count == 0 || other.triangle_count == 0) continue;
+      const Resolution found = resolution_of(model, body, other, far, collision, precision);
+      if (4 * found.margin <= found.gap) continue;
+      told.push_back(fmt::format(
+          "contacts of body \"{}\" with \"{}\" are lost in rounding: it takes {:.2g} m, and they keep a gap of {:.2g} m; {}",
+          body.name, other.name, found.margin, found.gap,
+          precision == 64 ? "move them nearer to the origin, or take longer edges" : "take --precision 64, or more equal edges"));
+      break;
+    }
+  }
+  return told;
+}
 
 std::string told_overlap(Simulation& simulation, const Model& model) {
   constexpr std::size_t most_names = 8;

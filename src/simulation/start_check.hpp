@@ -1,6 +1,7 @@
 // Checks what contact by impulses needs: bodies that are apart at the start. Then it keeps them apart.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "simulation/simulation.hpp"
 
@@ -11,6 +12,11 @@ namespace pliant {
 
 /// Returns whether the scene's response keeps bodies apart.
 [[nodiscard]] bool keeps_apart(const Simulation& simulation);
+
+/// Returns a text for each body whose contacts are lost in rounding: the margin of proofs that bodies stay apart is more than a
+/// quarter of the gap that contacts keep. Such bodies stand where they touch, or tremble. `precision` is that of the device.
+[[nodiscard]] std::vector<std::string> told_rounding(const Model& model, const State& state,
+                                                     const CollisionDescription& collision, int precision);
 
 /// Throws Error (input) that blames `place` if bodies intersect, or stand in a ground, though the scene's response keeps them
 /// apart. It names two bodies, how deep they are in each other, and a way out.

@@ -49,9 +49,7 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
   }
-  // Shadows err by at most 8 roundings of the points' size, in `real`. Positions in the world, and those about a body's centre that they
-  // come from, err by some roundings in fp64.
-  c.motion.margin = real(8) * real_epsilon * size + real(double(32) * double(1.1e-16) * (far + double(size)));
+  c.motion.margin = real(margin_of_rounding(double(real_epsilon), double(size), far));
   return c;
 }
 
