@@ -85,6 +85,13 @@ TEST_CASE("fixed steps go on from a saved state to the bit, with stages and kept
     }
 }
 
+TEST_CASE("contact by impulses goes on from a saved state to the bit", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    check_fixed(*test.device, {"verlet", 0.01, DampingLaw::constant}, {.response = {"impulse"}, .elasticity = 0});
+  }
+}
+
 void check_adaptive(Device& device, const Adaptive& adaptive, const char* response, double pressure) {
   constexpr double duration = 1;  // [s]
   const ModelAndState start = colliding(pressure);

@@ -28,11 +28,12 @@ BodySetup setup_of(const Partner& partner, double side /* -1: left */, double of
   setup.mesh = normalized(partner.mesh);
   BodyDescription& body = setup.description;
   body.name = side < 0 ? "left" : "right";
+  body.scale = partner.radius;
   body.total_mass = partner.mass;
   body.total_stiffness = partner.stiffness;
   body.damping = 0;
   body.rotation = {10 * side, 20, 0};
-  body.position = {0, off_centre * side, 0.05 * side};
+  body.position = {0, off_centre * side, off_centre * side / 3};
   return setup;
 }
 
@@ -53,7 +54,8 @@ ModelAndState alone(const BodySetup& setup) { return build_model({&setup, 1}, gl
 }  // namespace
 
 Meeting meeting_of(const Partner& left, const Partner& right, const Encounter& how) {
-  std::array<BodySetup, 2> setups = {setup_of(left, -1, how.off_centre), setup_of(right, 1, how.off_centre)};
+  const double off_centre = how.off_centre * std::min(left.radius, right.radius);
+  std::array<BodySetup, 2> setups = {setup_of(left, -1, off_centre), setup_of(right, 1, off_centre)};
   Meeting meeting{.start = {}, .time_step = 1e300, .edge = 1e300, .speed = 0};
   for (const BodySetup& setup : setups) {
     const ModelAndState built = alone(setup);
@@ -64,9 +66,10 @@ Meeting meeting_of(const Partner& left, const Partner& right, const Encounter& h
   const double distance = std::max(how.distance, how.edges_a_step) * meeting.edge;
   setups[0].description.position.x -= highest_x(alone(setups[0])) + distance / 2;
   setups[1].description.position.x += distance / 2 - lowest_x(alone(setups[1]));
-  const double left_part = right.mass / (left.mass + right.mass);
+  const double left_part = how.left_comes ? 1 : right.mass / (left.mass + right.mass);
   setups[0].description.velocity.x = left_part * meeting.speed;
   setups[1].description.velocity.x = -(1 - left_part) * meeting.speed;
+  for (BodySetup& setup : setups) setup.description.position += how.far_away;
   meeting.start = build_model(setups, glm::dvec3(0.0));
   return meeting;
 }

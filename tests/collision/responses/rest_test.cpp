@@ -1,0 +1,243 @@
+// Contact by impulses at rest and at its extremes, and what it does to energy.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "bench/contact/meeting.hpp"
+#include "bench/contact/witness.hpp"
+#include "model/mean_edge.hpp"
+#include "simulation/measure.hpp"
+#include "simulation/start_check.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0};
+
+BodySetup resting(const char* mesh, const char* name, double radius = 1, double mass = 1, double stiffness = 1000) {
+  BodySetup setup = body_of_mesh(generate_mesh(mesh));
+  setup.description.name = name;
+  setup.description.scale = radius;
+  setup.description.total_mass = mass;
+  setup.description.total_stiffness = stiffness;
+  setup.description.rotation = {10, 20, 0};
+  return setup;
+}
+
+BodySetup standing(const char* mesh, const char* name) {
+  BodySetup setup = body_of_mesh(generate_mesh(mesh));
+  setup.description.name = name;
+  setup.description.kind = BodyKind::immovable;
+  return setup;
+}
+
+// With damping that takes a tenth of the stiffest frequency.
+ModelAndState damped(std::vector<BodySetup> setups) {
+  for (BodySetup& setup : setups) {
+    if (setup.description.kind == BodyKind::immovable) continue;
+    const ModelBody body = built(setup).model.bodies.front();
+    setup.description.damping = 0.1 * stiffest_frequency(body) * body.vertex_mass;
+  }
+  return build_model(setups, {0, -9.81, 0});
+}
+
+// A ball that wedges itself between four spheres. Its contacts have many normals, and friction holds it up.
+ModelAndState wedged_ball() {
+  std::vector<BodySetup> setups;
+  for (int k = 0; k < 4; ++k) {
+    BodySetup& post = setups.emplace_back(standing("icosphere:2", "post"));
+    const double angle = 0.5 * std::numbers::pi * k;
+    post.description.position = {1.6 * std::cos(angle), 0, 1.6 * std::sin(angle)};
+    post.description.rotation = {13.0 * k, 7.0 * k, 3};
+  }
+  setups.push_back(resting("icosphere:2", "ball"));
+  setups.back().description.position = {0, 1.4, 0};
+  return damped(std::move(setups));
+}
+
+double time_step_of(const Model& model) { return 0.3 / stiffest_frequency(model.bodies.back()); }
+
+struct Rest {
+  double most_a_step = 0, drift = 0;  // in edges
+  std::uint64_t cut = 0;
+};
+
+// Lets bodies settle, then watches them.
+Rest rest_of(Device& device, const ModelAndState& start, std::uint64_t settling, std::uint64_t watched) {
+  const Model& model = start.model;
+  Simulation simulation(device, model, start.state, plan_of(Method{"verlet", time_step_of(model), DampingLaw::constant}),
+                        without_bounce);
+  simulation.advance(settling);
+  const std::uint64_t cut = simulation.report().reverted_vertices;
+  const std::vector<glm::dvec3> first = simulation.state().world_positions(model);
+  std::vector<glm::dvec3> before = first;
+  const double edge = mean_edge(model, model.bodies.back());
+  Rest rest;
+  for (std::uint64_t step = 0; step < watched; ++step) {
+    simulation.advance(1);
+    const std::vector<glm::dvec3> now = simulation.state().world_positions(model);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      rest.most_a_step = larger(rest.most_a_step, glm::length(now[i] - before[i]) / edge);
+      rest.drift = larger(rest.drift, glm::length(now[i] - first[i]) / edge);
+    }
+    before = now;
+  }
+  rest.cut = simulation.report().reverted_vertices - cut;
+  CHECK(simulation.report().contact_steps > watched);
+  CHECK(bench::ApartOracle(model).vertices_inside_others(before) == 0);
+  return rest;
+}
+
+TEST_CASE("a ball that is wedged between static meshes rests") {
+  const ModelAndState start = wedged_ball();
+  for (const int precision : {64, 32}) {
+    CAPTURE(precision);
+    const Rest rest = rest_of(*make_cpu_device(1, precision), start, 2000, 300);
+    CHECK(rest.most_a_step < (precision == 64 ? 1e-9 : 1e-6));
+    CHECK(rest.drift < (precision == 64 ? 1e-8 : 1e-5));
+    CHECK(rest.cut == 0);
+  }
+}
+
+TEST_CASE("a small ball rests on a slab with edges of ten metres, far from the origin, too") {
+  for (const double far : {0.0, 1e4}) {
+    CAPTURE(far);
+    std::vector<BodySetup> setups = {standing("cube:1", "slab"), resting("icosphere:2", "ball", 0.05, 0.01, 100)};
+    setups[0].description.scale = 10;
+    for (BodySetup& setup : setups) setup.description.position = {far, far, far};
+    setups[1].description.position += glm::dvec3(0.1, 5.052, 0.2);
+    const ModelAndState start = damped(std::move(setups));
+    for (const int precision : {64, 32}) {
+      CAPTURE(precision);
+      CHECK(told_rounding(start.model, start.state, without_bounce, precision).empty());
+      const Rest rest = rest_of(*make_cpu_device(1, precision), start, 1500, 200);
+      CHECK(rest.most_a_step < (precision == 64 ? 1e-8 : 1e-6));
+      CHECK(rest.cut == 0);
+    }
+  }
+}
+
+TEST_CASE("a run names the body whose contacts are lost in rounding") {
+  std::vector<BodySetup> setups = {standing("cube:1", "slab"), resting("icosphere:2", "speck", 0.001, 1e-6, 0.1),
+                                   resting("icosphere:2", "ball")};
+  setups[0].description.scale = 10;
+  setups[2].description.position = {0, 9, 0};
+  ModelAndState start = damped(setups);
+  const std::vector<std::string> told = told_rounding(start.model, start.state, without_bounce, 32);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].find("\"speck\" with \"slab\"") != std::string::npos);
+  CHECK(told[0].find("--precision 64") != std::string::npos);
+  CHECK(told_rounding(start.model, start.state, without_bounce, 64).empty());
+  start.state.poses[1].origin[0] = 1e10;
+  CHECK(told_rounding(start.model, start.state, without_bounce, 64).at(0).find("nearer to the origin") != std::string::npos);
+}
+
+TEST_CASE("what contacts at rest take up from the last step does not depend on threads") {
+  const ModelAndState start = wedged_ball();
+  const TimePlan plan = plan_of(Method{"verlet", time_step_of(start.model), DampingLaw::constant});
+  std::vector<std::string> saved;
+  for (const unsigned threads : {1u, 3u}) {
+    const auto device = make_cpu_device(threads, 32);
+    Simulation simulation(*device, start.model, start.state, plan, without_bounce);
+    simulation.advance(300);
+    CHECK(simulation.contact_impulses().size() > 20);
+    saved.push_back(simulation.save());
+  }
+  CHECK(saved[0] == saved[1]);
+}
+
+TEST_CASE("no motion of a resting body is cut short by a heavier one that comes at a fifth of an edge a step") {
+  const bench::Partner sphere{.mesh = generate_mesh("icosphere:2")};
+  for (const double mass : {1.0, 10.0, 1e6})
+    for (const double elasticity : {0.0, 0.5}) {
+      CAPTURE(mass, elasticity);
+      bench::Partner heavy = sphere;
+      heavy.mass = mass;
+      const bench::Meeting meeting = bench::meeting_of(heavy, sphere, {.edges_a_step = 0.2, .left_comes = true});
+      const auto device = make_cpu_device(1, 64);
+      Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"verlet", meeting.time_step}),
+                            {.response = {"impulse"}, .elasticity = elasticity});
+      const bench::Seen seen = bench::watch(simulation, meeting.start, {.steps = 60, .stride = 8});
+      CHECK(seen.report.contact_steps > 10);
+      CHECK(seen.report.reverted_vertices == 0);
+      CHECK(seen.touching == 0);
+      CHECK(seen.momentum_change < 1e-14);
+    }
+}
+
+TEST_CASE("spheres meet at extremes of mass, radius and place, and momentum is kept") {
+  struct Extreme {
+    double mass, radius, far;
+  };
+  for (const auto& [mass, radius, far] : {Extreme{1e-6, 1, 0}, {1, 1e-3, 0}, {1e-9, 1e-3, 0}, {1, 1, 1e4}, {1e-3, 0.1, 1e4}})
+    for (const int precision : {64, 32}) {
+      CAPTURE(mass, radius, far, precision);
+      bench::Partner large{.mesh = generate_mesh("icosphere:2")}, small = large;
+      small.mass = mass;
+      small.radius = radius;
+      const bench::Meeting meeting = bench::meeting_of(large, small, {.edges_a_step = 0.2, .far_away = far});
+      const auto device = make_cpu_device(1, precision);
+      Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"cv8", meeting.time_step}),
+                            {.response = {"impulse"}, .elasticity = 0.5});
+      const bench::Seen seen = bench::watch(simulation, meeting.start, {.steps = radius < 0.1 ? 300u : 60u, .stride = 16});
+      CHECK(seen.report.contact_steps > 0);
+      CHECK(seen.touching == 0);
+      CHECK(seen.inside == 0);
+      CHECK(seen.report.held_parts == 0);
+      CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 1e-7));
+    }
+}
+
+TEST_CASE("free bodies lose in an impact what contacts take") {
+  for (const double friction : {0.0, 0.5})
+    for (const double elasticity : {0.0, 1.0}) {
+      CAPTURE(friction, elasticity);
+      const bench::Partner sphere{.mesh = generate_mesh("icosphere:2")};
+      const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 0.05, .omega_step = 0.1});
+      const auto device = make_cpu_device(2, 64);
+      Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"cv8", meeting.time_step}),
+                            {.response = {"impulse"}, .elasticity = elasticity, .friction = friction});
+      ThreadPool pool(1);
+      const double before = measure(meeting.start.model, meeting.start.state, glm::dvec3(0.0), pool).energy();
+      simulation.advance(120);
+      const double after = measure(meeting.start.model, simulation.state(), glm::dvec3(0.0), pool).energy();
+      const ResponseReport contacts = simulation.report().response;
+      CHECK(contacts.energy_taken > 0.01 * before);
+      CHECK(after - before == Approx(contacts.energy_given - contacts.energy_taken).epsilon(1e-6));
+      CHECK((friction > 0 ? contacts.friction_work > 0 : contacts.friction_work == 0));
+    }
+}
+
+TEST_CASE("what slides on a plane loses what friction takes") {
+  BodySetup cube = resting("cube:3", "cube", 1, 1, 1e5);  // so stiff that it hardly leans
+  cube.description.rotation = {0, 20, 0};
+  cube.description.position = {0, 0.53, 0};
+  cube.description.velocity = {1.5, 0, 0.5};
+  cube.description.damping = 0;
+  const glm::dvec3 gravity(0, -9.81, 0);
+  const GroundDescription ground;
+  const ModelAndState start = build_model({&cube, 1}, gravity, {&ground, 1});
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.001}),
+                        {.response = {"impulse"}, .elasticity = 0, .friction = 0.2});
+  ThreadPool pool(1);
+  const auto kinetic_along = [&](const Measurement& m) {  // of the body as a whole, 1 kg
+    return 0.5 * (m.momentum.x * m.momentum.x + m.momentum.z * m.momentum.z);
+  };
+  simulation.advance(50);
+  const Measurement before = measure(start.model, simulation.state(), gravity, pool);
+  const ResponseReport first = simulation.report().response;
+  simulation.advance(500);
+  const Measurement after = measure(start.model, simulation.state(), gravity, pool);
+  const ResponseReport last = simulation.report().response;
+  const double friction = last.friction_work - first.friction_work;
+  CHECK(friction == Approx(kinetic_along(before) - kinetic_along(after)).epsilon(0.01));
+  // All that contacts took: a pressed vertex has half a step of gravity's more or less at the ends.
+  const double net = (last.energy_given - first.energy_given) - (last.energy_taken - first.energy_taken);
+  CHECK(after.energy() - before.energy() == Approx(net).epsilon(0.002));
+}
+
+}  // namespace
+}  // namespace pliant
