@@ -80,7 +80,7 @@ void warn_of_masses(PreparedRun& run) {
     if (heaviest == nullptr || body.vertex_mass > heaviest->vertex_mass) heaviest = &body;
     if (lightest == nullptr || body.vertex_mass < lightest->vertex_mass) lightest = &body;
   }
-  if (heaviest != nullptr && is_by_impulses(run.scene.collision) && heaviest->vertex_mass > most * lightest->vertex_mass)
+  if (heaviest != nullptr && heaviest->vertex_mass > most * lightest->vertex_mass)
     run.warnings.push_back(
         fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded",
                     heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name));

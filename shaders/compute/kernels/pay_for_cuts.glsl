@@ -23,7 +23,7 @@ SHARED_WRITE(contact_list)
 SHARED_WRITE(part_moment)
 SHARED_WRITE(part_energy)
 SHARED_WRITE(debt)
-WRITE(outside_impulse)
+WRITE(contact_total)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
@@ -128,7 +128,7 @@ void note_debts() {
   for (uint b = 0u; b < body_count; ++b) {
     debt[body_count].energy += debt[b].energy;
     for (uint k = 0u; k < 3u; ++k) {
-      outside_impulse[k] -= debt[b].lost[k];
+      contact_total[k] -= debt[b].lost[k];
       debt[b].lost[k] = double(0);
     }
   }

@@ -174,7 +174,7 @@ Energies energies_of(Simulation& simulation, const ModelAndState& start, const g
   double mass = 0;
   for (const ModelBody& body : start.model.bodies)
     if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
-  seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.outside_impulse;
+  seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
   seen.angular_momentum_change = now.angular_momentum - before.angular_momentum;
   return seen;
 }
