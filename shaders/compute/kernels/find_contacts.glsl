@@ -274,14 +274,14 @@ uint near_features(uvec2 triangles, uint wanted) {
   }
   Box first = joined(joined(corner[0], corner[1]), corner[2]), second = joined(joined(corner[3], corner[4]), corner[5]);
   uint near = 0u;
-  if (!overlaps(first, second)) return near;
+  if (!overlaps_at_once(first, second)) return near;
   for (uint k = 0u; k < 3u; ++k) {
-    if (overlaps(corner[k], second)) near |= 1u << k;
-    if (overlaps(corner[3u + k], first)) near |= 8u << k;
+    if (overlaps_at_once(corner[k], second)) near |= 1u << k;
+    if (overlaps_at_once(corner[3u + k], first)) near |= 8u << k;
   }
   for (uint j = 0u; j < 3u; ++j)
     for (uint k = 0u; k < 3u; ++k)
-      if (overlaps(joined(corner[j], corner[j == 2u ? 0u : j + 1u]), joined(corner[3u + k], corner[k == 2u ? 3u : k + 4u])))
+      if (overlaps_at_once(joined(corner[j], corner[j == 2u ? 0u : j + 1u]), joined(corner[3u + k], corner[k == 2u ? 3u : k + 4u])))
         near |= 1u << (6u + 3u * j + k);
   return near & wanted;
 }

@@ -51,7 +51,10 @@ void sum_moments_of(uvec4 part, uint item) {
 RigidMotion rigid_motion_of_body(uint b) {
   uvec2 range = vertex_part_range[b];
   Moments sum = no_moments();
-  for (uint k = range.x; k < range.x + range.y; ++k) add_moments(sum, part_moment[k]);
+  for (uint k = range.x; k < range.x + range.y; ++k) {
+    Moments more = part_moment[k];  // NVIDIA's compiler takes no shared element as an argument
+    add_moments(sum, more);
+  }
   return rigid_motion_with(sum, body[b].vertex_count, place_of(body[b].first_vertex), dvec3(0));
 }
 
