@@ -17,6 +17,7 @@
 
 #include "bench/common/timing.hpp"
 #include "bench/contact/meeting.hpp"
+#include "bench/contact/rest.hpp"
 #include "bench/contact/witness.hpp"
 #include "core/stopwatch.hpp"
 #include "dynamics/integrator.hpp"
@@ -82,6 +83,8 @@ std::vector<ContactRow> run_together(std::span<const Task> tasks, unsigned threa
 struct Pairing {
   std::string name;
   Partner left, right;
+  double far_away = 0;      // from the origin, along each axis [m]
+  bool left_comes = false;  // and the right one rests
 };
 
 // Waits until bodies that come fast have parted, too. They make many parts of a step.
@@ -96,7 +99,9 @@ bool part_at_last(Simulation& simulation, const Model& model) {
 }
 
 ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, std::uint64_t parts) {
-  const Meeting meeting = meeting_of(pair.left, pair.right, {.edges_a_step = edges_a_step, .omega_step = apart_omega_step});
+  const Meeting meeting = meeting_of(
+      pair.left, pair.right,
+      {.edges_a_step = edges_a_step, .omega_step = apart_omega_step, .far_away = pair.far_away, .left_comes = pair.left_comes});
   const Model& model = meeting.start.model;
   const std::uint32_t vertices = model.vertex_count();
   Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
@@ -108,6 +113,8 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
           .precision = device.precision(),
           .vertices = vertices,
           .mass_ratio = pair.right.mass / pair.left.mass,
+          .radius_ratio = pair.right.radius / pair.left.radius,
+          .far_away = pair.far_away,
           .edges_a_step = edges_a_step,
           .omega_step = apart_omega_step,
           .steps = seen.report.steps,
@@ -159,6 +166,56 @@ void add_apart(std::vector<Task>& tasks, const ContactOptions& options) {
                          [=](Device& device) { return std::vector<ContactRow>{measure_apart(device, pair, speed, parts)}; },
                          place});
       }
+}
+
+// --- extremes
+
+// One of them, by the second sphere's mass and radius over the first one's. The heavy sphere hits one that rests.
+std::vector<Pairing> extremes() {
+  const Partner sphere{.mesh = generate_mesh("icosphere:2")};
+  std::vector<Pairing> all;
+  for (const double mass : {10.0, 1e3, 1e6}) {
+    all.push_back({fmt::format("mass {:g} on resting", mass), sphere, sphere, 0, true});
+    all.back().left.mass = mass;
+  }
+  for (const double radius : {1e-1, 1e-2, 1e-3}) {
+    all.push_back({fmt::format("radius {:g}", radius), sphere, sphere});
+    all.back().right.radius = radius;
+  }
+  for (const double far_away : {1e2, 1e4}) all.push_back({fmt::format("{:g} m away", far_away), sphere, sphere, far_away});
+  return all;
+}
+
+void add_extremes(std::vector<Task>& tasks, const ContactOptions& options) {
+  constexpr std::uint64_t parts = 400;  // a small sphere has to come down to the other's surface
+  const std::vector<double> speeds = options.quick ? std::vector{0.2} : std::vector{0.05, 0.1, 0.2, 0.25};
+  for (const Pairing& pair : extremes())
+    for (const Place& place : places(options.devices))
+      for (const double speed : speeds)
+        tasks.push_back({fmt::format("extremes, {}, {} edges a step, {}", pair.name, speed, name_of(place)), 1,
+                         [=](Device& device) { return std::vector<ContactRow>{measure_apart(device, pair, speed, parts)}; },
+                         place});
+}
+
+// --- rest
+
+void add_rest(std::vector<Task>& tasks, const ContactOptions& options) {
+  const RestWatch how = options.quick ? RestWatch{.settling = 1500, .watched = 100} : RestWatch{};
+  for (const RestingPlace& resting : resting_places())
+    for (const Place& place : places(options.devices))
+      tasks.push_back({fmt::format("rest, {}, {}", resting.name, name_of(place)), options.quick ? 1.0 : 8.0,
+                       [=](Device& device) {
+                         const RestSeen seen = watch_rest(device, resting, how);
+                         return std::vector<ContactRow>{RestRow{.bodies = resting.name,
+                                                                .device = device.info().kind,
+                                                                .precision = device.precision(),
+                                                                .steps = how.watched,
+                                                                .contacts = seen.contacts,
+                                                                .cut_vertices = seen.cut_vertices,
+                                                                .most_a_step = seen.most_a_step,
+                                                                .drift = seen.drift}};
+                       },
+                       place});
 }
 
 // --- impacts
@@ -328,6 +385,8 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
 ContactResult bench_contact(const ContactOptions& options, const Progress& progress) {
   std::vector<Task> tasks;
   add_apart(tasks, options);
+  add_extremes(tasks, options);
+  add_rest(tasks, options);
   add_impacts(tasks, options);
   add_costs(tasks, options);
   const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);

@@ -1,6 +1,7 @@
 // The suite `contact` measures contact by impulses:
 // - whether bodies stay apart at any speed, and keep momentum and energy
 // - what an impact gives, by the length of the step: whether it converges, and how it depends on elasticity and stiffness
+// - how still bodies rest
 // - what contact costs in a step
 #pragma once
 #include <cstdint>
@@ -30,6 +31,8 @@ struct ApartRow {
   int precision = 64;
   std::uint32_t vertices = 0;  // of both
   double mass_ratio = 1;       // of the second body to the first
+  double radius_ratio = 1;     // of the second body to the first
+  double far_away = 0;         // from the origin, along each axis [m]
   double edges_a_step = 0;     // how fast they come near each other
   double omega_step = 0;       // step times the stiffest frequency
   std::uint64_t steps = 0;
@@ -61,6 +64,18 @@ struct ImpactRow {
   std::optional<double> spin_error;      // of a body's own angular momentum, over M r v
 };
 
+/// Bodies that rest under gravity.
+struct RestRow {
+  std::string bodies;
+  DeviceKind device = DeviceKind::cpu;
+  int precision = 64;
+  std::uint64_t steps = 0;         // watched
+  std::uint64_t contacts = 0;      // impulses in the last one
+  std::uint64_t cut_vertices = 0;  // whose motion was cut short
+  double most_a_step = 0;          // the longest way of a vertex in a step [edges]
+  double drift = 0;                // the farthest that a vertex came from its first place [edges]
+};
+
 /// Steps while two spheres press each other, beside the same steps without contact.
 struct CostRow {
   DeviceKind device = DeviceKind::cpu;
@@ -71,7 +86,7 @@ struct CostRow {
   double microseconds_without = 0;  // of the same method's step with response = "none"
 };
 
-using ContactRow = std::variant<ApartRow, ImpactRow, CostRow>;
+using ContactRow = std::variant<ApartRow, ImpactRow, RestRow, CostRow>;
 
 struct ContactResult {
   std::vector<ContactRow> rows;

@@ -22,6 +22,11 @@ std::string line(const ImpactRow& row) {
                      error(row.momentum_error), error(row.spin_error));
 }
 
+std::string line(const RestRow& row) {
+  return fmt::format("{:<22} {:<6} {:>4} {:>6} {:>8} {:>6} {:>9.1e} {:>9.1e}\n", row.bodies, name_of(row.device), row.precision,
+                     row.steps, row.contacts, row.cut_vertices, row.most_a_step, row.drift);
+}
+
 std::string line(const CostRow& row) {
   return fmt::format("{:<6} {:>4} {:>8} {:>8} {:>9.1f} {:>9.1f} {:>9.1f}\n", name_of(row.device), row.precision, row.vertices,
                      row.contacts, row.microseconds, row.microseconds_without, row.microseconds - row.microseconds_without);
@@ -42,6 +47,8 @@ Json row_json(const ApartRow& row) {
           {"precision", row.precision},
           {"vertices", row.vertices},
           {"mass_ratio", row.mass_ratio},
+          {"radius_ratio", row.radius_ratio},
+          {"far_away", row.far_away},
           {"edges_a_step", row.edges_a_step},
           {"omega_step", row.omega_step},
           {"steps", row.steps},
@@ -72,6 +79,12 @@ Json row_json(const ImpactRow& row) {
           {"spin_error", row.spin_error}};
 }
 
+Json row_json(const RestRow& row) {
+  return {{"kind", "rest"},     {"bodies", row.bodies},     {"device", name_of(row.device)},    {"precision", row.precision},
+          {"steps", row.steps}, {"contacts", row.contacts}, {"cut_vertices", row.cut_vertices}, {"most_a_step", row.most_a_step},
+          {"drift", row.drift}};
+}
+
 Json row_json(const CostRow& row) {
   return {{"kind", "cost"},
           {"device", name_of(row.device)},
@@ -93,6 +106,8 @@ std::string to_table(const ContactResult& result) {
   table +=
       lines_of<ImpactRow>(result, fmt::format("{:<9} {:<8} {:>8} {:>4} {:>11} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "impact",
                                               "method", "N k", "e", "h omega", "kept", "most E", "position", "momentum", "spin"));
+  table += lines_of<RestRow>(result, fmt::format("{:<22} {:<6} {:>4} {:>6} {:>8} {:>6} {:>9} {:>9}\n", "rest", "device", "bits",
+                                                 "steps", "contacts", "cut", "edges/h", "drift"));
   table += lines_of<CostRow>(result, fmt::format("{:<6} {:>4} {:>8} {:>8} {:>9} {:>9} {:>9}\n", "cost", "bits", "vertices",
                                                  "contacts", "us", "without", "more"));
   for (const std::string& note : result.notes) table += note + '\n';
