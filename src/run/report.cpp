@@ -22,6 +22,9 @@ namespace {
 // A run warns if its energy has grown by this factor or more.
 constexpr double told_growth = 1.05;
 
+// Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts.
+constexpr double ruinous_growth = 1e3;
+
 // Returns the energy [J] below which a change counts as rounding: 1e-12 of the largest energy_scale of a force.
 double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
@@ -68,10 +71,17 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 
 }  // namespace
 
+bool has_blown_up(const RunStatus& status) {
+  return status.report.substeps > 0 && energy_growth(status.progress, status.run.start.model) >= ruinous_growth;
+}
+
 std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
   const double growth = energy_growth(progress, run.start.model);
+  if (has_blown_up(status))
+    return fmt::format("{} at step {}, which ends the run; try a shorter time step", told_growth_of(growth, run.start.model),
+                       report.steps);
   if (growth >= told_growth)
     return fmt::format("{}: {}", told_growth_of(growth, run.start.model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"

@@ -17,6 +17,10 @@ struct RunStatus {
   const StepReport& report;
 };
 
+/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts.
+/// Holds for the latest row of the history.
+[[nodiscard]] bool has_blown_up(const RunStatus& status);
+
 /// Describes a breakdown or growing energy, or returns nothing. A step beyond its bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
 

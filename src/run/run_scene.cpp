@@ -71,7 +71,7 @@ class Run {
     keep_interrupted();
     history_.close();
     write_end();
-    return end_frames(report_.non_finite ? exit_non_finite : is_interrupted() ? exit_interrupted : 0);
+    return end_frames(has_failed() ? exit_failed : is_interrupted() ? exit_interrupted : 0);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::command_line) throw;
     throw Error(error.kind(), "", error.what(), told_earlier_files());
@@ -79,7 +79,8 @@ class Run {
 
  private:
   RunStatus status() { return {options_, run_, progress_, report_}; }
-  bool stopped() const { return is_interrupted() || report_.non_finite; }
+  bool has_failed() const { return report_.non_finite || has_blown_up_; }
+  bool stopped() const { return is_interrupted() || has_failed(); }
 
   void begin() {
     record();
@@ -134,7 +135,7 @@ class Run {
 
   // If the run has failed, the checkpoint before is worth more. At step 0 the history has no row yet.
   void keep_checkpoint(RunProgress progress, const std::string& history) {
-    if (report_.non_finite) return;
+    if (has_failed()) return;
     progress.times = progress_.times;
     progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
   }
@@ -160,6 +161,7 @@ class Run {
     const double drift = std::abs(now.energy() - progress_.first.energy());
     progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
     progress_.recorded_steps = report_.steps;
+    has_blown_up_ = has_blown_up(status());
     warn_of_forces();
     history_.append({.step = report_.steps,
                      .time = report_.time,
@@ -254,8 +256,7 @@ class Run {
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
     if (const auto trouble = contact_trouble_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *trouble);
-    if (const auto what = instability_of(status()))
-      fmt::print(stderr, "pliant: {}{}\n", report_.non_finite ? "" : "warning: ", *what);
+    if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;
   }
 
@@ -285,6 +286,7 @@ class Run {
   int first_frame_ = frames_.count();
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
+  bool has_blown_up_ = false;
   bool has_state_ = false, has_summary_ = false;  // this run has written them
 };
 

@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-inline constexpr int exit_non_finite = 5;
+inline constexpr int exit_failed = 5;                       // the simulation's numbers went wrong
 inline constexpr double default_checkpoint_interval = 300;  // [s] of wall time
 
 // Files that a run writes into its folder, besides frames.
@@ -47,7 +47,7 @@ struct RunOptions {
 [[nodiscard]] std::filesystem::path scene_of(const RunOptions& options);
 [[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
-/// Returns the exit code: 0, exit_non_finite or exit_interrupted (interrupts.hpp). In each case it has written the results so
+/// Returns the exit code: 0, exit_failed or exit_interrupted (interrupts.hpp). In each case it has written the results so
 /// far. Throws Error.
 [[nodiscard]] int run_scene(const RunOptions& options);
 

@@ -168,6 +168,22 @@ TEST_CASE("a run that goes non-finite says where, writes what there is and exits
   CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
 }
 
+TEST_CASE("a run whose energy grows a thousandfold while its steps fall into parts says so and exits with 5") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +
+                  " --device cpu --integrator rk4 --time-step 1 --steps 5000 --set body.left.stretch=[1.1,1,1] --out " +
+                  folder.path.string());
+  CHECK(result.exit_code == 5);
+  CHECK_THAT(result.output, Catch::Contains("the energy has grown") && Catch::Contains("which ends the run") &&
+                                Catch::Contains("try a shorter time step"));
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["non_finite"] == false);
+  CHECK(summary["steps"].get<double>() < 100);
+  CHECK(summary["contacts"]["substeps"].get<double>() > 0);
+  CHECK(summary["energy"]["final"].get<double>() >= 1000 * summary["energy"]["initial"].get<double>());
+}
+
 TEST_CASE("pressure in an open mesh is an error with the body's file and line") {
   const ScratchFolder folder;
   std::ofstream(folder.path / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
