@@ -13,6 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <stop_token>
 #include <thread>
 
 #include "bench/common/timing.hpp"
@@ -42,8 +43,8 @@ TimePlan plan_of(const char* integrator, double time_step) {
 
 struct Task {
   std::string name;
-  double cost = 0;  // about the seconds it takes
-  std::function<std::vector<ContactRow>(Device&)> measure;
+  double cost = 0;                                                                  // about the seconds it takes
+  std::function<std::vector<ContactRow>(Device&, const std::stop_token&)> measure;  // ends early if asked to stop
   Place place;
   bool is_timed = false;  // nothing may run beside it
 };
@@ -51,17 +52,20 @@ struct Task {
 bool runs_beside_others(const Task& task) { return task.place.device == DeviceKind::cpu && !task.is_timed; }
 
 // Runs tasks beside each other, the longest first, and returns their rows in the order of the tasks. Asks `goes_on` all the time,
-// with the cost of what has begun. After a no those that have not begun are left out.
+// with the cost of what has begun. A no stops all tasks, and only those that were done by then give rows.
 std::vector<ContactRow> run_together(std::span<const Task> tasks, unsigned threads, const std::function<bool(double)>& goes_on) {
   std::vector<std::size_t> order(tasks.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return tasks[k].cost; });
   std::vector<std::vector<ContactRow>> rows(tasks.size());
   std::atomic<std::size_t> next = 0;
+  std::stop_source stop;
   const auto work = [&] {
     for (std::size_t k = next++; k < order.size(); k = next++) {
       const Task& task = tasks[order[k]];
-      rows[order[k]] = task.measure(*open(task.place));
+      std::vector<ContactRow> measured = task.measure(*open(task.place), stop.get_token());
+      if (stop.stop_requested()) return;
+      rows[order[k]] = std::move(measured);
     }
   };
   std::vector<std::future<void>> workers;
@@ -70,7 +74,7 @@ std::vector<ContactRow> run_together(std::span<const Task> tasks, unsigned threa
     while (worker.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
       double begun = 0;
       for (std::size_t k = 0; k < std::min(next.load(), order.size()); ++k) begun += tasks[order[k]].cost;
-      if (!goes_on(begun)) next = order.size();
+      if (!goes_on(begun)) stop.request_stop();
     }
   std::vector<ContactRow> all;
   for (std::future<void>& worker : workers) worker.get();
@@ -88,17 +92,18 @@ struct Pairing {
 };
 
 // Waits until bodies that come fast have parted, too. They make many parts of a step.
-bool part_at_last(Simulation& simulation, const Model& model) {
+bool part_at_last(Simulation& simulation, const Model& model, const std::stop_token& stop) {
   constexpr int most_parts = 3000;
   const ApartOracle oracle(model);
-  for (int part = 0; part < most_parts; part += 16) {
+  for (int part = 0; part < most_parts && !stop.stop_requested(); part += 16) {
     if (oracle.have_parted(simulation.state().world_positions(model))) return true;
     for (int k = 0; k < 16; ++k) simulation.advance_part();
   }
   return false;
 }
 
-ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, std::uint64_t parts) {
+ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, std::uint64_t parts,
+                       const std::stop_token& stop) {
   const Meeting meeting = meeting_of(
       pair.left, pair.right,
       {.edges_a_step = edges_a_step, .omega_step = apart_omega_step, .far_away = pair.far_away, .left_comes = pair.left_comes});
@@ -106,8 +111,8 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
   const std::uint32_t vertices = model.vertex_count();
   Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
                         by("impulse"));
-  const Seen seen =
-      watch(simulation, meeting.start, {.steps = parts, .most_parts = parts, .stride = vertices > few_vertices ? 16u : 1u});
+  const Seen seen = watch(simulation, meeting.start,
+                          {.steps = parts, .most_parts = parts, .stride = vertices > few_vertices ? 16u : 1u, .stop = stop});
   return {.bodies = pair.name,
           .device = device.info().kind,
           .precision = device.precision(),
@@ -124,7 +129,7 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
           .held_parts = seen.report.held_parts,
           .touching = seen.touching,
           .inside = seen.inside,
-          .parted = part_at_last(simulation, model),
+          .parted = part_at_last(simulation, model, stop),
           .momentum_change = seen.momentum_change,
           .angular_momentum_change = seen.angular_momentum_change,
           .most_energy = seen.most_energy,
@@ -163,7 +168,9 @@ void add_apart(std::vector<Task>& tasks, const ContactOptions& options) {
         const std::uint64_t parts = (speed > 1 ? 2 : 1) * (options.quick ? quick_apart_parts : apart_parts);
         tasks.push_back({fmt::format("apart, {}, {} edges a step, {}", pair.name, speed, name_of(place)),
                          triangles * static_cast<double>(parts) * 1e-5,
-                         [=](Device& device) { return std::vector<ContactRow>{measure_apart(device, pair, speed, parts)}; },
+                         [=](Device& device, const std::stop_token& stop) {
+                           return std::vector<ContactRow>{measure_apart(device, pair, speed, parts, stop)};
+                         },
                          place});
       }
 }
@@ -193,7 +200,9 @@ void add_extremes(std::vector<Task>& tasks, const ContactOptions& options) {
     for (const Place& place : places(options.devices))
       for (const double speed : speeds)
         tasks.push_back({fmt::format("extremes, {}, {} edges a step, {}", pair.name, speed, name_of(place)), 1,
-                         [=](Device& device) { return std::vector<ContactRow>{measure_apart(device, pair, speed, parts)}; },
+                         [=](Device& device, const std::stop_token& stop) {
+                           return std::vector<ContactRow>{measure_apart(device, pair, speed, parts, stop)};
+                         },
                          place});
 }
 
@@ -204,8 +213,9 @@ void add_rest(std::vector<Task>& tasks, const ContactOptions& options) {
   for (const RestingPlace& resting : resting_places())
     for (const Place& place : places(options.devices))
       tasks.push_back({fmt::format("rest, {}, {}", resting.name, name_of(place)), options.quick ? 1.0 : 8.0,
-                       [=](Device& device) {
-                         const RestSeen seen = watch_rest(device, resting, how);
+                       [=](Device& device, const std::stop_token& stop) {
+                         const RestSeen seen =
+                             watch_rest(device, resting, {.settling = how.settling, .watched = how.watched, .stop = stop});
                          return std::vector<ContactRow>{RestRow{.bodies = resting.name,
                                                                 .device = device.info().kind,
                                                                 .precision = device.precision(),
@@ -255,7 +265,7 @@ Meeting impact_meeting(const Impact& impact) {
   return meeting_of(sphere, sphere, {.edges_a_step = impact_speed / meeting.speed, .distance = 1});
 }
 
-ImpactRow measure_impact(Device& device, const Impact& impact, double omega_step, Outcome& outcome) {
+ImpactRow measure_impact(Device& device, const Impact& impact, double omega_step, Outcome& outcome, const std::stop_token& stop) {
   const Meeting meeting = impact_meeting(impact);
   const ModelAndState& start = meeting.start;
   const double omega = stiffest_frequency(start.model.bodies[0]), duration = impact_omega_time / std::sqrt(1e3);
@@ -263,7 +273,7 @@ ImpactRow measure_impact(Device& device, const Impact& impact, double omega_step
   Simulation simulation(device, start.model, start.state, plan_of(impact.integrator, duration / steps),
                         by(impact.response, impact.elasticity));
   Witness witness(start);
-  for (double made = 0; made < steps; made += 8) {
+  for (double made = 0; made < steps && !stop.stop_requested(); made += 8) {
     simulation.advance(static_cast<std::uint64_t>(std::min(8.0, steps - made)));
     witness.look_at_motion(simulation.state());
   }
@@ -281,10 +291,12 @@ ImpactRow measure_impact(Device& device, const Impact& impact, double omega_step
           .spin_error = {}};
 }
 
-std::vector<ContactRow> measure_sweep(Device& device, const Impact& impact, const std::vector<double>& omega_steps) {
+std::vector<ContactRow> measure_sweep(Device& device, const Impact& impact, const std::vector<double>& omega_steps,
+                                      const std::stop_token& stop) {
   std::vector<ImpactRow> rows;
   std::vector<Outcome> outcomes;
-  for (const double omega_step : omega_steps) rows.push_back(measure_impact(device, impact, omega_step, outcomes.emplace_back()));
+  for (const double omega_step : omega_steps)
+    rows.push_back(measure_impact(device, impact, omega_step, outcomes.emplace_back(), stop));
   const Outcome& exact = outcomes.back();
   const double momentum = impact_speed / 2;  // of a body of 1 kg, which is its angular momentum at 1 m, too
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
@@ -304,7 +316,8 @@ void add_impacts(std::vector<Task>& tasks, const ContactOptions& options) {
     tasks.push_back({fmt::format("impact, {}, {}, N k = {:g}, e = {}", impact.response, impact.integrator, impact.stiffness,
                                  impact.elasticity),
                      0.2 * std::sqrt(impact.stiffness / 1e3) / steps.back(),
-                     [=](Device& device) { return measure_sweep(device, impact, steps); }, place});
+                     [=](Device& device, const std::stop_token& stop) { return measure_sweep(device, impact, steps, stop); },
+                     place});
   };
   for (const char* integrator : {"verlet", "cv8"})
     for (const char* response : {"impulse", "reflect"}) add({response, integrator}, halved);
@@ -356,8 +369,10 @@ void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
       for (const double speed : {0.05, 0.5, 1.0})
         if (place.precision == 32 && (!options.quick || level == 2))
           tasks.push_back({fmt::format("cost, icosphere:{}, {}", level, name_of(place)), 0.05 * std::pow(16, level - 2),
-                           [=](Device& device) { return std::vector<ContactRow>{measure_cost(device, level, speed)}; }, place,
-                           true});
+                           [=](Device& device, const std::stop_token&) {
+                             return std::vector<ContactRow>{measure_cost(device, level, speed)};
+                           },
+                           place, true});
 }
 
 // --- all
@@ -402,8 +417,9 @@ ContactResult bench_contact(const ContactOptions& options, const Progress& progr
   result.rows = run_together(together, threads, [&](double begun) { return goes_on(begun, "on the CPU"); });
   for (const Task& task : together) done += task.cost;
   for (const Task& task : alone) {
-    if (!goes_on(0, task.name)) break;
-    std::ranges::move(task.measure(*open(task.place)), std::back_inserter(result.rows));
+    if (result.interrupted) break;
+    std::ranges::move(run_together({&task, 1}, 1, [&](double begun) { return goes_on(begun, task.name); }),
+                      std::back_inserter(result.rows));
     done += task.cost;
   }
   if (!result.interrupted) progress(1, "");

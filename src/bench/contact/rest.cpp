@@ -95,12 +95,13 @@ RestSeen watch_rest(Device& device, const RestingPlace& place, const RestWatch& 
   const TimePlan plan{
       .integrator = &find_integrator("verlet"), .time_step = 0.3 / stiffest_frequency(body), .damping_law = DampingLaw::constant};
   Simulation simulation(device, model, place.start.state, plan, {.response = {"impulse"}, .elasticity = 0});
-  simulation.advance(how.settling);
+  for (std::uint64_t step = 0; step < how.settling && !how.stop.stop_requested(); step += 100)
+    simulation.advance(std::min<std::uint64_t>(100, how.settling - step));
   RestSeen seen{.edge = mean_edge(model, body)};
   const std::uint64_t cut = simulation.report().reverted_vertices;
   const std::vector<glm::dvec3> first = simulation.state().world_positions(model);
   std::vector<glm::dvec3> before = first;
-  for (std::uint64_t step = 0; step < how.watched; ++step) {
+  for (std::uint64_t step = 0; step < how.watched && !how.stop.stop_requested(); ++step) {
     simulation.advance(1);
     std::vector<glm::dvec3> now = simulation.state().world_positions(model);
     for (std::size_t i = 0; i < now.size(); ++i) {

@@ -1,6 +1,7 @@
 // Bodies that come to rest: on a ground, on static meshes, and on each other.
 #pragma once
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct RestingPlace {
 /// How many steps bodies get to settle, and for how many more they are watched.
 struct RestWatch {
   std::uint64_t settling = 4000, watched = 10000;
+  std::stop_token stop = {};  // ends the watch early
 };
 
 /// What was seen of bodies at rest. Lengths count in mean edges of the last body's mesh.

@@ -36,7 +36,8 @@ void Witness::look_at_motion(const State& state) {
 Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how) {
   Witness witness(start);
   StepReport& report = witness.seen.report;
-  for (std::uint64_t part = 1; report.steps < how.steps && part <= how.most_parts && !report.non_finite; ++part) {
+  for (std::uint64_t part = 1;
+       report.steps < how.steps && part <= how.most_parts && !report.non_finite && !how.stop.stop_requested(); ++part) {
     simulation.advance_part();
     report = simulation.report();
     const State state = simulation.state();

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "bench/contact/apart.hpp"
@@ -48,6 +49,7 @@ struct Watch {
   std::uint64_t steps = 0;
   std::uint64_t most_parts = UINT64_MAX;  // of steps; they end the watch, too
   std::uint64_t stride = 1;               // once in so many parts it looks at motions
+  std::stop_token stop = {};              // ends the watch early
 };
 
 /// Runs the simulation and looks at every part of a step.

@@ -82,11 +82,11 @@ TEST_CASE("the suite contact finds bodies apart, momentum kept, and no energy ma
                                    Catch::Contains("0 pairs of triangles not apart"));
 }
 
-TEST_CASE("the suite contact ends early if it is told to") {
-  const ContactResult result = bench_contact({.devices = {.cpu = true, .threads = 1}, .quick = true},
-                                             [asked = 0](double, std::string_view) mutable { return ++asked <= 1; });
+TEST_CASE("the suite contact ends early if it is told to, without rows of what was not done") {
+  const ContactResult result =
+      bench_contact({.devices = {.cpu = true, .threads = 2}, .quick = true}, [](double, std::string_view) { return false; });
   CHECK(result.interrupted);
-  CHECK(result.rows.size() == 1);
+  CHECK(result.rows.empty());
 }
 
 }  // namespace
