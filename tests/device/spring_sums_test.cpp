@@ -1,4 +1,5 @@
-// The vectorized sums of springs against the textbook's formula in long double, for every instruction set of this machine.
+// The vectorized sums of springs against the textbook's formula in long double, for every instruction set of this machine, and
+// the sums of every device against those of fp64.
 #include "device/cpu/spring_sums.hpp"
 
 #include <array>
@@ -325,6 +326,33 @@ TEST_CASE("the widest vectors are the best way of summing") {
   const std::size_t best = device->best_force_variant(1000);
   CHECK(device->force_variants()[best].name == name_of(available_isas().back()));
   CHECK(device->force_variants().size() == available_isas().size() + 1);
+}
+
+std::vector<double> spring_forces(Device& device, const ModelAndState& start, std::size_t variant) {
+  DeviceBodies bodies(device, start.model, start.state, variant);
+  const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 0.01);
+  device.run(stepper.first_passes());
+  const Pass pass = stepper.refresh_pass();
+  device.run({&pass, 1});
+  return bodies.arrays.get<double>("kept_force").download();
+}
+
+TEST_CASE("every way of summing springs that a device knows gives the plain sums of fp64", "[gl]") {
+  std::vector<BodySetup> setups{two_vertices(), sphere(0), sphere(1), sphere(2)};
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    setups[i].description.stretch = {0.8, 1.1, 1};
+    setups[i].description.scale = i == 1 ? 1e-3 : 1;
+    setups[i].description.stiffness = i == 1 ? 4e4 : 1;  // so that no body's forces are lost beside another's
+  }
+  setups[2].description.stretch = {1, 1, 1};  // at rest
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const auto reference = spring_forces(*make_cpu_device(1, 64), start, 0);
+  for (const TestDevice& test : all_devices())
+    for (std::size_t variant = 0; variant < test.device->force_variants().size(); ++variant) {
+      CAPTURE(test.name, test.device->force_variants()[variant].name);
+      CHECK(largest_difference(spring_forces(*test.device, start, variant), reference) <
+            (test.device->precision() == 64 ? 1e-14 : 2e-7));
+    }
 }
 
 }  // namespace

@@ -4,18 +4,15 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
-#include "bench/contact/witness.hpp"
 #include "model/mean_edge.hpp"
-#include "simulation/measure.hpp"
 #include "simulation/start_check.hpp"
 #include "support/collision_scene.hpp"
 #include "support/expect_error.hpp"
 #include "support/has.hpp"
+#include "support/impulse_scene.hpp"
 
 namespace pliant {
 namespace {
-
-const CollisionDescription by_impulses = {.response = {"impulse"}, .elasticity = 0.5};
 
 // Runs by steps of a fixed length.
 bench::Seen watch(Device& device, const ModelAndState& start, const Method& method, std::uint64_t steps,
@@ -28,17 +25,6 @@ bench::Seen watch(Device& device, const ModelAndState& start, const Method& meth
 bench::Seen watch(Device& device, const ModelAndState& start, const Adaptive& method, double duration) {
   Simulation simulation(device, start.model, start.state, plan_of(method, start.model), by_impulses);
   return bench::watch_for(simulation, start, duration);
-}
-
-constexpr double total_stiffness = 1000, omega = 31.6227766;  // [N/m], [1/s] of a body of 1 kg
-
-BodySetup soft(TriangleMesh mesh, const char* name) {
-  BodySetup setup = body_of_mesh(std::move(mesh));
-  setup.description.name = name;
-  setup.description.total_mass = 1;
-  setup.description.total_stiffness = total_stiffness;
-  setup.description.damping = 0;
-  return setup;
 }
 
 // Spheres that meet off their centres, with this part of an edge a step against each other.
@@ -150,102 +136,6 @@ TEST_CASE("motions are cut short where a kick could not have foreseen them, and 
   CHECK(seen.report.reverted_vertices > 0);
 }
 
-// Measures a run in parts of steps.
-struct Energies {
-  double first = 0, most = 0, last = 0;  // [J]
-  glm::dvec3 momentum{0.0};              // the last one, less what gravity and what does not move have given [Ns]
-  glm::dvec3 angular_momentum_change{0.0};
-  StepReport report;
-};
-
-Energies energies_of(Simulation& simulation, const ModelAndState& start, const glm::dvec3& gravity, double duration) {
-  ThreadPool pool(1);
-  const Measurement before = measure(start.model, start.state, gravity, pool);
-  Energies seen;
-  seen.first = seen.most = before.energy();
-  Measurement now = before;
-  while (simulation.report().time < duration) {
-    simulation.advance(2);
-    now = measure(start.model, simulation.state(), gravity, pool);
-    seen.most = larger(seen.most, now.energy());
-  }
-  seen.report = simulation.report();
-  seen.last = now.energy();
-  double mass = 0;
-  for (const ModelBody& body : start.model.bodies)
-    if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
-  seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
-  seen.angular_momentum_change = now.angular_momentum - before.angular_momentum;
-  return seen;
-}
-
-// A ball that falls on a small static one.
-ModelAndState ball_over_knob(double stiffness, double knob_radius) {
-  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "knob"), soft(generate_mesh("icosphere:2"), "ball")};
-  setups[0].description.kind = BodyKind::immovable;
-  setups[0].description.scale = knob_radius;
-  setups[1].description.position = {0.03, 1.3, 0.02};
-  setups[1].description.rotation = {10, 20, 30};
-  setups[1].description.total_stiffness = stiffness;
-  GroundDescription ground;
-  ground.point = {0, -1.03, 0};
-  return build_model(setups, {0, -9.81, 0}, {&ground, 1});
-}
-
-TEST_CASE("motions that are cut short add no energy, and what does not move tells what it gave") {
-  struct Fall {
-    double stiffness, knob_radius, time_step;
-  };
-  // With a small gap, because with the usual one nothing is cut.
-  for (const Fall& fall : {Fall{300, 0.05, 0.005}, Fall{1000, 0.12, 0.01}, Fall{3000, 0.12, 0.01}}) {
-    for (const int precision : {64, 32}) {
-      CAPTURE(fall.stiffness, precision);
-      const ModelAndState start = ball_over_knob(fall.stiffness, fall.knob_radius);
-      const auto device = make_cpu_device(1, precision);
-      Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", fall.time_step}),
-                            {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.01});
-      const Energies seen = energies_of(simulation, start, {0, -9.81, 0}, 2);
-      CHECK(seen.report.reverted_vertices > 20);
-      CHECK(seen.most < 1.001 * seen.first);
-      CHECK(glm::length(seen.momentum) < (precision == 64 ? 1e-11 : 1e-4));
-    }
-  }
-}
-
-// A body that oscillates wildly beside another one.
-ModelAndState wild_beside_still() {
-  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "wild"), soft(generate_mesh("icosphere:1"), "still")};
-  setups[0].description.stretch = {0.3, 1, 1};
-  setups[0].description.velocity = {1, 0.3, 0};
-  setups[1].description.position = {1.45, 0, 0};
-  return build_model(setups, glm::dvec3(0.0));
-}
-
-TEST_CASE("cuts between bodies that move keep momentum, and pay for their energy") {
-  const ModelAndState start = wild_beside_still();
-  const bench::Seen seen = watch(*make_cpu_device(1, 64), start, Method{"cv8", 1.0 / omega}, 60);
-  CHECK(seen.report.reverted_vertices > 0);
-  CHECK(seen.momentum_change < 1e-14);
-  CHECK(seen.most_energy < 1e-3);
-}
-
-TEST_CASE("paying for cuts gives the same bits on any number of threads, and after saving") {
-  const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.01};
-  const ModelAndState start = ball_over_knob(3000, 0.12);
-  const auto simulation_on = [&](Device& device) {
-    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.01}), without_bounce);
-  };
-  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
-  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
-  whole->advance(200);
-  REQUIRE(whole->report().reverted_vertices > 0);
-  resumed->restore(whole->save());
-  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(60);
-  shared_out->advance(260);
-  CHECK(shared_out->state().motion == whole->state().motion);
-  CHECK(resumed->state().motion == whole->state().motion);
-}
-
 TEST_CASE("contact by impulses gives the same bits on any number of threads, and the same motion on a GPU", "[gl]") {
   const double time_step = 0.5 / omega;
   const ModelAndState start = meeting_spheres(2, 0.1, time_step);
@@ -263,115 +153,6 @@ TEST_CASE("contact by impulses gives the same bits on any number of threads, and
   double largest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) largest = larger(largest, glm::length(on_gpu[i] - positions[i]));
   CHECK(largest < 1e-6);
-}
-
-// What is left of the approach after spheres of 1 kg met at 2 m/s, by the centres of mass.
-struct Parting {
-  double kept = 0;             // of the speed of the first sphere
-  double momentum_change = 0;  // [Ns]
-  double angular_momentum_change = 0, most_energy = 0;
-  StepReport report;
-};
-
-glm::dvec3 mean_velocity(const Model& model, const State& state, const ModelBody& body) {
-  const std::vector<glm::dvec3> velocities = state.world_velocities(model);
-  glm::dvec3 sum(0.0);
-  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) sum += velocities[i];
-  return sum / static_cast<double>(body.vertex_count);
-}
-
-ModelAndState spheres_in_flight(double off_centre, double stiffness, std::optional<double> first, std::optional<double> second) {
-  std::vector<BodySetup> setups;
-  for (const double side : {-1.0, 1.0}) {
-    BodySetup& setup = setups.emplace_back(soft(generate_mesh("icosphere:2"), side < 0 ? "left" : "right"));
-    setup.description.position = {1.05 * side, off_centre * side, 0};
-    setup.description.rotation = {10 * side, 20, 0};
-    setup.description.velocity = {-side, 0, 0};
-    setup.description.total_stiffness = stiffness;
-    setup.description.restitution = side < 0 ? first : second;
-  }
-  return build_model(setups, glm::dvec3(0.0));
-}
-
-Parting part_after_impact(const ModelAndState& start, double stiffness, const glm::dvec3& gravity = glm::dvec3(0.0),
-                          std::optional<double> of_scene = {}) {
-  const double time_step = 0.3 / std::sqrt(stiffness);
-  const auto device = make_cpu_device(1, 64);
-  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", time_step}),
-                        {.response = {"impulse"}, .elasticity = 0, .friction = 0, .restitution = of_scene});
-  const ModelBody& body = start.model.bodies[0];
-  const double before = glm::length(mean_velocity(start.model, start.state, body));
-  const Energies seen = energies_of(simulation, start, gravity, 80 / std::sqrt(stiffness));
-  return {.kept = glm::length(mean_velocity(start.model, simulation.state(), body)) / before,
-          .momentum_change = glm::length(seen.momentum),
-          .angular_momentum_change = glm::length(seen.angular_momentum_change),
-          .most_energy = seen.most / seen.first,
-          .report = seen.report};
-}
-
-TEST_CASE("spheres keep the part of their approach that restitution asks for") {
-  for (const double restitution : {0.9, 0.7, 0.5}) {
-    CAPTURE(restitution);
-    const Parting parting = part_after_impact(spheres_in_flight(0, total_stiffness, restitution, restitution), total_stiffness);
-    CHECK(parting.kept == Approx(restitution).margin(0.1));
-    CHECK(parting.momentum_change < 1e-14);
-    CHECK(parting.most_energy < 1.001);
-  }
-  CHECK(part_after_impact(spheres_in_flight(0, total_stiffness, 0, 0), total_stiffness).kept < 0.4);
-}
-
-TEST_CASE("restitution keeps the angular momentum of spheres that meet off their centres as well as other contact does") {
-  const Parting with = part_after_impact(spheres_in_flight(0.5, total_stiffness, 0.3, 0.3), total_stiffness);
-  const Parting without = part_after_impact(spheres_in_flight(0.5, total_stiffness, {}, {}), total_stiffness);
-  CHECK(with.report.contact_steps > 5);
-  CHECK(with.momentum_change < 1e-14);
-  CHECK(with.angular_momentum_change < 2 * without.angular_momentum_change + 1e-13);
-  CHECK(with.most_energy < 1.001);
-}
-
-TEST_CASE("the restitution of two bodies is the geometric mean, or that of the only one that has any") {
-  const auto kept = [](std::optional<double> first, std::optional<double> second, std::optional<double> of_scene = {}) {
-    return part_after_impact(spheres_in_flight(0, total_stiffness, first, second), total_stiffness, glm::dvec3(0.0), of_scene)
-        .kept;
-  };
-  const double half = kept(0.5, 0.5);
-  CHECK(kept(0.25, 1) == half);
-  CHECK(kept(0.5, {}) == half);
-  CHECK(kept({}, {}, 0.5) == half);
-  CHECK(kept({}, {}) > half + 0.2);
-}
-
-TEST_CASE("a ball leaves a ground, and a static body, with what its restitution asks for") {
-  BodySetup ball = soft(generate_mesh("icosphere:2"), "ball");
-  ball.description.position = {0, 1.05, 0};
-  ball.description.velocity = {0, -1, 0};
-  ball.description.rotation = {10, 20, 0};
-  ball.description.restitution = 0.5;
-  const GroundDescription ground;
-  const ModelAndState on_plane = build_model({&ball, 1}, glm::dvec3(0.0), {&ground, 1});
-  CHECK(part_after_impact(on_plane, total_stiffness).kept == Approx(0.5).margin(0.1));
-  BodySetup slab = soft(generate_mesh("cube:3"), "slab");
-  slab.description.kind = BodyKind::immovable;
-  slab.description.scale = 4;
-  slab.description.position = {0, -2, 0};
-  const std::vector<BodySetup> both = {ball, slab};
-  CHECK(part_after_impact(build_model(both, glm::dvec3(0.0)), total_stiffness).kept == Approx(0.5).margin(0.1));
-}
-
-TEST_CASE("impacts with restitution give the same bits on any number of threads, and after saving amid one") {
-  const ModelAndState start = spheres_in_flight(0.2, total_stiffness, 0.5, 0.3);
-  const auto simulation_on = [&](Device& device) {
-    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.3 / omega}), by_impulses);
-  };
-  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
-  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
-  whole->advance(20);
-  REQUIRE(whole->report().contact_steps > 5);
-  resumed->restore(whole->save());
-  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(40);
-  shared_out->advance(60);
-  CHECK(shared_out->state().motion == whole->state().motion);
-  CHECK(resumed->state().motion == whole->state().motion);
 }
 
 // A body of the mesh that was let down on the ground, with gravity at this angle to its normal.

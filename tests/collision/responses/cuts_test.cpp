@@ -1,0 +1,80 @@
+// Motions that are cut short: bodies pay for the energy, and momentum stays.
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+// A ball that falls on a small static one.
+ModelAndState ball_over_knob(double stiffness, double knob_radius) {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "knob"), soft(generate_mesh("icosphere:2"), "ball")};
+  setups[0].description.kind = BodyKind::immovable;
+  setups[0].description.scale = knob_radius;
+  setups[1].description.position = {0.03, 1.3, 0.02};
+  setups[1].description.rotation = {10, 20, 30};
+  setups[1].description.total_stiffness = stiffness;
+  GroundDescription ground;
+  ground.point = {0, -1.03, 0};
+  return build_model(setups, {0, -9.81, 0}, {&ground, 1});
+}
+
+TEST_CASE("motions that are cut short add no energy, and what does not move tells what it gave") {
+  struct Fall {
+    double stiffness, knob_radius, time_step;
+  };
+  // With a small gap, because with the usual one nothing is cut.
+  for (const Fall& fall : {Fall{300, 0.05, 0.005}, Fall{1000, 0.12, 0.01}, Fall{3000, 0.12, 0.01}}) {
+    for (const int precision : {64, 32}) {
+      CAPTURE(fall.stiffness, precision);
+      const ModelAndState start = ball_over_knob(fall.stiffness, fall.knob_radius);
+      const auto device = make_cpu_device(1, precision);
+      Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", fall.time_step}),
+                            {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.01});
+      const Energies seen = energies_of(simulation, start, {0, -9.81, 0}, 2);
+      CHECK(seen.report.reverted_vertices > 20);
+      CHECK(seen.most < 1.001 * seen.first);
+      CHECK(glm::length(seen.momentum) < (precision == 64 ? 1e-11 : 1e-4));
+    }
+  }
+}
+
+// A body that oscillates wildly beside another one.
+ModelAndState wild_beside_still() {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "wild"), soft(generate_mesh("icosphere:1"), "still")};
+  setups[0].description.stretch = {0.3, 1, 1};
+  setups[0].description.velocity = {1, 0.3, 0};
+  setups[1].description.position = {1.45, 0, 0};
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("cuts between bodies that move keep momentum, and pay for their energy") {
+  const ModelAndState start = wild_beside_still();
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 1.0 / omega}), by_impulses);
+  const bench::Seen seen = bench::watch(simulation, start, {.steps = 60});
+  CHECK(seen.report.reverted_vertices > 0);
+  CHECK(seen.momentum_change < 1e-14);
+  CHECK(seen.most_energy < 1e-3);
+}
+
+TEST_CASE("paying for cuts gives the same bits on any number of threads, and after saving") {
+  const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.01};
+  const ModelAndState start = ball_over_knob(3000, 0.12);
+  const auto simulation_on = [&](Device& device) {
+    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.01}), without_bounce);
+  };
+  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
+  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
+  whole->advance(200);
+  REQUIRE(whole->report().reverted_vertices > 0);
+  resumed->restore(whole->save());
+  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(60);
+  shared_out->advance(260);
+  CHECK(shared_out->state().motion == whole->state().motion);
+  CHECK(resumed->state().motion == whole->state().motion);
+}
+
+}  // namespace
+}  // namespace pliant

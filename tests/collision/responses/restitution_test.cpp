@@ -1,0 +1,120 @@
+// What bodies keep of their approach where a scene asks for restitution.
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+// What is left of the approach after spheres of 1 kg met at 2 m/s, by the centres of mass.
+struct Parting {
+  double kept = 0;             // of the speed of the first sphere
+  double momentum_change = 0;  // [Ns]
+  double angular_momentum_change = 0, most_energy = 0;
+  StepReport report;
+};
+
+glm::dvec3 mean_velocity(const Model& model, const State& state, const ModelBody& body) {
+  const std::vector<glm::dvec3> velocities = state.world_velocities(model);
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) sum += velocities[i];
+  return sum / static_cast<double>(body.vertex_count);
+}
+
+ModelAndState spheres_in_flight(double off_centre, double stiffness, std::optional<double> first, std::optional<double> second) {
+  std::vector<BodySetup> setups;
+  for (const double side : {-1.0, 1.0}) {
+    BodySetup& setup = setups.emplace_back(soft(generate_mesh("icosphere:2"), side < 0 ? "left" : "right"));
+    setup.description.position = {1.05 * side, off_centre * side, 0};
+    setup.description.rotation = {10 * side, 20, 0};
+    setup.description.velocity = {-side, 0, 0};
+    setup.description.total_stiffness = stiffness;
+    setup.description.restitution = side < 0 ? first : second;
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+Parting part_after_impact(const ModelAndState& start, double stiffness, const glm::dvec3& gravity = glm::dvec3(0.0),
+                          std::optional<double> of_scene = {}) {
+  const double time_step = 0.3 / std::sqrt(stiffness);
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", time_step}),
+                        {.response = {"impulse"}, .elasticity = 0, .friction = 0, .restitution = of_scene});
+  const ModelBody& body = start.model.bodies[0];
+  const double before = glm::length(mean_velocity(start.model, start.state, body));
+  const Energies seen = energies_of(simulation, start, gravity, 80 / std::sqrt(stiffness));
+  return {.kept = glm::length(mean_velocity(start.model, simulation.state(), body)) / before,
+          .momentum_change = glm::length(seen.momentum),
+          .angular_momentum_change = glm::length(seen.angular_momentum_change),
+          .most_energy = seen.most / seen.first,
+          .report = seen.report};
+}
+
+TEST_CASE("spheres keep the part of their approach that restitution asks for") {
+  for (const double restitution : {0.9, 0.7, 0.5}) {
+    CAPTURE(restitution);
+    const Parting parting = part_after_impact(spheres_in_flight(0, total_stiffness, restitution, restitution), total_stiffness);
+    CHECK(parting.kept == Approx(restitution).margin(0.1));
+    CHECK(parting.momentum_change < 1e-14);
+    CHECK(parting.most_energy < 1.001);
+  }
+  CHECK(part_after_impact(spheres_in_flight(0, total_stiffness, 0, 0), total_stiffness).kept < 0.4);
+}
+
+TEST_CASE("restitution keeps the angular momentum of spheres that meet off their centres as well as other contact does") {
+  const Parting with = part_after_impact(spheres_in_flight(0.5, total_stiffness, 0.3, 0.3), total_stiffness);
+  const Parting without = part_after_impact(spheres_in_flight(0.5, total_stiffness, {}, {}), total_stiffness);
+  CHECK(with.report.contact_steps > 5);
+  CHECK(with.momentum_change < 1e-14);
+  CHECK(with.angular_momentum_change < 2 * without.angular_momentum_change + 1e-13);
+  CHECK(with.most_energy < 1.001);
+}
+
+TEST_CASE("the restitution of two bodies is the geometric mean, or that of the only one that has any") {
+  const auto kept = [](std::optional<double> first, std::optional<double> second, std::optional<double> of_scene = {}) {
+    return part_after_impact(spheres_in_flight(0, total_stiffness, first, second), total_stiffness, glm::dvec3(0.0), of_scene)
+        .kept;
+  };
+  const double half = kept(0.5, 0.5);
+  CHECK(kept(0.25, 1) == half);
+  CHECK(kept(0.5, {}) == half);
+  CHECK(kept({}, {}, 0.5) == half);
+  CHECK(kept({}, {}) > half + 0.2);
+}
+
+TEST_CASE("a ball leaves a ground, and a static body, with what its restitution asks for") {
+  BodySetup ball = soft(generate_mesh("icosphere:2"), "ball");
+  ball.description.position = {0, 1.05, 0};
+  ball.description.velocity = {0, -1, 0};
+  ball.description.rotation = {10, 20, 0};
+  ball.description.restitution = 0.5;
+  const GroundDescription ground;
+  const ModelAndState on_plane = build_model({&ball, 1}, glm::dvec3(0.0), {&ground, 1});
+  CHECK(part_after_impact(on_plane, total_stiffness).kept == Approx(0.5).margin(0.1));
+  BodySetup slab = soft(generate_mesh("cube:3"), "slab");
+  slab.description.kind = BodyKind::immovable;
+  slab.description.scale = 4;
+  slab.description.position = {0, -2, 0};
+  const std::vector<BodySetup> both = {ball, slab};
+  CHECK(part_after_impact(build_model(both, glm::dvec3(0.0)), total_stiffness).kept == Approx(0.5).margin(0.1));
+}
+
+TEST_CASE("impacts with restitution give the same bits on any number of threads, and after saving amid one") {
+  const ModelAndState start = spheres_in_flight(0.2, total_stiffness, 0.5, 0.3);
+  const auto simulation_on = [&](Device& device) {
+    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.3 / omega}), by_impulses);
+  };
+  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
+  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
+  whole->advance(20);
+  REQUIRE(whole->report().contact_steps > 5);
+  resumed->restore(whole->save());
+  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(40);
+  shared_out->advance(60);
+  CHECK(shared_out->state().motion == whole->state().motion);
+  CHECK(resumed->state().motion == whole->state().motion);
+}
+
+}  // namespace
+}  // namespace pliant

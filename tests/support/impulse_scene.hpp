@@ -1,0 +1,53 @@
+// What tests of contact by impulses share: soft bodies of 1 kg, and energy and momentum along a run.
+#pragma once
+#include <glm/geometric.hpp>
+
+#include "bench/contact/witness.hpp"
+#include "simulation/measure.hpp"
+#include "support/evolve.hpp"
+
+namespace pliant {
+
+inline const CollisionDescription by_impulses = {.response = {"impulse"}, .elasticity = 0.5};
+
+constexpr double total_stiffness = 1000, omega = 31.6227766;  // [N/m], [1/s] of a body of 1 kg
+
+inline BodySetup soft(TriangleMesh mesh, const char* name) {
+  BodySetup setup = body_of_mesh(std::move(mesh));
+  setup.description.name = name;
+  setup.description.total_mass = 1;
+  setup.description.total_stiffness = total_stiffness;
+  setup.description.damping = 0;
+  return setup;
+}
+
+// Measures a run in parts of steps.
+struct Energies {
+  double first = 0, most = 0, last = 0;  // [J]
+  glm::dvec3 momentum{0.0};              // the last one, less what gravity and what does not move have given [Ns]
+  glm::dvec3 angular_momentum_change{0.0};
+  StepReport report;
+};
+
+inline Energies energies_of(Simulation& simulation, const ModelAndState& start, const glm::dvec3& gravity, double duration) {
+  ThreadPool pool(1);
+  const Measurement before = measure(start.model, start.state, gravity, pool);
+  Energies seen;
+  seen.first = seen.most = before.energy();
+  Measurement now = before;
+  while (simulation.report().time < duration) {
+    simulation.advance(2);
+    now = measure(start.model, simulation.state(), gravity, pool);
+    seen.most = larger(seen.most, now.energy());
+  }
+  seen.report = simulation.report();
+  seen.last = now.energy();
+  double mass = 0;
+  for (const ModelBody& body : start.model.bodies)
+    if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
+  seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
+  seen.angular_momentum_change = now.angular_momentum - before.angular_momentum;
+  return seen;
+}
+
+}  // namespace pliant
