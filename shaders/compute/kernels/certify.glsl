@@ -15,7 +15,7 @@ SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
-#include "parts/box_of_caged_triangle.glsl"
+#include "parts/boxes_in_motion.glsl"
 
 uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
 uint rounds_at_most() { return cut_rounds; }

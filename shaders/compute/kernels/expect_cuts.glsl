@@ -66,7 +66,8 @@ void expect_cuts(uint i) {
   }
   for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(k, i);
   uint b = uint(rest_position[i].w);
-  uint before = displacement_of(in_half(from_half, vertex_count, i)), after = displacement_of(in_half(other_half(from_half), vertex_count, i));
+  uint before = displacement_of(in_half(from_half, vertex_count, i));
+  uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);
   dvec3 gone = dvec3(0);
   if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked, force_of(i)))

@@ -118,8 +118,10 @@ bool leads_to(IN(real3) edge, IN(real3) away) { return dot(away, edge) > flat_sl
 // at the vertex's own triangle and at those across its two edges.
 bool is_nearer_to_its_faces(IN(Pair) p, uint corner, IN_ARRAY(real3, places, 6), IN(real3) away, real part) {
   uint face = corner / 3u, k = corner % 3u, before = k == 0u ? 2u : k - 1u, after = k == 2u ? 0u : k + 1u;
-  if (leads_to(places[3u * face + before] - places[corner], away) || leads_to(places[3u * face + after] - places[corner], away)) return true;
-  uint t = face == 0u ? p.first : p.second, across_next = triangle_around[across_edge_of(t, k)], across_last = triangle_around[across_edge_of(t, before)];
+  if (leads_to(places[3u * face + before] - places[corner], away)) return true;
+  if (leads_to(places[3u * face + after] - places[corner], away)) return true;
+  uint t = face == 0u ? p.first : p.second;
+  uint across_next = triangle_around[across_edge_of(t, k)], across_last = triangle_around[across_edge_of(t, before)];
   if (across_next != no_vertex && leads_to(place_of(p, across_next, part) - places[corner], away)) return true;
   return across_last != no_vertex && leads_to(place_of(p, across_last, part) - places[corner], away);
 }
@@ -158,7 +160,8 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   real3 surplus_now = weighed_differences(mx - vx, my - vy, mz - vz, mw - vw, f.weight);
   real3 surplus_before =
       weighed_differences(LOAD3(surplus, surplus_of(0u, vertex_count, who.x)), LOAD3(surplus, surplus_of(0u, vertex_count, who.y)),
-                          LOAD3(surplus, surplus_of(0u, vertex_count, who.z)), LOAD3(surplus, surplus_of(0u, vertex_count, who.w)), f.weight);
+                          LOAD3(surplus, surplus_of(0u, vertex_count, who.z)), LOAD3(surplus, surplus_of(0u, vertex_count, who.w)),
+                          f.weight);
   Approach a;
   a.gap = p.gap;
   a.time_step = real(control[0].time_step);
@@ -253,13 +256,6 @@ void meet_feature(IN(Pair) p, uint feature) {
     meet_vertex(p, feature, feature < 3u ? real(1) : real(-1));
   else
     meet_edges(p, (feature - 6u) / 3u, (feature - 6u) % 3u);
-}
-
-Box joined(IN(Box) a, IN(Box) b) {
-  Box box;
-  box.lower = min(a.lower, b.lower);
-  box.upper = max(a.upper, b.upper);
-  return box;
 }
 
 // Returns the features whose ways come near each other, as far as the boxes of the corners' ways tell. `wanted` are those asked for.

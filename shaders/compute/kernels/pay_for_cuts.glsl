@@ -37,26 +37,8 @@ uint items_in_a_round() { return is_needed() ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round && is_needed(); }
 
-uint at_end(uint i) { return in_half(other_half(from_half), vertex_count, i); }
-dvec3 place_of(uint i) { return dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at_end(i))); }
-dvec3 velocity_of_vertex(uint i) { return LOAD3(motion, velocity_of(at_end(i))); }
-
-void sum_moments_of(uvec4 part, uint item) {
-  dvec3 origin = place_of(body[part.x].first_vertex);
-  Moments sum = no_moments();
-  for (uint i = part.y; i < part.z; ++i) add_vertex(sum, place_of(i) - origin, velocity_of_vertex(i));
-  part_moment[item] = sum;
-}
-
-RigidMotion rigid_motion_of_body(uint b) {
-  uvec2 range = vertex_part_range[b];
-  Moments sum = no_moments();
-  for (uint k = range.x; k < range.x + range.y; ++k) {
-    Moments more = part_moment[k];  // NVIDIA's compiler takes no shared element as an argument
-    add_moments(sum, more);
-  }
-  return rigid_motion_with(sum, body[b].vertex_count, place_of(body[b].first_vertex), dvec3(0));
-}
+uint moments_half() { return other_half(from_half); }
+#include "parts/rigid_motion_by_parts.glsl"
 
 // The energy that springs and gravity have more because the vertex went only this part of its way [J]. They would have given it the
 // change of its velocity over the step. No displacement of one vertex by d takes more than N k d^2 / 2 beyond that.
@@ -113,7 +95,7 @@ void pay(uvec4 part) {
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 along = velocity_at(rigid, place_of(i)), beside = velocity_of_vertex(i) - along;
     dvec3 velocity = of_rigid * along + of_deformation * beside;
-    STORE3(motion, velocity_of(at_end(i)), velocity)
+    STORE3(motion, velocity_of(vertex_at(i)), velocity)
   }
 }
 

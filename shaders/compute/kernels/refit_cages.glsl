@@ -10,7 +10,7 @@ READ(triangle)
 READ(cage)
 WRITE(arrival)
 READ(partner_step)
-#include "parts/box_of_caged_triangle.glsl"
+#include "parts/boxes_in_motion.glsl"
 #include "parts/refit.glsl"
 
 void refit_cages(uint item) { refit_tree(item); }

@@ -1,5 +1,5 @@
-// A kernel in rounds, at a step's start. One thread serves some vertices of a body. Bodies that touch and part faster than their restitution
-// allows lose their deformation velocities. So they have nothing that would drive them further apart. Both momenta stay.
+// A kernel in rounds, at a step's start. One thread serves some vertices of a body. Bodies that touch and part faster than their
+// restitution allows lose their deformation velocities. So they have nothing that would drive them further apart. Both momenta stay.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/rigid_motion.glsl"
@@ -30,31 +30,17 @@ PARAMETER(double, impact_unit)
 const uint last_round = 2u;
 
 bool goes_on_at(uint at) { return impact_part[at] != 0u && step_parts[0].parts - impact_part[at] < impact_ends_after; }
-bool is_needed() { return impact_part[impact_count(body_count)] != 0u && step_parts[0].parts - impact_part[impact_count(body_count)] <= impact_ends_after; }
+// The last entry has the latest part of all. One part more ends the impacts.
+bool is_needed() {
+  uint latest = impact_part[impact_count(body_count)];
+  return latest != 0u && step_parts[0].parts - latest <= impact_ends_after;
+}
 uint items_in_a_round() { return is_needed() ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round && is_needed(); }
 
-uint at_start(uint i) { return in_half(from_half, vertex_count, i); }
-dvec3 place_of(uint i) { return dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at_start(i))); }
-dvec3 velocity_of_vertex(uint i) { return LOAD3(motion, velocity_of(at_start(i))); }
-
-void sum_moments_of(uvec4 part, uint item) {
-  dvec3 origin = place_of(body[part.x].first_vertex);
-  Moments sum = no_moments();
-  for (uint i = part.y; i < part.z; ++i) add_vertex(sum, place_of(i) - origin, velocity_of_vertex(i));
-  part_moment[item] = sum;
-}
-
-RigidMotion rigid_motion_of_body(uint b) {
-  uvec2 range = vertex_part_range[b];
-  Moments sum = no_moments();
-  for (uint k = range.x; k < range.x + range.y; ++k) {
-    Moments more = part_moment[k];  // NVIDIA's compiler takes no shared element as an argument
-    add_moments(sum, more);
-  }
-  return rigid_motion_with(sum, body[b].vertex_count, place_of(body[b].first_vertex), dvec3(0));
-}
+uint moments_half() { return from_half; }
+#include "parts/rigid_motion_by_parts.glsl"
 
 bool is_movable(uint b) { return b < body_count && surface[b].inverse_mass > double(0); }
 
@@ -111,7 +97,7 @@ void take_deformation(uvec4 part) {
   RigidMotion rigid = rigid_motion_of_body(part.x);
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 along = velocity_at(rigid, place_of(i)), velocity = along + kept * (velocity_of_vertex(i) - along);
-    STORE3(motion, velocity_of(at_start(i)), velocity)
+    STORE3(motion, velocity_of(vertex_at(i)), velocity)
   }
 }
 

@@ -1,7 +1,7 @@
 // A kernel in rounds. One thread serves one contact in one round of a kick. It finds the impulse that its velocity asks for, with all
 // impulses of the round before, and adds it to its vertices. In the first round contacts at rest add what they had in the last step: the
-// other rounds alone would leave a little of every impulse out, and what rests would creep. After the last of these rounds it kicks those of its vertices that no other
-// contact has kicked yet, and adds up what the contact did to energy.
+// other rounds alone would leave a little of every impulse out, and what rests would creep. After the last of these rounds it kicks those
+// of its vertices that no other contact has kicked yet, and adds up what the contact did to energy.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

@@ -1,4 +1,4 @@
-// Boxes around a triangle's corners, at a place in leaf order: of their cages, and of the ways they go.
+// Boxes around a triangle in motion, at a place in leaf order: around its corners' cages, and around the ways they go.
 Box box_around(uint a, uint b, uint c) {
   Box box;
   box.lower = vec3(min(min(cage[a], cage[b]), cage[c]));

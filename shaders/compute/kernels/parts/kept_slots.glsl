@@ -1,6 +1,6 @@
 // Finds contacts of the last step again, whatever order they stand in. A contact's place among the slots follows from its vertices, or is
-// the next one that is free. Entries of other steps count as free. Numbers of steps
-// come back after a while, so an entry has to be compared with the contact that it names.
+// the next one that is free. Entries of other steps count as free. Numbers of steps come back after a while, so an entry has to be compared
+// with the contact that it names.
 PARAMETER(uint, kept_slot_count)  // a power of two
 
 // No entry is 0, which means that nobody has written there.

@@ -1,6 +1,6 @@
 // Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
 // `first` on. Pairs are counted beyond the list's end, too.
-#include "box_of_caged_triangle.glsl"
+#include "boxes_in_motion.glsl"
 
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];

@@ -13,8 +13,6 @@ FourBoxes four_boxes(uint t, uint end) {
   return four;
 }
 
-Box joined(Box a, Box b) { return grow(grow(a, b.lower), b.upper); }
-
 Box box_of_triangles(uint begin, uint end) {
   Box box = empty_box();
   for (uint t = begin; t < end; t += 4u) {

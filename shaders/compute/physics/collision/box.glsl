@@ -26,6 +26,14 @@ FN Box grow(Box box, vec3 p) {
 
 FN Box triangle_box(vec3 p, vec3 q, vec3 r) { return grow(grow(grow(empty_box(), p), q), r); }
 
+// The smallest box around two.
+FN Box joined(IN(Box) a, IN(Box) b) {
+  Box box;
+  box.lower = min(a.lower, b.lower);
+  box.upper = max(a.upper, b.upper);
+  return box;
+}
+
 // Boxes are closed: touching ones overlap.
 FN bool overlaps(Box a, Box b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&

@@ -48,10 +48,12 @@ FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
   return b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge);
 }
 
-// How far apart shadows of two triangles have to be on an axis whose components sum to 1 [m]. `size` bounds the corners' coordinates, summed,
-// about one of the corners, and `far` those of that corner in the world and about its body's centre [m]. Shadows err by at most 8 roundings
-// of `size`, in numbers of this epsilon. Positions in the world err by some roundings in fp64.
-FN double margin_of_rounding(double epsilon, double size, double far) { return double(8) * epsilon * size + double(32) * double(1.1e-16) * (far + size); }
+// How far apart shadows of two triangles have to be on an axis whose components sum to 1 [m]. `size` bounds the corners' coordinates,
+// summed, about one of the corners, and `far` those of that corner in the world and about its body's centre [m]. Shadows err by at most 8
+// roundings of `size`, in numbers of this epsilon. Positions in the world err by some roundings in fp64.
+FN double margin_of_rounding(double epsilon, double size, double far) {
+  return double(8) * epsilon * size + double(32) * double(1.1e-16) * (far + size);
+}
 
 // Properties of a pair are geometric means.
 FN double mean_of_pair(double a, double b) { return sqrt(a * b); }
