@@ -113,6 +113,8 @@ class Device {
   virtual void run(std::span<const Pass> passes) = 0;
   /// Returns how many items keep the device busy. That is how finely a search is best cut.
   [[nodiscard]] virtual std::uint32_t parallel_items() const = 0;
+  /// Returns how many items best share a list in strides, if only the device knows the list's length.
+  [[nodiscard]] virtual std::uint32_t items_of_lists() const = 0;
   /// Waits until everything has run.
   virtual void finish() = 0;
 

@@ -100,6 +100,14 @@ std::vector<double> numbers_of(const physics::BoxBits& box) {
   return numbers;
 }
 
+std::vector<double> numbers_of(const physics::Room& room) {
+  const auto to_others = static_cast<double>(std::bit_cast<float>(room.to_others));
+  std::vector<double> numbers{std::isinf(to_others) ? 1e30 : to_others};
+  for (const auto& push : {room.least_push, room.most_push})
+    for (int k = 0; k < 3; ++k) numbers.push_back(physics::from_ordered_bits(push[k]));
+  return numbers;
+}
+
 std::vector<double> numbers_of(const physics::Status& status) {
   return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale)};
 }
@@ -314,6 +322,8 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       check_structs<physics::FrameChange>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "BoxBits") {
       check_structs<physics::BoxBits>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
+    } else if (element == "Room") {
+      check_structs<physics::Room>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
     } else if (element == "Status") {
       check_structs<physics::Status>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Tally") {

@@ -258,32 +258,43 @@ void meet_feature(IN(Pair) p, uint feature) {
     meet_edges(p, (feature - 6u) / 3u, (feature - 6u) % 3u);
 }
 
-// Returns the features whose ways come near each other, as far as the boxes of the corners' ways tell. `wanted` are those asked for.
+// The box of the way of a triangle's corner.
+Box way_box(uint t, uint k) {
+  uint at = way_box_of(triangle[corner_of(t, k)]);
+  Box box;
+  box.lower = vec3(cage[at]);
+  box.upper = vec3(cage[at + 1u]);
+  return box;
+}
+
+// Returns those of the wanted features whose ways come near each other, as far as the boxes of the corners' ways tell.
 uint near_features(uvec2 triangles, uint wanted) {
-  Box corner[6];
+  Box first[3], second[3];
   for (uint k = 0u; k < 3u; ++k) {
-    uint of_first = way_box_of(triangle[corner_of(triangles.x, k)]), of_second = way_box_of(triangle[corner_of(triangles.y, k)]);
-    corner[k].lower = vec3(cage[of_first]);
-    corner[k].upper = vec3(cage[of_first + 1u]);
-    corner[3u + k].lower = vec3(cage[of_second]);
-    corner[3u + k].upper = vec3(cage[of_second + 1u]);
+    first[k] = way_box(triangles.x, k);
+    second[k] = way_box(triangles.y, k);
   }
-  Box first = joined(joined(corner[0], corner[1]), corner[2]), second = joined(joined(corner[3], corner[4]), corner[5]);
+  Box edges[3];
+  for (uint k = 0u; k < 3u; ++k) edges[k] = joined(second[k], second[k == 2u ? 0u : k + 1u]);
+  Box all_first = joined(joined(first[0], first[1]), first[2]), all_second = joined(edges[0], second[2]);
   uint near = 0u;
-  if (!overlaps_at_once(first, second)) return near;
   for (uint k = 0u; k < 3u; ++k) {
-    if (overlaps_at_once(corner[k], second)) near |= 1u << k;
-    if (overlaps_at_once(corner[3u + k], first)) near |= 8u << k;
+    if (overlaps_at_once(first[k], all_second)) near |= 1u << k;
+    if (overlaps_at_once(second[k], all_first)) near |= 8u << k;
   }
-  for (uint j = 0u; j < 3u; ++j)
+  for (uint j = 0u; j < 3u; ++j) {
+    if ((wanted >> (6u + 3u * j) & 7u) == 0u) continue;
+    Box edge = joined(first[j], first[j == 2u ? 0u : j + 1u]);
     for (uint k = 0u; k < 3u; ++k)
-      if (overlaps_at_once(joined(corner[j], corner[j == 2u ? 0u : j + 1u]), joined(corner[3u + k], corner[k == 2u ? 3u : k + 4u])))
-        near |= 1u << (6u + 3u * j + k);
+      if (overlaps_at_once(edge, edges[k])) near |= 1u << (6u + 3u * j + k);
+  }
   return near & wanted;
 }
 
 void meet(uvec2 triangles) {
-  uint wanted = near_features(triangles, owned_features(triangles));
+  uint wanted = owned_features(triangles);
+  if (wanted == 0u) return;
+  wanted = near_features(triangles, wanted);
   if (wanted == 0u) return;
   Pair p = pair_of(triangles);
   for (uint feature = 0u; feature < 15u; ++feature)
@@ -293,5 +304,8 @@ void meet(uvec2 triangles) {
 void find_contacts(uint item) {
   if (control[0].time_step == double(0)) return;
   uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
-  for (uint k = item; k < count; k += pairs_at_once) meet(triangle_pair[k]);
+  for (uint k = item; k < count; k += pairs_at_once) {
+    uvec2 pair = triangle_pair[k];
+    if ((pair.y & ways_meet) != 0u) meet(uvec2(pair.x, pair.y & ~ways_meet));
+  }
 }

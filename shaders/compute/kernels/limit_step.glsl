@@ -1,7 +1,6 @@
 // One thread compares two bodies, and bounds the length of the step. No two vertices of them may come nearer than their distance and a
 // quarter edge beyond. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
-// much further than expected bodies that are far from each other may move without meeting, and how fast bodies that meet may push each
-// other away.
+// much further than expected bodies that are far from each other may move without meeting, and how bodies that meet may push each other.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
@@ -36,18 +35,25 @@ double distance_of_boxes(uint a, uint b) {
 // Shares the distance that is left of two bodies after the step. Rounding takes less than what is held back.
 void keep_apart(uint a, uint b, double distance) {
   uint share_of_it = floatBitsToUint(max(float(distance) * 0.45f, 0.0f));
-  LOWER_TO(room[a], share_of_it)
-  LOWER_TO(room[b], share_of_it)
+  LOWER_TO(room[a].to_others, share_of_it)
+  LOWER_TO(room[b].to_others, share_of_it)
 }
 
 // The most that a vertex of the first body gets of a speed: it meets a triangle, which weighs as three of the other's vertices.
 double share_of(uint a, uint b) { return surface[a].inverse_mass / (surface[a].inverse_mass + surface[b].inverse_mass / double(3)); }
 
+// Bounds what the second body may do to velocities of the first. A contact takes a part of the relative velocity w along its normal, and
+// friction at most all of the rest. All that this can give lies in the ball that has no change and w at opposite ends.
 void push_away(uint a, uint b, double speed) {
-  double change = (double(1) + mean_of_pair(surface[a].elasticity, surface[b].elasticity)) * speed;
-  uint of_a = floatBitsToUint(float(change * share_of(a, b))), of_b = floatBitsToUint(float(change * share_of(b, a)));
-  RAISE_TO(room[body_count + a], of_a)
-  RAISE_TO(room[body_count + b], of_b)
+  double part = (double(1) + mean_of_pair(surface[a].elasticity, surface[b].elasticity)) * share_of(a, b);
+  for (uint k = 0u; k < 3u; ++k) {
+    double least_along = -above(body_motion[a].upper[k], body_motion[b].lower[k]);
+    double most_along = above(body_motion[b].upper[k], body_motion[a].lower[k]);
+    uint least = ordered_bits(float(double(0.5) * part * (least_along - speed)));
+    uint most = ordered_bits(float(double(0.5) * part * (most_along + speed)));
+    LOWER_TO(room[a].least_push[k], least)
+    RAISE_TO(room[a].most_push[k], most)
+  }
 }
 
 void limit_step(uint item) {
@@ -63,6 +69,7 @@ void limit_step(uint item) {
     if (speed * longest > distance) {
       longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
       push_away(a, b, speed);
+      push_away(b, a, speed);
     }
     keep_apart(a, b, distance - speed * longest);
   }

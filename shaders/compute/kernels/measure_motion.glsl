@@ -1,4 +1,5 @@
-// One thread serves one vertex at a step's start. It extends the boxes of its body's places and of its expected velocities.
+// One thread serves one vertex at a step's start. It finds where the vertex is and how it moves. It extends the boxes of its body's places
+// and of its expected velocities.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -10,6 +11,8 @@ READ(pose)
 READ(rest_position)
 READ(motion)
 READ(surplus)
+WRITE(start)
+WRITE(unkicked)
 WRITE(body_motion)
 WRITE(body_box)
 WRITE(status)
@@ -22,7 +25,11 @@ void measure_motion(uint i) {
   uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
-  dvec3 mean = rotate(pose[b], LOAD3(motion, velocity_of(at))) + (latest + double(0.5) * (latest - before));
+  dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
+  STORE3(start, start_position_of(i), position)
+  STORE3(start, start_velocity_of(i), velocity)
+  STORE3(unkicked, force_of(i), in_frame)
+  dvec3 mean = velocity + (latest + double(0.5) * (latest - before));
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
     uint bits = ordered_bits(float(mean[int(k)]));

@@ -2,6 +2,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 WRITE(control)
@@ -71,11 +72,11 @@ void prepare_next_step(uint i, uint b) {
   }
   if (i != body[b].first_vertex) return;
   if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
-  room[b] = no_bound;
-  room[body_count + b] = 0u;
+  room[b].to_others = no_bound;
   for (uint k = 0u; k < 3u; ++k) {
     body_motion[b].lower[k] = 0xffffffffu;
     body_motion[b].upper[k] = 0u;
+    room[b].least_push[k] = room[b].most_push[k] = ordered_bits(0.0f);
   }
 }
 

@@ -26,7 +26,6 @@ constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
-constexpr std::uint32_t least_threads = 4096;  // tree_search.cpp says why threads must not be too few
 
 // Static bodies take part in impacts only if they have a restitution of their own.
 std::optional<double> restitution_of(const ModelBody& body, const CollisionDescription& description) {
@@ -101,7 +100,7 @@ class Impulse final : public Response {
         trees_(setting.trees),
         has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
         divides_steps_(setting.step_lengths == StepLengths::fixed),
-        items_at_once_(std::max(setting.bodies.arrays.device().parallel_items(), least_threads)) {
+        items_at_once_(setting.bodies.arrays.device().items_of_lists()) {
     Arrays& arrays = setting.bodies.arrays;
     const std::size_t vertices = bodies_.vertex_count;
     std::vector<physics::Surface> surfaces;
@@ -132,9 +131,10 @@ class Impulse final : public Response {
                                                                          .divides = divides_steps_ ? 1u : 0u}});
     if (divides_steps_) arrays.set_parameter("parts_of", time_step_);
     arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
-    std::vector<std::uint32_t> room(2 * std::size_t{bodies_.body_count});
-    std::fill_n(room.begin(), bodies_.body_count, physics::no_bound);
-    arrays.make("room", room);
+    const std::uint32_t none = physics::ordered_bits(0.0f);
+    arrays.make("room", std::vector(bodies_.body_count, physics::Room{.to_others = physics::no_bound,
+                                                                      .least_push = {none, none, none},
+                                                                      .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
     arrays.make<glm::uvec2>("contact_sum", physics::contact_sums);
     arrays.make<double>("contact_total", physics::contact_sums);
@@ -144,6 +144,7 @@ class Impulse final : public Response {
     arrays.make<double>("expected", 3 * vertices);
     arrays.make<double>("surplus", 6 * vertices);
     arrays.make<glm::vec4>("cage", 4 * vertices);
+    arrays.make<glm::vec4>("triangle_bounds", 4 * setting.forest.triangles.size());
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
@@ -172,7 +173,7 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"impact_unit", impact_unit()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
-    passes.push_back(make_pass(arrays, "expect_motion", {{"from_half", from_half}}, bodies_.vertex_count));
+    passes.push_back(make_pass(arrays, "expect_motion", {}, bodies_.vertex_count));
     if (keeps_impulses())
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));

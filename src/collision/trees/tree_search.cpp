@@ -83,7 +83,7 @@ Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capac
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
   const std::uint32_t starts = start_count(), pairs = near_pairs_at_once(),
-                      leaf_pairs = std::max(parallel_items_, least_threads) / 4;
+                      leaf_pairs = bodies_.arrays.device().items_of_lists() / 4;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
           make_pass(bodies_.arrays, "find_cage_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},

@@ -131,6 +131,8 @@ class GpuDevice final : public Device {
     for (const Pass& pass : passes) dispatch(pass);
   }
   std::uint32_t parallel_items() const override { return context_.adapter().is_software ? 256 : 65536; }
+  // tree_search.cpp says why llvmpipe needs more than keep it busy.
+  std::uint32_t items_of_lists() const override { return context_.adapter().is_software ? 4096 : 65536; }
   void finish() override { glFinish(); }
   void mark_time() override {
     glGenQueries(1, &marks_.emplace_back());

@@ -6,7 +6,7 @@ Box box_around(uint a, uint b, uint c) {
   return box;
 }
 
-Box box_of_triangle(uint t) {
+Box box_of_cages(uint t) {
   return box_around(cage_of(triangle[corner_of(t, 0u)]), cage_of(triangle[corner_of(t, 1u)]), cage_of(triangle[corner_of(t, 2u)]));
 }
 

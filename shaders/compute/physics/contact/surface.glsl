@@ -15,6 +15,13 @@ struct Surface {
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
 };
 
+// How much further than expected the vertices of a body may go.
+struct Room {
+  uint to_others;      // without meeting a body that is far [m], as bits of a float
+  uint least_push[3];  // by which bodies that meet it may change a velocity along each axis [m/s], as bits that order as floats do
+  uint most_push[3];
+};
+
 // A half-space that bodies stay out of: all points x with normal . x < offset.
 struct Ground {
   double normal[3];
