@@ -1,5 +1,5 @@
-// The frame around every kernel but the force kernels, which have force.comp. It includes the kernel's file by name. One thread calls
-// the kernel's function for one item.
+// The frame around every kernel but force kernels, which have force.comp, and kernels in rounds, which have rounds.comp. It includes the
+// kernel's file by name. One thread calls the kernel's function for one item.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"

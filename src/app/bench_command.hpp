@@ -21,7 +21,7 @@ struct BenchOptions {
   std::filesystem::path json;                     // empty: no file
   bool quick = false;                             // figures of the right size in a few seconds
   bool all_variants = false;                      // forces: every way of summing that a device knows
-  std::filesystem::path scenes = "scenes";        // steps, precision, draw: folder of scenes
+  std::filesystem::path scenes = "scenes";        // steps, precision, contact, draw: folder of scenes
   std::array<std::uint32_t, 2> size{1920, 1080};  // draw: size of the picture [pixels]
 };
 

@@ -57,7 +57,7 @@ class Stepper {
   const Integrator& integrator_;
   std::uint32_t law_;  // as kernels of stages know it
   double time_step_;
-  std::uint32_t stage_count_;
+  std::uint32_t stage_count_ = 0;
 };
 
 }  // namespace pliant

@@ -148,6 +148,7 @@ void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
 
 void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   PLIANT_EXPECT(first_byte <= size_ && data.size() <= size_ - first_byte);
+  if (data.empty()) return;
   const auto size = static_cast<GLsizeiptr>(data.size());
   GLuint copy = 0;
   glCreateBuffers(1, &copy);

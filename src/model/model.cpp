@@ -20,6 +20,7 @@ namespace {
 
 constexpr double largest_coordinate = 1e9;  // [m]
 constexpr double smallest_radius = 1e-6;    // [m]
+constexpr std::size_t most_bodies = 65535;  // because pairs of bodies are counted in 32 bits
 
 glm::dvec3 mean(const std::vector<glm::dvec3>& points) {
   glm::dvec3 sum(0.0);
@@ -129,6 +130,12 @@ void check_start(std::span<const BodySetup> setups, const ModelAndState& built) 
   }
 }
 
+void expect_room_for(std::span<const BodySetup> setups) {
+  if (setups.size() > most_bodies)
+    throw body_error(setups[most_bodies].description, fmt::format("is one of {} bodies", setups.size()),
+                     fmt::format("leave bodies out: there may be {}", most_bodies));
+}
+
 // Pressure turns infinite as the volume goes to zero.
 void expect_not_flattened(const BodyDescription& description) {
   const glm::dvec3& stretch = description.stretch;
@@ -195,6 +202,7 @@ std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
 
 ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
                           std::span<const GroundDescription> grounds) {
+  expect_room_for(setups);
   ModelAndState built;
   for (const GroundDescription& ground : grounds) built.model.grounds.push_back(make_ground(ground));
   for (const BodySetup& setup : setups) append_body(setup, gravity, built);

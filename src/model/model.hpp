@@ -109,6 +109,7 @@ struct ModelAndState {
 /// Builds bodies from meshes: scale, stretch about the centroid, rotate about the mesh's origin, translate.
 /// `gravity` is that of the world [m/s^2].
 /// Throws Error (input) if
+/// - there are more than 65,535 bodies,
 /// - a mesh has no vertices,
 /// - a mesh with pressure inside is open, not wound outward or flat, or is stretched to 1e-6 of its volume or inside out,
 /// - a body's radius is above 0 but below 1e-6 m,

@@ -26,12 +26,14 @@ struct PreparedRun {
   Stopwatch load_time, build_time;
 };
 
-/// Returns a run that must not move, because its simulation refers to its model. Throws Error.
+/// Returns a run that must not move, because its simulation refers to its model. Throws Error, also if bodies intersect at the
+/// start that the response keeps apart.
 /// The run's warnings tell of
 /// - flaws of meshes
 /// - an integrator that was replaced because it can't meet the tolerance
 /// - a step beyond the stability bound, or no step at all
-/// - bodies that intersect at the start.
+/// - bodies that intersect at the start, if the response does not keep them apart
+/// - masses that differ so much, or bodies so far out, that rounding harms contacts.
 [[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options);
 
 }  // namespace pliant

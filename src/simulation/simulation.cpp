@@ -160,7 +160,7 @@ StepReport Simulation::report() {
                                   .takes_too_many = known_pace_.failure == physics::too_many_steps};
   }
   add_collision_counts(report, control);
-  const std::uint64_t searches = report.steps + (report.adaptive ? report.adaptive->rejected : 0);
+  const std::uint64_t searches = report.steps + report.substeps + (report.adaptive ? report.adaptive->rejected : 0);
   if (collider_.response() != nullptr && collider_.uses_trees())
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
   expect_groups_met(bodies_.statuses.download());

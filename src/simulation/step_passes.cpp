@@ -1,5 +1,7 @@
 #include "simulation/step_passes.hpp"
 
+#include "physics/layout.glsl"
+
 namespace pliant {
 namespace {
 
@@ -17,7 +19,7 @@ class List {
 
 // Frames follow their bodies while search passes run that do not use the changed arrays.
 void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
-  const std::uint32_t half = 1 - from_half;
+  const std::uint32_t half = physics::other_half(from_half);
   step.add(collider.pairing_passes());
   step.add(collider.refitting_passes(half));
   step.add(beside_next(stepper.following_pass(from_half)));
@@ -35,7 +37,7 @@ void add_following(List& step, const Stepper& stepper, std::uint32_t from_half) 
 
 std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider,
                               std::uint32_t from_half, const Pacer* pacer) {
-  const std::uint32_t half = 1 - from_half;
+  const std::uint32_t half = physics::other_half(from_half);
   const Response* const response = collider.response();
   const bool searches = response != nullptr && response->answers_touching();
   List step;

@@ -30,6 +30,10 @@ Parameter parameter_of(const Arrays& arrays, std::string_view kernel, Parameters
   return *value;
 }
 
+std::logic_error not_made(std::string_view name) {
+  return std::logic_error(fmt::format("nobody has made the array \"{}\"", name));
+}
+
 void expect_declared(std::string_view kernel, const KernelSignature& signature, Parameters own) {
   for (const auto& [name, value] : own)
     if (std::ranges::find(signature.parameters, name, &KernelSignature::Number::name) == signature.parameters.end())
@@ -70,7 +74,7 @@ void Arrays::expect_element(std::string_view name, std::string_view element) {
 const Arrays::Held& Arrays::find(std::string_view name, std::string_view element) const {
   if (!element.empty()) expect_element(name, element);
   const auto found = held_.find(name);
-  if (found == held_.end()) throw std::logic_error(fmt::format("nobody has made the array \"{}\"", name));
+  if (found == held_.end()) throw not_made(name);
   return found->second;
 }
 
@@ -82,9 +86,10 @@ const Parameter* Arrays::parameter(std::string_view name) const {
 }
 
 void Arrays::carry_part(std::string_view name, std::size_t first_byte, std::size_t byte_count) {
-  CarriedArray& bytes = held_.find(name)->second.bytes;
-  bytes.first_byte = first_byte;
-  bytes.byte_count = byte_count;
+  const auto found = held_.find(name);
+  if (found == held_.end()) throw not_made(name);
+  found->second.bytes.first_byte = first_byte;
+  found->second.bytes.byte_count = byte_count;
 }
 
 std::vector<CarriedArray> Arrays::carried() const {

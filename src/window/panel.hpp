@@ -33,8 +33,9 @@ struct Facts {
   std::filesystem::path scene;
   std::vector<std::string> bodies;
   std::uint64_t step = 0, vertices = 0;
-  double time = 0, time_step = 0, pictures_per_second = 0;  // [s]; time_step 0: a tolerance governs it
-  std::optional<double> tolerance;
+  double time = 0, time_step = 0;   // [s]
+  std::optional<double> tolerance;  // empty: all steps have the length time_step
+  double pictures_per_second = 0;
   double factor = 1;           // simulated time over real time
   unsigned deepest_level = 0;  // of the trees
   StepReport report;

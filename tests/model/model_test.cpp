@@ -159,6 +159,18 @@ TEST_CASE("a mesh without vertices, and numbers beyond reach, are input errors t
   check_says(broken([](BodySetup& s) { s.description.spin = {0, 1e9, 0}; }), {"body.lopsided", "faster"});
 }
 
+TEST_CASE("more bodies than pairs can be counted of are an input error that names the first one too many") {
+  BodySetup point;
+  point.mesh.positions = {{0, 0, 0}};
+  std::vector<BodySetup> setups(65536, point);
+  setups.back().description.name = "last";
+  const Error error = error_of([&] { return build_model(setups, {0, 0, 0}); });
+  CHECK(error.kind() == ErrorKind::input);
+  check_says(error, {"body.last", "65536 bodies", "65535"});
+  setups.pop_back();
+  CHECK_NOTHROW(build_model(setups, {0, 0, 0}));
+}
+
 TEST_CASE("a point cloud without triangles is a body") {
   BodySetup setup;
   setup.mesh.positions = {{-1, 0, 0}, {1, 0, 0}};

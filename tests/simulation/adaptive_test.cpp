@@ -58,14 +58,6 @@ std::vector<glm::vec3> drawn_positions(Simulation& simulation) {
   return positions;
 }
 
-// How many nodes all trees have from where searches start down.
-std::uint64_t nodes_of_a_search(const Collider& collider) {
-  std::vector<unsigned> depths;
-  for (const glm::uvec4& node : collider.forest().nodes) depths.push_back(node.y == no_node ? 0 : depths[node.y] + 1);
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(depths, [&](unsigned depth) { return depth >= collider.trees().start_depth(); }));
-}
-
 double largest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = larger(largest, glm::length(a[i] - b[i]));

@@ -301,6 +301,26 @@ TEST_CASE("bodies that meet by impulses do no tree work while they are far apart
   CHECK(lone.collider().response() == nullptr);
 }
 
+TEST_CASE("in each part of a step a body's tree is refitted or counted as skipped") {
+  auto setups = colliding_spheres();
+  for (BodySetup& setup : setups) {
+    setup.description.position *= 3;
+    setup.description.velocity *= 20;  // so that steps fall into parts
+  }
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(usual), CollisionDescription{});
+  simulation.advance(20);
+  const StepReport report = simulation.report();
+  const std::uint64_t parts = report.steps + report.substeps;
+  CHECK(report.steps == 20);
+  CHECK(report.substeps > 0);
+  CHECK(report.refits_skipped > 0);
+  CHECK(report.refits_skipped % 2 == 0);  // of two bodies either both are another's partner or none is
+  CHECK(report.refits_skipped < 2 * parts);
+  CHECK(report.nodes_refitted == nodes_of_a_search(simulation.collider()) * (parts - report.refits_skipped / 2));
+}
+
 TEST_CASE("a force evaluation counts every ordered pair of a body's vertices") {
   BodySetup setup = sphere(1);
   setup.description.stretch = {1.1, 1, 1};

@@ -39,11 +39,12 @@ TEST_CASE("docs/conventions.md repeats the list of arrays") {
   CHECK(text.substr(begin, end + 1 - begin) == expected);
 }
 
-TEST_CASE("an array that nobody has made is named with the kernel that reads it") {
+TEST_CASE("an array that nobody has made is named, with the kernel that reads it") {
   const auto device = make_cpu_device(1, 32);
   Arrays arrays(*device);
   arrays.make<physics::Control>("control", 1);
   CHECK_THROWS_WITH(make_pass(arrays, "judge_step", {}, 1), Contains("judge_step") && Contains("pace"));
+  CHECK_THROWS_WITH(arrays.carry_part("pace", 0, 8), Contains("pace"));
   arrays.make<physics::Pace>("pace", 1);
   CHECK_NOTHROW(make_pass(arrays, "judge_step", {}, 1));
 }

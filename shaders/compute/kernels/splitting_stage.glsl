@@ -26,11 +26,10 @@ PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if 
 #include "parts/place.glsl"
 #include "parts/end_step.glsl"
 #include "parts/kick.glsl"
+#include "parts/part_of_step.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return slot_of_force(stage_index); }
-
-#include "parts/part_of_step.glsl"
 
 // These read the tableau's two rows for this stage.
 double kick_time() { return part_of_step() * tableau[splitting_row_size * stage_index].x; }    // [s]

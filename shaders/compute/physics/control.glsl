@@ -8,7 +8,7 @@ SHARED_BEGIN
 const uint certified_test = 0u;
 const uint moller_test = 1u;
 
-const uint group_size = 64u;  // threads in a work group of every kernel
+const uint group_size = 64u;  // threads in a work group of main.comp
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
 const uint threads_per_leaf_pair = 16u;  // in test_pairs
 const uint no_node = 0xffffffffu;  // parent of a root, or root of a body without triangles

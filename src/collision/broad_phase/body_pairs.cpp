@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "core/expect.hpp"
+
 namespace pliant {
 
 BodyPairs::BodyPairs(DeviceBodies& bodies)
     : bodies_(bodies), most_pairs_(std::max(bodies.body_count * (bodies.body_count - 1) / 2, 1u)) {
+  PLIANT_EXPECT(bodies.body_count <= 65535);
   bodies.arrays.make<std::uint32_t>("partner_step", bodies.body_count);
   bodies.arrays.make<glm::uvec2>("near_pair", most_pairs_);
 }

@@ -7,7 +7,7 @@ namespace pliant {
 
 class BodyPairs {
  public:
-  /// `bodies` must outlive this.
+  /// `bodies` must outlive this. Expects at most 65,535 bodies, because pairs are counted in 32 bits.
   explicit BodyPairs(DeviceBodies& bodies);
 
   /// Returns how many near pairs there can be, at least 1.

@@ -23,7 +23,8 @@ constexpr std::uint32_t ratio_up(std::uint32_t count, std::uint32_t length) { re
 std::vector<Isa> find_isas() {
   std::vector<Isa> isas{Isa::portable};
 #ifdef PLIANT_X86_TILES
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) isas.push_back(Isa::avx2);
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return isas;
+  isas.push_back(Isa::avx2);
   if (__builtin_cpu_supports("avx512f")) isas.push_back(Isa::avx512);
 #endif
   return isas;

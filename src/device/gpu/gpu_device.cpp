@@ -127,7 +127,7 @@ class GpuDevice final : public Device {
   }
 
   void run(std::span<const Pass> passes) override {
-    bound_.fill(0);  // others may have bound theirs since
+    bound_ = {};  // others may have bound theirs since
     for (const Pass& pass : passes) dispatch(pass);
   }
   std::uint32_t parallel_items() const override { return context_.adapter().is_software ? 256 : 65536; }
@@ -158,6 +158,10 @@ class GpuDevice final : public Device {
     gl::Program program;
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
+  };
+  // By slot. OpenGL counts uniform blocks and storage blocks apart.
+  struct Bindings {
+    std::array<BufferId, max_arrays> storage{}, constants{};
   };
 
   KernelId build(const std::string& name, const Caller& caller, const std::vector<gl::Define>& defines) {
@@ -197,10 +201,11 @@ class GpuDevice final : public Device {
   }
 
   void bind(std::size_t slot, BufferId buffer, ArrayUse use) {
-    if (bound_[slot] == buffer) return;
-    bound_[slot] = buffer;
-    glBindBufferBase(use == ArrayUse::constants ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot),
-                     gl_buffer(buffer));
+    const bool is_constant = use == ArrayUse::constants;
+    BufferId& bound = (is_constant ? bound_.constants : bound_.storage)[slot];
+    if (bound == buffer) return;
+    bound = buffer;
+    glBindBufferBase(is_constant ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(buffer));
   }
 
   void prepare(const KernelCall& call) {
@@ -228,7 +233,7 @@ class GpuDevice final : public Device {
   std::vector<gl::ShaderFile> files_ = all_shader_files();
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;
-  std::array<BufferId, max_arrays> bound_{};  // by slot, where constants have slots of their own
+  Bindings bound_;
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::vector<Kernel> kernels_;
   BufferId next_buffer_ = 1;

@@ -143,18 +143,13 @@ double highest_stiffness(const Inflation& inside) {
 double pressure_frequency_squared(const ModelBody& body) { return highest_stiffness(body.inflation) / body.vertex_mass; }
 
 std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at) {
+  constexpr const char* remedy = "use shorter steps, or a smaller tolerance if one governs them";
   if (at.volume < least_volume * body.inflation.rest_volume)
-    return fmt::format(
-        "body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so use shorter steps, "
-        "or a "
-        "smaller tolerance if one governs them",
-        body.name, least_volume);
+    return fmt::format("body \"{}\" was pressed below {} of its rest volume: the bound on steps holds only down to there, so {}",
+                       body.name, least_volume, remedy);
   if (stiffness_at(body.inflation, at) > highest_stiffness(body.inflation))
-    return fmt::format(
-        "body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so use shorter steps, or "
-        "a "
-        "smaller tolerance if one governs them",
-        body.name);
+    return fmt::format("body \"{}\" has a shape in which its pressure may be stiffer than the bound on steps assumes, so {}",
+                       body.name, remedy);
   return {};
 }
 
