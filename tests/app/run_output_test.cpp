@@ -46,6 +46,21 @@ TEST_CASE("a run writes its summary, history and final state") {
   CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
 }
 
+TEST_CASE("a run tells how many impulses there were at once, or triangle pairs that touched") {
+  const ScratchFolder folder;
+  for (const auto& [response, counted] : {std::pair("impulse", "impulses"), std::pair("reflect", "triangle pairs")}) {
+    const ProgramResult result =
+        run_program("run " + small_scene(folder).string() + " --device cpu --set collision.response=" + response + " --out " +
+                    folder.path.string());
+    CAPTURE(result.output);
+    REQUIRE(result.exit_code == 0);
+    const auto contacts = summary_in(folder.path)["contacts"];
+    CHECK(contacts["pairs_max"] > 0);
+    CHECK_THAT(result.output, Catch::Contains("contacts in " + contacts["steps"].text() + " steps, at most " +
+                                              contacts["pairs_max"].text() + " " + counted + " at once"));
+  }
+}
+
 TEST_CASE("a step longer than a frame gives one frame and one row of history, however much longer") {
   const ScratchFolder folder;
   for (const std::string time_step : {"0.01", "1e10"}) {
