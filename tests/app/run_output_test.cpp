@@ -9,6 +9,7 @@
 
 #include "core/read_text.hpp"
 #include "output/file_lock.hpp"
+#include "output/video.hpp"
 #include "support/has.hpp"
 #include "support/program.hpp"
 #include "support/runs.hpp"
@@ -44,6 +45,21 @@ TEST_CASE("a run writes its summary, history and final state") {
   CHECK(line_count(read_text(out / "final_state.csv")) == 1 + 84);
   CHECK(line_count(read_text(out / "history.csv")) == 1 + 1 + 12);  // t = 0, and frames at 60 per second until 0.2 s
   CHECK(result.output.find((out / "summary.json").string()) != std::string::npos);
+}
+
+TEST_CASE("a run tells how many impulses there were at once, or triangle pairs that touched") {
+  const ScratchFolder folder;
+  for (const auto& [response, counted] : {std::pair("impulse", "impulses"), std::pair("reflect", "triangle pairs")}) {
+    const ProgramResult result =
+        run_program("run " + small_scene(folder).string() + " --device cpu --set collision.response=" + response + " --out " +
+                    folder.path.string());
+    CAPTURE(result.output);
+    REQUIRE(result.exit_code == 0);
+    const auto contacts = summary_in(folder.path)["contacts"];
+    CHECK(contacts["pairs_max"] > 0);
+    CHECK_THAT(result.output, Catch::Contains("contacts in " + contacts["steps"].text() + " steps, at most " +
+                                              contacts["pairs_max"].text() + " " + counted + " at once"));
+  }
 }
 
 TEST_CASE("a step longer than a frame gives one frame and one row of history, however much longer") {
@@ -214,13 +230,13 @@ TEST_CASE("two runs do not write into one folder: the second exits with 2 and ch
 }
 
 TEST_CASE("two runs do not write one video: the second exits with 2") {
+  if (test::lacks("ffmpeg", VideoFile::has_encoder())) return;  // without it there is no video to keep
   const ScratchFolder folder;
   const std::string video = (folder.path / "film.mp4").string();
   const FileLock first(video);
   const ProgramResult second = run_program("run --quiet --device cpu --steps 2 " + small_scene(folder).string() + " --out " +
                                            (folder.path / "out").string() + " --video " + video);
   CAPTURE(second.output);
-  if (second.exit_code == 0) return test::skip("there is no ffmpeg, so there is no video");
   CHECK(second.exit_code == 2);
   CHECK_THAT(second.output, Catch::Contains("film.mp4: is in use by another run"));
 }

@@ -125,6 +125,25 @@ TEST_CASE("bodies that overlap can't begin with contact by impulses") {
   CHECK_FALSE(std::filesystem::exists(folder.path / "out"));
 }
 
+TEST_CASE("masses and edges that contact by impulses can't resolve are named in warnings, with that response alone") {
+  const ScratchFolder folder;
+  const auto warnings = [&](const std::string& options) {
+    const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet " +
+                                             options + " --out " + folder.path.string());
+    CHECK(result.exit_code == 0);
+    return summary_in(folder.path)["warnings"].text();
+  };
+  const std::string masses = "--set body.left.vertex_mass=2e9",
+                    edges = "--set body.left.scale=1e-4 --set body.right.scale=100 --set body.right.position=[200,0,0]",
+                    reflect = " --set collision.response=reflect";
+  CHECK_THAT(warnings(masses), Catch::Contains("\\\"left\\\" has 2e+09 times the mass of one of \\\"right\\\""));
+  CHECK(warnings("--set body.left.vertex_mass=5e8") == "[]");
+  CHECK_THAT(warnings(edges), Catch::Contains("contacts of body \\\"left\\\" with \\\"right\\\" are lost in rounding") &&
+                                  Catch::Contains("--precision 64"));
+  CHECK(warnings(edges + " --precision 64") == "[]");
+  for (const std::string& options : {masses, edges}) CHECK(warnings(options + reflect) == "[]");
+}
+
 TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(

@@ -64,7 +64,13 @@ TEST_CASE("a summary's values read back as they were") {
   summary.energy.initial = 1.0 / 3;
   summary.energy.final = 2.5;
   summary.energy.max_drift = 1e-7;
-  summary.contacts.pairs_max = 17;
+  summary.contacts = {.steps = 2,
+                      .pairs_max = 17,
+                      .reverted_vertices = 5,
+                      .substeps = 7,
+                      .energy_given = 0.25,
+                      .energy_taken = 0.5,
+                      .friction_work = 0.125};
   summary.work.triangle_tests = 99;
   summary.skipped = {{"forces", 3}, {"collision", 4}};
   summary.timings_ms = {{"step", 1.25}};
@@ -78,7 +84,10 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(json["energy"]["initial"] == summary.energy.initial);
   CHECK(json["energy"]["final"] == 2.5);
   CHECK(json["energy"]["max_drift"] == 1e-7);
-  CHECK(json["contacts"]["pairs_max"] == 17);
+  const ReadJson contacts = json["contacts"];
+  CHECK((contacts["steps"] == 2 && contacts["pairs_max"] == 17 && contacts["reverted_vertices"] == 5));
+  CHECK((contacts["substeps"] == 7 && contacts["energy_given"] == 0.25 && contacts["energy_taken"] == 0.5));
+  CHECK(contacts["friction_work"] == 0.125);
   CHECK(json["work"]["triangle_tests"] == 99);
   CHECK(json["skipped"].keys() == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);

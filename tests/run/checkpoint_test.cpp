@@ -139,6 +139,25 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   check_same_run(whole, part);
 }
 
+TEST_CASE("a run that goes non-finite leaves the checkpoint from before, from which it does so again") {
+  const ScratchFolder folder;
+  const std::string checkpoint = (folder.path / "run.checkpoint").string(),
+                    unstable = "time_step = 1\nduration = 5000\nintegrator = \"rk4\"\ndamping_law = \"none\"";
+  const ProgramResult begun = run_program(
+      "run " + scene_in(folder, unstable).string() +
+      " --device cpu --quiet --set collision.response=none --set body.left.stretch=[1.1,1,1] --checkpoint-every 0 --checkpoint " +
+      checkpoint + " --out " + folder.path.string());
+  REQUIRE(begun.exit_code == 5);
+  const ReadJson account = account_in(folder.path);
+  const ProgramResult resumed = run_program("run --resume " + checkpoint);
+  CAPTURE(resumed.output);
+  CHECK(resumed.exit_code == 5);
+  const std::size_t place = resumed.output.find(" at step ");
+  REQUIRE(place != std::string::npos);
+  CHECK(std::stoull(resumed.output.substr(place + 9)) < account["steps"].get<std::uint64_t>());
+  CHECK(account_in(folder.path) == account);
+}
+
 TEST_CASE("a run has a checkpoint of its own from its start on, whatever stood there, and a resumed one, too") {
   const Begun begun;
   const std::string scene = scene_in(begun.folder, verlet).string(),

@@ -52,7 +52,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK(scene.simulation.gravity == glm::dvec3(0.0));
   CHECK(scene.collision.response.value == "impulse");
   CHECK(elasticity_of(scene.collision) == 0.5);
-  CHECK(scene.collision.friction == 0.5);
+  CHECK((scene.collision.friction == 0.5 && scene.collision.gap == 0.05 && !scene.collision.restitution));
   CHECK(scene.collision.search == ContactSearch::tree);
   CHECK(scene.collision.triangle_test == TriangleTest::certified);
   CHECK_FALSE(scene.collision.tree.max_depth);
@@ -60,13 +60,17 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK(scene.output.frame_rate == 60.0);
   CHECK(scene.output.size == glm::uvec2(1280, 720));
   CHECK_FALSE(scene.output.camera);
-  CHECK(scene.output.coloring == Coloring::body);
+  CHECK((scene.output.coloring == Coloring::body && scene.output.marks == Marks::none));
   CHECK_FALSE(scene.output.ground_height);
+  CHECK(scene.grounds.empty());
   REQUIRE(scene.bodies.size() == 1);
   const BodyDescription& body = scene.bodies[0];
   CHECK((body.name == "body0" && body.mesh == "icosphere:1" && !body.weld && body.scale == 1.0));
   CHECK((body.stiffness == 40.0 && !body.total_stiffness && body.vertex_mass == 1.0 && !body.total_mass && body.damping == 1.0));
-  CHECK(body.stretch == glm::dvec3(1.0));
+  CHECK(body.kind == BodyKind::soft);
+  CHECK((body.position == glm::dvec3(0.0) && body.rotation == glm::dvec3(0.0)));
+  CHECK((body.velocity == glm::dvec3(0.0) && body.spin == glm::dvec3(0.0) && body.stretch == glm::dvec3(1.0)));
+  CHECK((!body.surface.elasticity && !body.surface.friction && !body.surface.gap && !body.restitution));
   CHECK((body.pressure == 0.0 && body.pressure_law == PressureLaw::gas));
   CHECK_THAT(body.where, Catch::EndsWith("scene.toml:1"));
 }
@@ -231,6 +235,9 @@ TEST_CASE("a value out of range is an error that gives the range") {
                            "simulation.tolerance = 1",     "simulation.duration = -1e-9",
                            "simulation.duration = inf",    "simulation.gravity = [0, nan, 0]",
                            "collision.elasticity = -0.1",  "collision.elasticity = 1.1",
+                           "collision.restitution = -0.1", "collision.restitution = 1.1",
+                           "collision.gap = 0.009",        "collision.gap = 0.11",
+                           "collision.friction = -0.1",    "collision.friction = inf",
                            "collision.tree.max_depth = 0", "collision.tree.max_depth = 65",
                            "collision.tree.leaf_size = 0", "collision.tree.leaf_size = -4",
                            "output.frame_rate = 0",        "output.frame_rate = 1e30",
@@ -239,13 +246,16 @@ TEST_CASE("a value out of range is an error that gives the range") {
                            "output.ground_height = nan"}) {
     check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
   }
-  for (const char* line :
-       {"weld = -1", "scale = 0", "scale = -1", "position = [2e9, 0, 0]", "velocity = [0, inf, 0]", "spin = [nan, 0, 0]",
-        "rotation = [0, 0, -inf]", "stretch = [1, 1, nan]", "stiffness = -1", "total_stiffness = -1", "vertex_mass = 0",
-        "total_mass = 0", "damping = -1", "damping = nan", "color = [0, 0, 1.5]"}) {
+  for (const char* line : {"weld = -1", "scale = 0", "scale = -1", "position = [2e9, 0, 0]", "velocity = [0, inf, 0]",
+                           "spin = [nan, 0, 0]", "rotation = [0, 0, -inf]", "stretch = [1, 1, nan]", "stiffness = -1",
+                           "total_stiffness = -1", "vertex_mass = 0", "total_mass = 0", "damping = -1", "damping = nan",
+                           "color = [0, 0, 1.5]", "elasticity = 1.1", "friction = -1", "restitution = 2", "gap = 0"}) {
     check_input_error("[[body]]\nmesh = \"icosphere:1\"\n" + std::string(line) + "\n", 3,
                       {"body.body0.", "out of range", "write a"});
   }
+  for (const char* line :
+       {"height = nan", "point = [0, 2e9, 0]", "normal = [0, inf, 0]", "elasticity = -1", "friction = -1", "gap = 1"})
+    check_input_error("[[ground]]\n" + std::string(line) + "\n" + smallest, 2, {"ground.", "out of range", "write a"});
 }
 
 TEST_CASE("every damping law is read by its name") {
@@ -289,10 +299,14 @@ TEST_CASE("grounds, static bodies and what contacts need to know of them are rea
   CHECK(scene.bodies[0].kind == BodyKind::immovable);
   CHECK((scene.bodies[0].surface.friction == 0.1 && scene.bodies[0].surface.elasticity == 0.2 &&
          scene.bodies[0].surface.gap == 0.1));
-  CHECK(load_text(smallest).bodies[0].kind == BodyKind::soft);
   CHECK((scene.collision.restitution == 0.7 && scene.bodies[0].restitution == 0.4));
-  CHECK(load_text(smallest).collision.friction == 0.5);
-  CHECK((!load_text(smallest).collision.restitution && !load_text(smallest).bodies[0].restitution));
+}
+
+TEST_CASE("the drawn floor is the first ground that is level and faces up") {
+  const std::string slope = "[[ground]]\nnormal = [1, 1, 0]\n", ceiling = "[[ground]]\npoint = [0, 5, 0]\nnormal = [0, -1, 0]\n";
+  CHECK_FALSE(load_text(slope + ceiling + smallest).output.ground_height);
+  CHECK(load_text(slope + ceiling + "[[ground]]\nheight = -2\n[[ground]]\n" + smallest).output.ground_height == -2);
+  CHECK(load_text("[output]\nground_height = -3\n" + ceiling + smallest).output.ground_height == -3);
 }
 
 TEST_CASE("what never moves needs contact by impulses, and does not move") {

@@ -30,7 +30,7 @@ const Method usual{"cv8", 0.01, DampingLaw::adaptive};
 
 // Only vertices that touch are answered, so either search serves.
 CollisionDescription reflected_by(ContactSearch search) { return {.response = {"reflect"}, .search = search}; }
-const CollisionDescription reflected = reflected_by(ContactSearch::tree);
+const CollisionDescription reflected = reflected_by(ContactSearch::tree), impelled{.response = {"impulse"}};
 
 bool same_bits(const std::vector<physics::Pose>& a, const std::vector<physics::Pose>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(physics::Pose)) == 0;
@@ -72,9 +72,12 @@ TEST_CASE("the CPU gives the same bits on 1, 2, 7 and 16 threads") {
 TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
   if (test::lacks_gl()) return;
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
-  for (const Method& method : {usual, {"verlet", 0.01, DampingLaw::internal}}) {
-    const Outcome first = collide(*make_gpu_device(0), start, method, 30);
-    const Outcome second = collide(*make_gpu_device(0), start, method, 30);
+  const Method damped_inside{"verlet", 0.01, DampingLaw::internal};
+  for (const auto& [method, collision] :
+       {std::pair(usual, impelled), std::pair(damped_inside, impelled), std::pair(usual, reflected)}) {
+    CAPTURE(method.integrator, collision.response.value);
+    const Outcome first = collide(*make_gpu_device(0), start, method, 30, collision);
+    const Outcome second = collide(*make_gpu_device(0), start, method, 30, collision);
     CHECK(first.report.contact_steps > 5);
     CHECK(first.state.motion == second.state.motion);
     CHECK(same_bits(first.state.poses, second.state.poses));
@@ -86,14 +89,18 @@ TEST_CASE("two runs on the GPU give the same bits", "[gl]") {
 TEST_CASE("steps queued together and one by one give the same bits") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
-  const Outcome together = collide(*device, start, usual, 25);
-  Simulation simulation(*device, start.model, start.state, plan_of(usual), CollisionDescription{});
-  for (int step = 0; step < 25; ++step) {
-    simulation.advance(1);
-    static_cast<void>(simulation.intersections());  // looking changes nothing
+  for (const CollisionDescription& collision : {impelled, reflected}) {
+    CAPTURE(collision.response.value);
+    const Outcome together = collide(*device, start, usual, 25, collision);
+    CHECK(together.report.contact_steps > 5);
+    Simulation simulation(*device, start.model, start.state, plan_of(usual), collision);
+    for (int step = 0; step < 25; ++step) {
+      simulation.advance(1);
+      static_cast<void>(simulation.intersections());  // looking changes nothing
+    }
+    CHECK(simulation.state().motion == together.state.motion);
+    CHECK(simulation.report() == together.report);
   }
-  CHECK(simulation.state().motion == together.state.motion);
-  CHECK(simulation.report() == together.report);
 }
 
 TEST_CASE("vertices in contact go back bit for bit with their velocity reversed and scaled, and no others", "[gl]") {

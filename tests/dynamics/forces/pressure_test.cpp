@@ -112,6 +112,35 @@ TEST_CASE("splittings and methods with stages agree on a body with pressure") {
   }
 }
 
+TEST_CASE("the adaptive law goes by the force of springs: it damps no body that only pressure moves") {
+  BodySetup setup = balloon(1, 5, PressureLaw::gas);
+  setup.description.stiffness = 0;
+  setup.description.damping = 100;
+  const ModelAndState start = built(setup);
+  const auto device = make_cpu_device(1, 64);
+  for (const char* integrator : {"verlet", "cv8"}) {
+    CAPTURE(integrator);
+    const auto moved = [&](DampingLaw law) {
+      return evolve(*device, start, {integrator, 0.01, law}, 50).world_positions(start.model);
+    };
+    CHECK(distance(moved(DampingLaw::adaptive), moved(DampingLaw::none)) < 1e-12);
+    CHECK(distance(moved(DampingLaw::none), start.state.world_positions(start.model)) > 0.1);
+  }
+}
+
+TEST_CASE("a body with pressure moves as it would alone, whatever bodies there are beside it") {
+  BodySetup setups[] = {balloon(1, 5, PressureLaw::gas), sphere(0), balloon(2, 60, PressureLaw::gas)};
+  for (BodySetup& setup : setups) setup.description.spin = {0.3, -1, 0.5};
+  const auto device = make_cpu_device(2, 64);
+  for (const Method& method : {Method{"verlet", 0.01}, {"cv8", 0.01}}) {
+    CAPTURE(method.integrator);
+    std::vector<double> alone;
+    for (const BodySetup& setup : setups)
+      for (const double number : evolve(*device, built(setup), method, 30).motion) alone.push_back(number);
+    CHECK(evolve(*device, build_model(setups, glm::dvec3(0.0)), method, 30).motion == alone);
+  }
+}
+
 TEST_CASE("a body turned inside out ends the run as non-finite, and is named") {
   BodySetup setups[] = {sphere(1), balloon(1, 5, PressureLaw::gas)};
   setups[0].description.position = {5, 0, 0};
