@@ -15,6 +15,7 @@
 #include "device/array_list.hpp"
 #include "device/device.hpp"
 #include "physics/body.glsl"
+#include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/impact.glsl"
 #include "physics/contact/parts.glsl"
@@ -59,12 +60,14 @@ PLIANT_ELEMENT(physics::Pace, "Pace")
 PLIANT_ELEMENT(physics::Pressure, "Pressure")
 PLIANT_ELEMENT(physics::Moments, "Moments")
 PLIANT_ELEMENT(physics::RigidMotion, "RigidMotion")
+PLIANT_ELEMENT(physics::PartSums, "PartSums")
 PLIANT_ELEMENT(physics::Surface, "Surface")
 PLIANT_ELEMENT(physics::Room, "Room")
 PLIANT_ELEMENT(physics::Ground, "Ground")
 PLIANT_ELEMENT(physics::StepParts, "StepParts")
 PLIANT_ELEMENT(physics::ContactList, "ContactList")
 PLIANT_ELEMENT(physics::Debt, "Debt")
+PLIANT_ELEMENT(physics::Cluster, "Cluster")
 PLIANT_ELEMENT(physics::Impact, "Impact")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")

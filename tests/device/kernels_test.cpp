@@ -122,6 +122,12 @@ std::vector<double> numbers_of(const physics::Moments& moments) {
   return numbers;
 }
 
+std::vector<double> numbers_of(const physics::PartSums& sums) {
+  std::vector<double> numbers = numbers_of(sums.moments);
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained});
+  return numbers;
+}
+
 std::vector<double> numbers_of(const physics::RigidMotion& motion) {
   std::vector<double> numbers(sizeof(physics::RigidMotion) / sizeof(double));
   std::memcpy(numbers.data(), &motion, sizeof(physics::RigidMotion));
@@ -159,6 +165,16 @@ std::vector<double> numbers_of(const physics::ContactList& list) {
 }
 
 std::vector<double> numbers_of(const physics::Debt& debt) { return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2]}; }
+
+// Its motion means nothing if it has no bodies.
+std::vector<double> numbers_of(const physics::Cluster& cluster) {
+  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_met)};
+  if (cluster.bodies == 0) return numbers;
+  const std::vector<double> motion = numbers_of(cluster.motion);
+  numbers.insert(numbers.end(), motion.begin(), motion.end());
+  numbers.insert(numbers.end(), {cluster.mass, cluster.kinetic, cluster.due});
+  return numbers;
+}
 
 std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, impact.kept}; }
 
@@ -284,6 +300,8 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     check_structs<physics::StepParts>(cpu, gpu, a, b, 1, 1e-13);
   } else if (name == "debt") {
     check_structs<physics::Debt>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-9);
+  } else if (name == "cluster") {
+    check_structs<physics::Cluster>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-6);
   } else if (name == "impact") {
     check_structs<physics::Impact>(cpu, gpu, a, b, physics::impact_count(cpu.bodies.body_count), 1e-6);
   } else if (name == "triangle_pair") {
@@ -330,6 +348,8 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       check_structs<physics::Tally>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Moments") {
       check_structs<physics::Moments>(cpu, gpu, a, b, cpu.bodies.arrays.get<physics::Moments>(name).size(), 1e-12);
+    } else if (element == "PartSums") {
+      check_structs<physics::PartSums>(cpu, gpu, a, b, cpu.bodies.arrays.get<physics::PartSums>(name).size(), 1e-9);
     } else if (element == "RigidMotion") {
       check_structs<physics::RigidMotion>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-12);
     } else if (element == "Pace") {

@@ -3,6 +3,7 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/separation.glsl"
 #include "../physics/contact/surface.glsl"
 SHARED_WRITE(contact_list)
@@ -11,11 +12,16 @@ READ(triangle_pair)
 READ(start)
 READ(way)
 READ(cage)
+READ(control)
+READ(rest_position)
+READ(cluster)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/boxes_in_motion.glsl"
+#include "parts/common_way.glsl"
 
 uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
 uint rounds_at_most() { return cut_rounds; }
@@ -31,7 +37,8 @@ bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut[cut_rou
 
 struct Case {
   uint vertex[6];
-  real part[6];  // of its way that a vertex goes so far
+  real part[6];     // of its way that a vertex goes so far
+  real3 together[6];  // its way with its cluster, which it goes in any case [m]
   Motion motion;
 };
 
@@ -43,9 +50,11 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
     c.part[k] = real(uintBitsToFloat(cut_so_far(who[k], cut_round + 1u)));
-    dvec3 from = LOAD3(start, start_position_of(who[k])) - origin;
+    dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin, together = dvec3(0);
+    if (cluster[body_count].bodies != 0u) together = common_way(uint(rest_position[who[k]].w), place);
     c.motion.start[k] = real3(from);
-    c.motion.end[k] = real3(from + double(c.part[k]) * LOAD3(way, force_of(who[k])));
+    c.motion.end[k] = real3(from + together + double(c.part[k]) * LOAD3(way, force_of(who[k])));
+    c.together[k] = real3(together);
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
   }
@@ -53,10 +62,10 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   return c;
 }
 
-// How far corners go against the axis beyond `limit`, at most [m].
+// How far corners go against the axis beyond `limit`, at most, by their own ways [m].
 real trespass(IN(Case) c, uint first, IN(real3) axis, real limit) {
   real most = real(0);
-  for (uint k = first; k < first + 3u; ++k) most = max(most, limit - dot(axis, c.motion.end[k]));
+  for (uint k = first; k < first + 3u; ++k) most = max(most, limit - dot(axis, c.motion.end[k] - c.together[k]));
   return most;
 }
 
@@ -64,7 +73,7 @@ real trespass(IN(Case) c, uint first, IN(real3) axis, real limit) {
 bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit, uint cut_round) {
   bool stops = false;
   for (uint k = first; k < first + 3u; ++k) {
-    real from = dot(axis, c.motion.start[k]), to = dot(axis, c.motion.end[k]);
+    real from = dot(axis, c.motion.start[k]), to = dot(axis, c.motion.end[k] - c.together[k]);
     if (to >= limit) continue;
     float part = float(max(c.part[k] * ((from - limit) / (from - to)), real(0))) * 0.999999f;
     stops = true;

@@ -3,6 +3,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"
 READ(control)
@@ -13,6 +14,7 @@ WRITE(motion)
 READ(start)
 READ(unkicked)
 WRITE(cage)
+READ(cluster)
 READ(ground)
 WRITE(contact_list)
 WRITE(impulse_sum)
@@ -21,11 +23,13 @@ WRITE(contact_total)
 WRITE(way)
 WRITE(cut)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
 PARAMETER(double, largest_body)  // radius at rest [m]
+#include "parts/common_way.glsl"
 #include "parts/impulse_sums.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
@@ -52,11 +56,13 @@ void add_contact_sums() {
 }
 
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
-void bound_way(uint i, dvec3 from, dvec3 to) {
-  double far = abs(from.x) + abs(from.y) + abs(from.z) + abs(to.x) + abs(to.y) + abs(to.z) + double(4) * largest_body;
-  dvec3 slack = max(abs(from), abs(to)) * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
-  cage[way_box_of(i)] = vec4(vec3(min(from, to) - slack), 0);
-  cage[way_box_of(i) + 1u] = vec4(vec3(max(from, to) + slack), 0);
+void bound_way(uint i, dvec3 from, dvec3 together, dvec3 own) {
+  dvec3 by_cluster = from + together, to = by_cluster + own, lower = min(min(from, by_cluster), to), upper = max(max(from, by_cluster), to);
+  dvec3 farthest = max(abs(lower), abs(upper));
+  double far = double(2) * (farthest.x + farthest.y + farthest.z) + double(4) * largest_body;
+  dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
+  cage[way_box_of(i)] = vec4(vec3(lower - slack), 0);
+  cage[way_box_of(i) + 1u] = vec4(vec3(upper + slack), 0);
 }
 
 void expect_cuts(uint i) {
@@ -72,14 +78,14 @@ void expect_cuts(uint i) {
   dvec3 gone = dvec3(0);
   if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked, force_of(i)))
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
-  STORE3(way, force_of(i), gone)
-  dvec3 from = LOAD3(start, start_position_of(i));
+  dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? common_way(b, from) : dvec3(0), own = gone - together;
+  STORE3(way, force_of(i), own)
   double part = double(1);
   for (int k = 0; k < 3; ++k)
-    part = min(part, part_to(from[k], gone[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
+    part = min(part, part_to(from[k] + together[k], own[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
   for (uint g = 0u; g < ground_count; ++g)
-    if (is_movable) part = min(part, part_above(g, from, gone, mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge));
-  bound_way(i, from, from + part * gone);
+    if (is_movable) part = min(part, part_above(g, from + together, own, mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge));
+  bound_way(i, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint k = 1u; k <= cut_rounds; ++k) cut[k * vertex_count + i] = floatBitsToUint(1.0f);
 }

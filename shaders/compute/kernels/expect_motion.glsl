@@ -4,12 +4,15 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 WRITE(control)
 READ(step_parts)
 READ(surface)
 READ(room)
+READ(ground)
+WRITE(cluster)
 READ(rest_position)
 READ(surplus)
 READ(start)
@@ -21,7 +24,9 @@ WRITE(body_box)
 WRITE(status)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
+PARAMETER(uint, ground_count)
 #include "parts/bound.glsl"
+#include "parts/common_way.glsl"
 
 void empty_lists() {
   contact_list[0].triangle_pair_count = 0u;
@@ -47,6 +52,13 @@ dvec3 most_push(uint b) {
   return dvec3(from_ordered_bits(room[b].most_push[0]), from_ordered_bits(room[b].most_push[1]), from_ordered_bits(room[b].most_push[2]));
 }
 
+// A cluster near a ground does not have its motion to itself.
+void stay_above_grounds(uint b, dvec3 place) {
+  for (uint g = 0u; g < ground_count; ++g)
+    if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge)
+      ATOMIC_STORE(cluster[cluster[b].first].is_met, 1u);
+}
+
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w);
   dvec3 position = LOAD3(start, start_position_of(i)), velocity = LOAD3(start, start_velocity_of(i));
@@ -65,8 +77,10 @@ void expect_motion(uint i) {
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
     dvec3 most = max(dvec3(double(0.5) * surface[b].edge), abs(way)), beyond = dvec3(reach_beyond(b));
-    lower += min(way, dvec3(0)) - beyond + max(time_step * least_push(b), -most);
-    upper += max(way, dvec3(0)) + beyond + min(time_step * most_push(b), most);
+    dvec3 together = way_of_cluster(b, time_step, position);
+    if (together != dvec3(0)) stay_above_grounds(b, position + together);
+    lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
+    upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7);

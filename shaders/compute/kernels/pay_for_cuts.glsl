@@ -1,11 +1,12 @@
 // A kernel in rounds. One thread serves some vertices of a body that had motions cut short, or still owes for earlier cuts. A vertex that
 // is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum and
-// its angular momentum. What it can't pay, it owes. If it is near no other body that moves, what is held it is held by what does not move.
-// Then its rigid motion pays, too.
+// its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
+// that is near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't pay, they owe.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/rigid_motion.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/debt.glsl"
 #include "../physics/contact/surface.glsl"
 READ(control)
@@ -20,8 +21,8 @@ READ(near_pair)
 READ(vertex_part)
 READ(vertex_part_range)
 SHARED_WRITE(contact_list)
-SHARED_WRITE(part_moment)
-SHARED_WRITE(part_energy)
+SHARED_WRITE(part_sum)
+SHARED_WRITE(cluster)
 SHARED_WRITE(debt)
 WRITE(contact_total)
 PARAMETER(uint, vertex_count)
@@ -29,10 +30,12 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
 
-const uint last_round = 4u;
+const uint last_round = 5u;
 
-// The last debt is that of all bodies together.
-bool is_needed() { return contact_list[0].has_cuts != 0u || debt[body_count].energy > double(0); }
+// The last debt is that of all bodies together, and the last cluster counts bodies in clusters.
+bool is_needed() {
+  return contact_list[0].has_cuts != 0u || debt[body_count].energy > double(0) || cluster[body_count].bodies != 0u;
+}
 uint items_in_a_round() { return is_needed() ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round && is_needed(); }
@@ -60,9 +63,9 @@ void sum_energies_of(uvec4 part, uint item) {
     double part_of_way = double(uintBitsToFloat(cut[i]));
     if (part_of_way < double(1)) gained += energy_of_cut(i, b, part_of_way);
   }
-  part_energy[3u * item] = double(0.5) * deformation / body[b].inverse_mass;
-  part_energy[3u * item + 1u] = double(0.5) * all_rigid / body[b].inverse_mass;
-  part_energy[3u * item + 2u] = gained;
+  part_sum[item].deformation = double(0.5) * deformation / body[b].inverse_mass;
+  part_sum[item].rigid = double(0.5) * all_rigid / body[b].inverse_mass;
+  part_sum[item].gained = gained;
 }
 
 bool is_near_one_that_moves(uint b) {
@@ -75,32 +78,146 @@ bool is_near_one_that_moves(uint b) {
   return is_near;
 }
 
-Means means_of(uint b) {
+// Without what others may pay.
+Means own_means_of(uint b) {
   uvec2 range = vertex_part_range[b];
-  dvec3 sum = dvec3(0);
-  for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_energy, 3u * k);
   Means m;
-  m.deformation = sum.x;
-  m.due = max(debt[b].energy + sum.z, double(0));
-  m.rigid = m.due > m.deformation && !is_near_one_that_moves(b) ? sum.y : double(0);
+  m.deformation = m.rigid = m.due = double(0);
+  for (uint k = range.x; k < range.x + range.y; ++k) {
+    m.deformation += part_sum[k].deformation;
+    m.rigid += part_sum[k].rigid;
+    m.due += part_sum[k].gained;
+  }
+  m.due = max(debt[b].energy + m.due, double(0));
   return m;
+}
+
+bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
+
+Means means_of(uint b) {
+  Means m = own_means_of(b);
+  if (!(m.due > m.deformation) || is_in_cluster(b) || is_near_one_that_moves(b)) m.rigid = double(0);
+  return m;
+}
+
+// Whether motions of the body were cut short, now or before, so that it owes for them.
+bool is_hooked(uint b) { return status[b].activity == moving && own_means_of(b).due > double(0); }
+
+void begin_cluster(uint b) {
+  cluster[b].sum = no_moments();
+  cluster[b].mass = cluster[b].kinetic = cluster[b].due = double(0);
+  cluster[b].first = b;
+  cluster[b].bodies = cluster[b].is_met = 0u;
+}
+
+// Bodies that owe and are near each other belong together.
+void join_bodies() {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (uint k = 0u; k < control[0].near_pair_count; ++k) {
+      uvec2 pair = near_pair[k];
+      uint first = min(cluster[pair.x].first, cluster[pair.y].first);
+      if (cluster[pair.x].first == cluster[pair.y].first || !is_hooked(pair.x) || !is_hooked(pair.y)) continue;
+      cluster[pair.x].first = cluster[pair.y].first = first;
+      changed = true;
+    }
+  }
+}
+
+dvec3 first_place_of(uint b) { return to_world(pose[b], place_of(body[b].first_vertex)); }
+
+// Adds a body's moments about its centre, turned into the world, and those of the centre itself.
+void add_to_cluster(uint b) {
+  uint first = cluster[b].first;
+  double count = double(body[b].vertex_count), mass = double(1) / body[b].inverse_mass;
+  Moments m = moments_of_body(b), sum = cluster[first].sum;
+  dvec3 place = LOAD3(m.place, 0u), from_first = place / count, frame_velocity = LOAD3(m.velocity, 0u) / count;
+  dvec3 frame_turning = LOAD3(m.turning, 0u) - cross(place, frame_velocity);
+  dvec3 squares = LOAD3(m.spread, 0u) - place * from_first;
+  dvec3 products = LOAD3(m.spread, 3u) - dvec3(place.x * from_first.y, place.y * from_first.z, place.z * from_first.x);
+  dvec3 x = rotate(pose[b], dvec3(squares.x, products.x, products.z)), y = rotate(pose[b], dvec3(products.x, squares.y, products.y)),
+        z = rotate(pose[b], dvec3(products.z, products.y, squares.z));
+  dvec3 row_x = rotate(pose[b], dvec3(x.x, y.x, z.x)), row_y = rotate(pose[b], dvec3(x.y, y.y, z.y)),
+        row_z = rotate(pose[b], dvec3(x.z, y.z, z.z));
+  dvec3 centre = to_world(pose[b], place_of(body[b].first_vertex) + from_first) - first_place_of(first);
+  dvec3 velocity = rotate(pose[b], frame_velocity);
+  dvec3 all_place = LOAD3(sum.place, 0u) + mass * count * centre, all_velocity = LOAD3(sum.velocity, 0u) + mass * count * velocity;
+  dvec3 all_turning = LOAD3(sum.turning, 0u) + mass * (rotate(pose[b], frame_turning) + count * cross(centre, velocity));
+  dvec3 all_squares = LOAD3(sum.spread, 0u) + mass * (dvec3(row_x.x, row_y.y, row_z.z) + count * centre * centre);
+  dvec3 all_products = LOAD3(sum.spread, 3u) + mass * (dvec3(row_x.y, row_y.z, row_z.x) +
+                                                       count * dvec3(centre.x * centre.y, centre.y * centre.z, centre.z * centre.x));
+  STORE3(sum.place, 0u, all_place)
+  STORE3(sum.velocity, 0u, all_velocity)
+  STORE3(sum.turning, 0u, all_turning)
+  STORE3(sum.spread, 0u, all_squares)
+  STORE3(sum.spread, 3u, all_products)
+  cluster[first].sum = sum;
+  cluster[first].mass += mass * count;
+  cluster[first].bodies += 1u;
+  Means means = own_means_of(b);
+  cluster[first].kinetic += means.rigid;
+  cluster[first].due += max(means.due - means.deformation, double(0));
+}
+
+// Finds the cluster's rigid motion, and what its bodies' motions have beyond it. A body alone is no cluster.
+void end_cluster(uint first) {
+  if (cluster[first].bodies < 2u) {
+    cluster[first].bodies = 0u;
+    return;
+  }
+  cluster[body_count].bodies += cluster[first].bodies;
+  Moments sum = cluster[first].sum;
+  double mass = cluster[first].mass;
+  RigidMotion of_cluster = rigid_motion_with(sum, mass, first_place_of(first), dvec3(0));
+  dvec3 velocity = LOAD3(of_cluster.velocity, 0u), turning = LOAD3(sum.turning, 0u) - cross(LOAD3(sum.place, 0u), velocity);
+  double of_all = double(0.5) * (mass * dot(velocity, velocity) + dot(turning, LOAD3(of_cluster.spin, 0u)));
+  cluster[first].motion = of_cluster;
+  cluster[first].kinetic = max(cluster[first].kinetic - of_all, double(0));
+}
+
+void find_clusters() {
+  for (uint b = 0u; b <= body_count; ++b) begin_cluster(b);
+  join_bodies();
+  for (uint b = 0u; b < body_count; ++b)
+    if (is_hooked(b)) add_to_cluster(b);
+  for (uint b = 0u; b < body_count; ++b) end_cluster(b);
+}
+
+// What a body keeps of its rigid motion beyond that of its cluster, which is none if the body is alone.
+double kept_of_rigid(uint b, IN(Means) means) {
+  if (!is_in_cluster(b)) return kept_of_rigid_motion(means);
+  Cluster c = cluster[cluster[b].first];
+  return kept_beyond(c);
+}
+
+// The velocity that all bodies of a cluster have in common, in the body's frame [m/s].
+dvec3 common_velocity(uint b, IN(RigidMotion) of_cluster, dvec3 place) {
+  return rotate_back(pose[b], velocity_at(of_cluster, to_world(pose[b], place)));
 }
 
 void pay(uvec4 part) {
   uint b = part.x;
   Means means = means_of(b);
-  if (means.due == double(0)) return;
-  double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid_motion(means);
-  RigidMotion rigid = rigid_motion_of_body(b);
+  double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means);
+  if (of_deformation == double(1) && of_rigid == double(1)) return;
+  bool shares = is_in_cluster(b);
+  RigidMotion rigid = rigid_motion_of_body(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {
-    dvec3 along = velocity_at(rigid, place_of(i)), beside = velocity_of_vertex(i) - along;
-    dvec3 velocity = of_rigid * along + of_deformation * beside;
+    dvec3 place = place_of(i), along = velocity_at(rigid, place), beside = velocity_of_vertex(i) - along;
+    dvec3 together = shares ? common_velocity(b, of_cluster, place) : dvec3(0);
+    dvec3 velocity = together + of_rigid * (along - together) + of_deformation * beside;
     STORE3(motion, velocity_of(vertex_at(i)), velocity)
   }
 }
 
 void note_debt(uint b) {
   Means means = means_of(b);
+  if (is_in_cluster(b)) {
+    Cluster c = cluster[cluster[b].first];
+    debt[b].energy = owed_after(means) * part_still_due(c);
+    return;
+  }
   double lost = (double(1) - kept_of_rigid_motion(means)) * double(body[b].vertex_count) / body[b].inverse_mass;
   dvec3 momentum = lost * rotate(pose[b], LOAD3(rigid_motion_of_body(b).velocity, 0u));
   debt[b].energy = owed_after(means);
@@ -120,11 +237,12 @@ void note_debts() {
 }
 
 void pay_for_cuts(uint item, uint number) {
+  if (number == 2u && item == 0u) find_clusters();
   if (number == last_round && item == 0u) note_debts();
   uvec4 part = vertex_part[item];
   if (status[part.x].activity != moving) return;
   if (number == 0u) sum_moments_of(part, item);
   if (number == 1u) sum_energies_of(part, item);
-  if (number == 2u) pay(part);
-  if (number == 3u && item == vertex_part_range[part.x].x) note_debt(part.x);
+  if (number == 3u) pay(part);
+  if (number == 4u && item == vertex_part_range[part.x].x) note_debt(part.x);
 }

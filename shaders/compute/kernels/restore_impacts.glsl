@@ -17,7 +17,7 @@ WRITE(motion)
 READ(vertex_part)
 READ(vertex_part_range)
 SHARED_WRITE(contact_list)
-SHARED_WRITE(part_moment)
+SHARED_WRITE(part_sum)
 SHARED_WRITE(impact_sum)
 SHARED_WRITE(impact)
 SHARED_WRITE(impact_part)
@@ -49,7 +49,7 @@ dvec3 mean_velocity(uint b) {
   if (!is_movable(b)) return dvec3(0);
   uvec2 range = vertex_part_range[b];
   dvec3 sum = dvec3(0);
-  for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_moment[k].velocity, 0u);
+  for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_sum[k].moments.velocity, 0u);
   return rotate(pose[b], sum / double(body[b].vertex_count));
 }
 double inverse_mass_of(uint b) { return is_movable(b) ? surface[b].inverse_mass / double(body[b].vertex_count) : double(0); }

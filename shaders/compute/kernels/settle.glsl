@@ -3,12 +3,12 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 WRITE(control)
 READ(body)
 READ(pose)
-READ(surface)
 WRITE(status)
 READ(rest_position)
 WRITE(placement)
@@ -21,12 +21,14 @@ WRITE(contact_list)
 WRITE(step_parts)
 WRITE(body_motion)
 WRITE(room)
+READ(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
+#include "parts/common_way.glsl"
 #include "parts/place.glsl"
 
 // If lists were too short, or proofs are missing, bodies keep their place. Those that are near none could move, but this is rare.
@@ -40,10 +42,12 @@ double part_left(uint i) {
 
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
-  dvec3 displacement = LOAD3(motion, displacement_of(before)) + part * gone;
+  dvec3 rest = dvec3(vec3(rest_position[i])), first = LOAD3(motion, displacement_of(before));
+  dvec3 together = rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
+  dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
-  world_position[after] = part == double(0) ? world_position[before]
-                                            : vec4(vec3(to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement)), 1);
+  world_position[after] = part == double(0) && together == dvec3(0) ? world_position[before]
+                                            : vec4(vec3(to_world(pose[b], rest + displacement)), 1);
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
   cut[i] = floatBitsToUint(float(part));
@@ -83,7 +87,7 @@ void prepare_next_step(uint i, uint b) {
 void settle(uint i) {
   uint b = uint(rest_position[i].w);
   prepare_next_step(i, b);
-  if (surface[b].inverse_mass == double(0) || status[b].activity != moving) return;
+  if (status[b].activity != moving) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
   dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));

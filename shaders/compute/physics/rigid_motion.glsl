@@ -20,6 +20,14 @@ struct Moments {
   double spread[6];    // of the products xx, yy, zz, xy, yz, zx
 };
 
+// A part of a body in a sum over its vertices.
+struct PartSums {
+  Moments moments;
+  double deformation;  // kinetic energy of the velocities less the rigid motion [J]
+  double rigid;        // kinetic energy of the rigid motion [J]
+  double gained;       // that cuts added to springs [J]
+};
+
 FN Moments no_moments() {
   Moments m;
   for (uint k = 0u; k < 3u; ++k) m.place[k] = m.velocity[k] = m.turning[k] = m.spread[k] = m.spread[k + 3u] = double(0);
@@ -79,9 +87,10 @@ FN RigidMotion rigid_motion_of(dvec3 centre, dvec3 velocity, dvec3 spin) {
   return motion;
 }
 
-// Returns the rigid motion of `count` vertices. The first one is at `first_place` and has `first_velocity`.
-FN RigidMotion rigid_motion_with(IN(Moments) m, uint count, dvec3 first_place, dvec3 first_velocity) {
-  dvec3 place = LOAD3(m.place, 0u), centre = place / double(count), velocity = LOAD3(m.velocity, 0u) / double(count);
+// Returns the rigid motion of `count` vertices, or of vertices that weigh as much together. The first one is at `first_place` and has
+// `first_velocity`.
+FN RigidMotion rigid_motion_with(IN(Moments) m, double count, dvec3 first_place, dvec3 first_velocity) {
+  dvec3 place = LOAD3(m.place, 0u), centre = place / count, velocity = LOAD3(m.velocity, 0u) / count;
   dvec3 turning = LOAD3(m.turning, 0u) - cross(place, velocity);
   dvec3 squares = LOAD3(m.spread, 0u) - place * centre;
   dvec3 products = LOAD3(m.spread, 3u) - dvec3(place.x * centre.y, place.y * centre.z, place.z * centre.x);

@@ -173,7 +173,7 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"impact_unit", impact_unit()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
-    passes.push_back(make_pass(arrays, "expect_motion", {}, bodies_.vertex_count));
+    passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses())
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
@@ -292,8 +292,8 @@ class Impulse final : public Response {
     part_count_ = all.count();
     arrays.make("vertex_part", all.parts);
     arrays.make("vertex_part_range", all.ranges);
-    arrays.make<physics::Moments>("part_moment", part_count_);
-    arrays.make<double>("part_energy", std::size_t{3} * part_count_);
+    arrays.make<physics::PartSums>("part_sum", part_count_);
+    arrays.make<physics::Cluster>("cluster", bodies_.body_count + 1);
     arrays.make<physics::Debt>("debt", bodies_.body_count + 1);
   }
 

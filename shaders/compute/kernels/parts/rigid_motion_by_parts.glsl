@@ -8,15 +8,19 @@ void sum_moments_of(uvec4 part, uint item) {
   dvec3 origin = place_of(body[part.x].first_vertex);
   Moments sum = no_moments();
   for (uint i = part.y; i < part.z; ++i) add_vertex(sum, place_of(i) - origin, velocity_of_vertex(i));
-  part_moment[item] = sum;
+  part_sum[item].moments = sum;
 }
 
-RigidMotion rigid_motion_of_body(uint b) {
+Moments moments_of_body(uint b) {
   uvec2 range = vertex_part_range[b];
   Moments sum = no_moments();
   for (uint k = range.x; k < range.x + range.y; ++k) {
-    Moments more = part_moment[k];  // NVIDIA's compiler takes no shared element as an argument
+    Moments more = part_sum[k].moments;  // NVIDIA's compiler takes no shared element as an argument
     add_moments(sum, more);
   }
-  return rigid_motion_with(sum, body[b].vertex_count, place_of(body[b].first_vertex), dvec3(0));
+  return sum;
+}
+
+RigidMotion rigid_motion_of_body(uint b) {
+  return rigid_motion_with(moments_of_body(b), double(body[b].vertex_count), place_of(body[b].first_vertex), dvec3(0));
 }

@@ -1,0 +1,31 @@
+// Bodies that owe for motions cut short against each other.
+// - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
+//   beyond that of all of them as one keeps both momenta if it is scaled.
+// - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. The
+//   motion is one affine map of space, so triangles that make nothing but this motion stay apart.
+#ifndef CLUSTER_GLSL
+#define CLUSTER_GLSL
+#include "../rigid_motion.glsl"
+SHARED_BEGIN
+
+struct Cluster {
+  Moments sum;         // over its bodies' vertices, times their masses, about the first body's first vertex, in the world
+  RigidMotion motion;  // of all its vertices together, in the world [m], [m/s], [1/s]
+  double mass;         // [kg]
+  double kinetic;      // of its bodies' rigid motions; less its own after it is complete [J]
+  double due;          // that deformations could not pay [J]
+  uint first;          // its first body, where these sums stand
+  uint bodies;
+  uint is_met;         // 1: its motion is not used in this step, because it is near what does not share it
+  uint padding;
+};
+
+// What bodies keep of their rigid motions beyond the cluster's, and the part that is still due after it.
+FN double kept_beyond(IN(Cluster) c) {
+  if (c.due == double(0)) return double(1);
+  return c.kinetic > c.due ? sqrt(double(1) - c.due / c.kinetic) : double(0);
+}
+FN double part_still_due(IN(Cluster) c) { return c.due > c.kinetic ? double(1) - c.kinetic / c.due : double(0); }
+
+SHARED_END
+#endif
