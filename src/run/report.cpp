@@ -40,18 +40,11 @@ bool is_driven_from_rest(const Model& model) {
       forces(), [&](const Force& force) { return !force.is_zero_at_rest && std::ranges::any_of(model.bodies, force.acts_on); });
 }
 
-// Compares with the energy at the start plus what gravity has given since. Neither depends on the world's origin. If a force sets
-// bodies at rest in motion, it compares with the most energy in motion.
-double energy_growth(const RunProgress& progress, const Model& model) {
-  const Measurement &first = progress.first, &latest = progress.latest;
-  double had = first.kinetic + first.elastic_size + std::abs(latest.gravitational - first.gravitational);
-  if (is_driven_from_rest(model)) had = std::max(had, progress.most_in_motion);
-  return 1 + (latest.energy() - first.energy()) / std::max(had, smallest_energy(model));
-}
-
-std::string told_growth_of(double growth, const Model& model) {
-  if (!is_driven_from_rest(model)) return fmt::format("the energy has grown {:.3g}-fold", growth);
-  return fmt::format("the energy has grown by {:.3g} of the most in motion", growth - 1);
+std::string told_growth_of(const RunProgress& progress, const Model& model) {
+  const double growth = progress.largest_growth;
+  return (is_driven_from_rest(model) ? fmt::format("the energy has grown by {:.3g} of the most in motion", growth - 1)
+                                     : fmt::format("the energy has grown {:.3g}-fold", growth)) +
+         fmt::format(" at {:.6g} s", progress.time_of_growth);
 }
 
 std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
@@ -71,6 +64,14 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 
 }  // namespace
 
+// None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
+// where it began has had it. If a force sets bodies at rest in motion, this compares with the most energy in motion.
+double energy_growth(const RunProgress& progress, const Model& model) {
+  double had = progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity;
+  if (is_driven_from_rest(model)) had = std::max(had, progress.most_in_motion);
+  return 1 + (progress.latest.energy() - progress.first.energy()) / std::max(had, smallest_energy(model));
+}
+
 bool has_blown_up(const RunStatus& status) {
   return status.report.substeps > 0 && energy_growth(status.progress, status.run.start.model) >= ruinous_growth;
 }
@@ -78,12 +79,12 @@ bool has_blown_up(const RunStatus& status) {
 std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
-  const double growth = energy_growth(progress, run.start.model);
+  const Model& model = run.start.model;
   if (has_blown_up(status))
-    return fmt::format("{} at step {}, which ends the run; try a shorter time step", told_growth_of(growth, run.start.model),
+    return fmt::format("{}, which ends the run at step {}; try a shorter time step", told_growth_of(progress, model),
                        report.steps);
-  if (growth >= told_growth)
-    return fmt::format("{}: {}", told_growth_of(growth, run.start.model),
+  if (progress.largest_growth >= told_growth)
+    return fmt::format("{}: {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                                 : "the motion is unstable, or the steps are too long for the method");
   return {};

@@ -17,11 +17,16 @@ struct RunStatus {
   const StepReport& report;
 };
 
+/// Returns the energy at the latest row of the history, divided by what the run has had. That is the energy in motion at the
+/// start and what gravity has given or taken at most.
+[[nodiscard]] double energy_growth(const RunProgress& progress, const Model& model);
+
 /// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts.
 /// Holds for the latest row of the history.
 [[nodiscard]] bool has_blown_up(const RunStatus& status);
 
-/// Describes a breakdown or growing energy, or returns nothing. A step beyond its bound is already among the run's warnings.
+/// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its
+/// bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
 
 /// Says how often bodies were held, or returns nothing.

@@ -157,9 +157,7 @@ class Run {
     Measurement& now = progress_.latest;
     now = progress_.times.measuring.time([&] { return measured(); });
     if (report_.steps == 0) progress_.first = now;
-    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
-    const double drift = std::abs(now.energy() - progress_.first.energy());
-    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    note_energy();
     progress_.recorded_steps = report_.steps;
     has_blown_up_ = has_blown_up(status());
     warn_of_forces();
@@ -176,6 +174,19 @@ class Run {
                      .contact_given = report_.response.energy_given,
                      .contact_taken = report_.response.energy_taken,
                      .friction_work = report_.response.friction_work});
+  }
+
+  // An energy that was not measured to its end is NaN.
+  void note_energy() {
+    const Measurement &first = progress_.first, &now = progress_.latest;
+    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
+    progress_.most_of_gravity = std::max(progress_.most_of_gravity, std::abs(now.gravitational - first.gravitational));
+    const double drift = std::abs(now.energy() - first.energy());
+    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    const double growth = energy_growth(progress_, run_.start.model);
+    if (!(growth > progress_.largest_growth)) return;
+    progress_.largest_growth = growth;
+    progress_.time_of_growth = report_.time;
   }
 
   void warn_of_forces() {
