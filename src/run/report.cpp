@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "core/version.hpp"
 #include "dynamics/forces/force.hpp"
@@ -24,6 +25,10 @@ constexpr double told_growth = 1.05;
 
 // Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts.
 constexpr double ruinous_growth = 1e3;
+
+// A run warns of cuts if there are so many, and this part of all motions of vertices in parts of steps with a contact. Ordinary
+// contacts cut less than 2e-4 of them.
+constexpr double fewest_cuts = 100, told_share_of_cuts = 0.01;
 
 // Returns the energy [J] below which a change counts as rounding: 1e-12 of the largest energy_scale of a force.
 double smallest_energy(const Model& model) {
@@ -90,10 +95,26 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   return {};
 }
 
-std::optional<std::string> contact_trouble_of(const StepReport& report) {
-  if (report.held_parts == 0) return {};
-  return fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
-                     report.held_parts);
+std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices) {
+  std::vector<std::string> told;
+  if (report.held_parts > 0)
+    told.push_back(fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
+                               report.held_parts));
+  const double motions = static_cast<double>(moving_vertices) * static_cast<double>(report.contact_steps);
+  if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
+    told.push_back(
+        fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
+                    "move too far in a "
+                    "step, or are pressed too hard; try a shorter time step, or stiffer bodies",
+                    report.reverted_vertices));
+  return told;
+}
+
+std::vector<std::string> contact_troubles_of(const RunStatus& status) {
+  if (!is_by_impulses(status.run.scene.collision)) return {};
+  std::uint64_t moving_vertices = 0;
+  for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
+  return contact_troubles_of(status.report, moving_vertices);
 }
 
 Summary summary_of(const RunStatus& status) {
@@ -138,7 +159,7 @@ Summary summary_of(const RunStatus& status) {
   for (const auto& [pass, seconds] : run.simulation->pass_seconds())
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
-  if (const auto trouble = contact_trouble_of(report)) s.warnings.push_back(*trouble);
+  for (std::string& trouble : contact_troubles_of(status)) s.warnings.push_back(std::move(trouble));
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
   s.version = version();
   return s;

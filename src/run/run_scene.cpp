@@ -266,7 +266,7 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
-    if (const auto trouble = contact_trouble_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *trouble);
+    for (const std::string& trouble : contact_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
     if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;
   }

@@ -196,6 +196,26 @@ TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   CHECK(summary["final_intersecting_pairs"] == 0);
 }
 
+TEST_CASE("a body that meets a ground too fast is told, with a remedy, and one turned back by reflection is not") {
+  const ScratchFolder folder;
+  const auto path = folder.path / "fast.toml";
+  std::ofstream(path) << "[simulation]\ntime_step = 0.001\n[[ground]]\n[[body]]\nmesh = \"icosphere:2\"\nposition = [0, 3, 0]\n"
+                         "velocity = [0, -1e6, 0]\n";
+  const ProgramResult result =
+      run_program("run " + path.string() + " --device cpu --steps 5 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output,
+             Catch::Contains("cut short 162 times") && Catch::Contains("try a shorter time step, or stiffer bodies"));
+  CHECK_THAT(summary_in(folder.path)["warnings"].text(), Catch::Contains("cut short 162 times"));
+  const ProgramResult turned =
+      run_program("run " + small_scene(folder).string() +
+                  " --device cpu --duration 1 --quiet --set collision.elasticity=0 --set collision.response=reflect --out " +
+                  folder.path.string());
+  CHECK(turned.exit_code == 0);
+  CHECK(summary_in(folder.path)["contacts"]["reverted_vertices"] > 100);
+  CHECK_THAT(turned.output, !Catch::Contains("cut short"));
+}
+
 TEST_CASE("of many bodies that overlap some are named, and the rest counted") {
   const ScratchFolder folder;
   const auto scene = folder.path / "many.toml";
