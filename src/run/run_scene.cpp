@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/thread_pool.hpp"
 #include "dynamics/forces/force.hpp"
@@ -229,14 +230,14 @@ class Run {
   }
 
   void show_frames() const {
-    const int written = frames_.count() - first_frame_;
+    const auto written = static_cast<std::size_t>(frames_.count() - first_frame_);
     if (options_.quiet || written == 0) return;
     if (!options_.video.empty()) {
-      fmt::print("video:   {} ({})\n", options_.video.string(), counted(written, "frame"));
+      fmt::print("video:   {} ({})\n", options_.video.string(), counted(written, "frame", "frames"));
       return;
     }
     const std::string left = earlier_frame();
-    fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(written, "file"),
+    fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(written, "file", "files"),
                left.empty() ? "" : fmt::format("; {} and later are of an earlier run", left));
   }
 
