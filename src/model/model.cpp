@@ -159,7 +159,7 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
   const glm::dvec3 centroid = mean(positions);
   const glm::dquat rotation = rotation_of(description.rotation);
   append_shape(setup, positions, centroid, built.model);
-  if (const double radius = built.model.bodies.back().radius; radius > 0 && radius < smallest_radius)
+  if (!setup.mesh.triangles.empty() && built.model.bodies.back().radius < smallest_radius)
     throw body_error(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
                      "use a larger scale, with other units if need be");
   built.state.poses.push_back(make_pose(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));

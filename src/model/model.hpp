@@ -112,7 +112,7 @@ struct ModelAndState {
 /// - there are more than 65,535 bodies,
 /// - a mesh has no vertices,
 /// - a mesh with pressure inside is open, not wound outward or flat, or is stretched to 1e-6 of its volume or inside out,
-/// - a body's radius is above 0 but below 1e-6 m,
+/// - the radius of a body with triangles is below 1e-6 m,
 /// - a vertex stands beyond 1e9 m, moves faster than 1e9 m/s, or is not finite.
 [[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
                                         std::span<const GroundDescription> grounds = {});
