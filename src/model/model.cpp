@@ -146,8 +146,13 @@ void expect_not_flattened(const BodyDescription& description) {
                      "use a stretch above zero along each axis, or leave the pressure out");
 }
 
+// The squares of a tiny normal would underflow.
+glm::dvec3 direction_of(const glm::dvec3& vector) {
+  return glm::normalize(vector / std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
+}
+
 Ground make_ground(const GroundDescription& description) {
-  const glm::dvec3 normal = glm::normalize(description.normal);
+  const glm::dvec3 normal = direction_of(description.normal);
   return {.normal = normal, .offset = glm::dot(normal, description.point), .surface = description.surface};
 }
 

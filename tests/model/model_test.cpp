@@ -191,4 +191,18 @@ TEST_CASE("a body too small for forces in fp32 is an input error, even if all it
   }
 }
 
+TEST_CASE("a ground's normal gives its direction at any length whatever") {
+  const BodySetup setup = lopsided();
+  for (const double length : {5e-324, 1e-300, 1e-170, 1.0, 1e9}) {
+    CAPTURE(length);
+    GroundDescription ground;
+    ground.point = {0, 2, 0};
+    ground.normal = {0, -length, length};
+    const Model model = build_model({&setup, 1}, {0, 0, 0}, {&ground, 1}).model;
+    CHECK(glm::length(model.grounds[0].normal) == Approx(1));
+    CHECK(model.grounds[0].normal.y == -model.grounds[0].normal.z);
+    CHECK(model.grounds[0].offset == Approx(-std::sqrt(2)));
+  }
+}
+
 }  // namespace pliant
