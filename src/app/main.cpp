@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -327,6 +328,7 @@ int execute(int count, char** arguments) {
 int main(int count, char** arguments) {
   try {
     const int code = execute(count, arguments);
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on the size of files then fails, as on a full disk
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
     std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
