@@ -359,7 +359,7 @@ int run_scene(const RunOptions& given) {
     show_check(prepared);
     return 0;
   }
-  watch_for_interrupts();
+  watch_for_interrupts("the steps in hand");
   return Run(options, prepared, std::move(from)).execute();
 }
 
