@@ -153,7 +153,10 @@ glm::dvec3 direction_of(const glm::dvec3& vector) {
 
 Ground make_ground(const GroundDescription& description) {
   const glm::dvec3 normal = direction_of(description.normal);
-  return {.normal = normal, .offset = glm::dot(normal, description.point), .surface = description.surface};
+  return {.normal = normal,
+          .offset = glm::dot(normal, description.point),
+          .surface = description.surface,
+          .where = description.where};
 }
 
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {

@@ -30,6 +30,7 @@ struct Ground {
   glm::dvec3 normal{0.0, 1.0, 0.0};  // of length 1
   double offset = 0;                 // [m]
   SurfaceDescription surface;
+  Origin where;  // in the scene, for errors about it
 };
 
 struct ModelBody {
