@@ -59,7 +59,7 @@ void write_results(const bench::Machine& machine, const Options& asked, const Re
 // Checks the file's place first, so that minutes of measuring do not end with a folder that can't be written.
 template <class Options, class Measure>
 int measure_and_write(const BenchOptions& options, const Options& asked, const Measure& measure) {
-  watch_for_interrupts();
+  watch_for_interrupts("the measurement in hand");
   std::optional<WholeFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const bench::Machine machine = bench::describe_machine(options.gpu_index.value_or(0));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -56,8 +57,8 @@ CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
   return {complaint, fmt::format("{} to {}", lowest, highest)};
 }
 
-CLI::Validator not_empty() {
-  return {[](const std::string& text) { return text.empty() ? std::string("is empty; name a place") : std::string(); }, ""};
+CLI::Validator not_empty(const char* remedy = "name a place") {
+  return {[remedy](const std::string& text) { return text.empty() ? fmt::format("is empty; {}", remedy) : std::string(); }, ""};
 }
 
 // Adds an option that takes one of a few words.
@@ -150,7 +151,7 @@ void expect_beginning(const CLI::App& run) {
 
 void add_run(CLI::App& program, RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
-  run->add_option("scene", options.scene, "Scene file (TOML)");
+  run->add_option("scene", options.scene, "Scene file (TOML)")->check(not_empty("name a file"));
   add_device(*run, options.device);
   run->add_option("--gpu", options.device.gpu_index, "Which GPU, as `pliant info` numbers them")
       ->transform(whole_number(0, 1000000));
@@ -169,7 +170,7 @@ void add_run(CLI::App& program, RunOptions& options) {
 void add_view(CLI::App& program, app::ViewOptions& options) {
   CLI::App* view = program.add_subcommand("view", "Simulate a scene in a window, live");
   view->footer(app::view_help());
-  view->add_option("scene", options.scene, "Scene file (TOML), or a mesh (OBJ)")->required();
+  view->add_option("scene", options.scene, "Scene file (TOML), or a mesh (OBJ)")->required()->check(not_empty("name a file"));
   add_device(*view, options.device);
   add_overrides(*view, options.overrides);
   view->add_option("--speed", options.speed, "Simulated time in a second of real time [s] (default 1)")->check(number(1e-6, 1e6));
@@ -246,7 +247,9 @@ struct MeshOptions {
 
 void add_mesh(CLI::App& program, MeshOptions& options) {
   CLI::App* mesh = program.add_subcommand("mesh", "Report what a mesh consists of and what is wrong with it");
-  mesh->add_option("mesh", options.mesh, "OBJ file, or generator such as icosphere:3")->required();
+  mesh->add_option("mesh", options.mesh, "OBJ file, or generator such as icosphere:3")
+      ->required()
+      ->check(not_empty("name a file or a generator"));
   mesh->add_flag("--json", options.json, "As JSON");
 }
 
@@ -325,6 +328,7 @@ int execute(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on the size of files then fails, as on a full disk
   try {
     const int code = execute(count, arguments);
     std::cout.flush();

@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/read_text.hpp"
@@ -239,9 +240,9 @@ LoadedMesh parse_obj(std::string_view text, const std::string& name) {
   loaded.mesh.triangles = split_into_fans(resolve_corners(scanner.relevant_lines, name), scanner.corner_counts);
   loaded.mesh.positions = std::move(scanner.positions);
   if (const std::size_t count = remove_unused_vertices(loaded.mesh); count > 0)
-    loaded.warnings.push_back(fmt::format("{} vertices are in no face and were left out", count));
+    loaded.warnings.push_back(counted(count, "vertex is", "vertices are") + " in no face and left out");
   if (const std::size_t count = count_zero_area_triangles(loaded.mesh); count > 0)
-    loaded.warnings.push_back(fmt::format("{} triangles have no area", count));
+    loaded.warnings.push_back(counted(count, "triangle has", "triangles have") + " no area");
   return loaded;
 }
 

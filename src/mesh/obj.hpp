@@ -11,7 +11,7 @@ namespace pliant {
 
 struct LoadedMesh {
   TriangleMesh mesh;
-  std::vector<std::string> warnings;  // sentences without a full stop, such as "3 vertices are in no face and were left out"
+  std::vector<std::string> warnings;  // sentences without a full stop, such as "3 vertices are in no face and left out"
 };
 
 /// Largest |coordinate| that a file may hold [mesh units].

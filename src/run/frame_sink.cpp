@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/counted.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "output/png.hpp"
 #include "render/contact_marks.hpp"
@@ -61,8 +62,6 @@ class FrameSink::Painter {
   render::FrameRenderer renderer_;
 };
 
-std::string counted(int count, const char* thing) { return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s"); }
-
 FrameSink::FrameSink(PreparedRun& run, FrameTargets targets) : run_(run), targets_(std::move(targets)), count_(targets_.first) {
   if (targets_.format == FrameFormat::png || !targets_.video.empty()) painter_ = std::make_unique<Painter>(run);
   if (!targets_.video.empty()) video_ = std::make_unique<VideoFile>(targets_.video, video_format_of(run));
@@ -92,8 +91,8 @@ void FrameSink::write_to_video() {
     ++count_;
   } catch (const Error& error) {
     lost_video_ = error;
-    run_.warnings.push_back(
-        fmt::format("the video ends here, after {}, and the run goes on: {}", counted(count_, "frame"), error.what()));
+    run_.warnings.push_back(fmt::format("the video ends here, after {}, and the run goes on: {}",
+                                        counted(static_cast<std::size_t>(count_), "frame", "frames"), error.what()));
     fmt::print(stderr, "pliant: warning: {}\n", run_.warnings.back());
   }
 }

@@ -18,9 +18,6 @@ struct FrameTargets {
   int first = 0;                 // number of the first frame
 };
 
-/// Returns such as "1 frame" or "2 frames".
-[[nodiscard]] std::string counted(int count, const char* thing);
-
 class FrameSink {
  public:
   FrameSink(PreparedRun& run, FrameTargets targets);

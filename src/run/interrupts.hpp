@@ -1,14 +1,16 @@
 // Handles Ctrl-C and SIGTERM in commands that take long.
 #pragma once
 #include <chrono>
+#include <string_view>
 
 namespace pliant {
 
 inline constexpr int exit_interrupted = 130;  // the code that shells use after Ctrl-C
 
-/// After this call the first Ctrl-C or SIGTERM asks for an early end, and the current work is finished first. Another one, a
-/// second or more later, ends the program at once. Before this call the first one ends it at once.
-void watch_for_interrupts();
+/// After this call the first Ctrl-C or SIGTERM asks for an early end, and the current work is finished first. It says so on
+/// standard error, at once: `work` is what is finished, such as "the steps in hand". Another one, a second or more later, ends
+/// the program at once. Before this call the first one ends it at once.
+void watch_for_interrupts(std::string_view work);
 
 /// Returns whether the program should come to an end. Any thread may ask.
 [[nodiscard]] bool is_interrupted();

@@ -12,6 +12,7 @@
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/start_check.hpp"
+#include "simulation/start_gap.hpp"
 
 namespace pliant {
 namespace {
@@ -91,6 +92,11 @@ void warn_of_rounding(PreparedRun& run) {
     run.warnings.push_back(std::move(told));
 }
 
+void warn_of_near_starts(PreparedRun& run) {
+  for (std::string& told : told_near_starts(run.start.model, run.start.state, run.scene.collision))
+    run.warnings.push_back(std::move(told));
+}
+
 void warn_of_overlap(PreparedRun& run) {
   if (const std::string overlap = told_overlap(*run.simulation, run.start.model); !overlap.empty())
     run.warnings.push_back(overlap);
@@ -120,6 +126,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_no_step(run, options);
   if (keeps_apart(*run.simulation)) {
     expect_apart(*run.simulation, run.start.model, run.scene.file.string());
+    warn_of_near_starts(run);
     warn_of_masses(run);
     warn_of_rounding(run);
   } else {

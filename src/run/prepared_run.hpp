@@ -33,6 +33,7 @@ struct PreparedRun {
 /// - an integrator that was replaced because it can't meet the tolerance
 /// - a step beyond the stability bound, or no step at all
 /// - bodies that intersect at the start, if the response does not keep them apart
+/// - bodies that begin nearer than the gap, if the response keeps them apart
 /// - masses that differ so much, or bodies so far out, that rounding harms contacts.
 [[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options);
 

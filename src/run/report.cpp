@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "core/version.hpp"
 #include "dynamics/forces/force.hpp"
@@ -25,6 +26,10 @@ constexpr double told_growth = 1.05;
 // Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts.
 constexpr double ruinous_growth = 1e3;
 
+// A run warns of cuts if there are so many, and this part of all motions of vertices in parts of steps with a contact. Ordinary
+// contacts cut less than 2e-4 of them.
+constexpr double fewest_cuts = 100, told_share_of_cuts = 0.01;
+
 // Returns the energy [J] below which a change counts as rounding: 1e-12 of the largest energy_scale of a force.
 double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
@@ -40,18 +45,11 @@ bool is_driven_from_rest(const Model& model) {
       forces(), [&](const Force& force) { return !force.is_zero_at_rest && std::ranges::any_of(model.bodies, force.acts_on); });
 }
 
-// Compares with the energy at the start plus what gravity has given since. Neither depends on the world's origin. If a force sets
-// bodies at rest in motion, it compares with the most energy in motion.
-double energy_growth(const RunProgress& progress, const Model& model) {
-  const Measurement &first = progress.first, &latest = progress.latest;
-  double had = first.kinetic + first.elastic_size + std::abs(latest.gravitational - first.gravitational);
-  if (is_driven_from_rest(model)) had = std::max(had, progress.most_in_motion);
-  return 1 + (latest.energy() - first.energy()) / std::max(had, smallest_energy(model));
-}
-
-std::string told_growth_of(double growth, const Model& model) {
-  if (!is_driven_from_rest(model)) return fmt::format("the energy has grown {:.3g}-fold", growth);
-  return fmt::format("the energy has grown by {:.3g} of the most in motion", growth - 1);
+std::string told_growth_of(const RunProgress& progress, const Model& model) {
+  const double growth = progress.largest_growth;
+  return (is_driven_from_rest(model) ? fmt::format("the energy has grown by {:.3g} of the most in motion", growth - 1)
+                                     : fmt::format("the energy has grown {:.3g}-fold", growth)) +
+         fmt::format(" at {:.6g} s", progress.time_of_growth);
 }
 
 std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
@@ -71,6 +69,14 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 
 }  // namespace
 
+// None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
+// where it began has had it. If a force sets bodies at rest in motion, this compares with the most energy in motion.
+double energy_growth(const RunProgress& progress, const Model& model) {
+  double had = progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity;
+  if (is_driven_from_rest(model)) had = std::max(had, progress.most_in_motion);
+  return 1 + (progress.latest.energy() - progress.first.energy()) / std::max(had, smallest_energy(model));
+}
+
 bool has_blown_up(const RunStatus& status) {
   return status.report.substeps > 0 && energy_growth(status.progress, status.run.start.model) >= ruinous_growth;
 }
@@ -78,21 +84,37 @@ bool has_blown_up(const RunStatus& status) {
 std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
-  const double growth = energy_growth(progress, run.start.model);
+  const Model& model = run.start.model;
   if (has_blown_up(status))
-    return fmt::format("{} at step {}, which ends the run; try a shorter time step", told_growth_of(growth, run.start.model),
+    return fmt::format("{}, which ends the run at step {}; try a shorter time step", told_growth_of(progress, model),
                        report.steps);
-  if (growth >= told_growth)
-    return fmt::format("{}: {}", told_growth_of(growth, run.start.model),
+  if (progress.largest_growth >= told_growth)
+    return fmt::format("{}: {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                                 : "the motion is unstable, or the steps are too long for the method");
   return {};
 }
 
-std::optional<std::string> contact_trouble_of(const StepReport& report) {
-  if (report.held_parts == 0) return {};
-  return fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
-                     report.held_parts);
+std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices) {
+  std::vector<std::string> told;
+  if (report.held_parts > 0)
+    told.push_back(fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
+                               report.held_parts));
+  const double motions = static_cast<double>(moving_vertices) * static_cast<double>(report.contact_steps);
+  if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
+    told.push_back(
+        fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
+                    "move too far in a "
+                    "step, or are pressed too hard; try a shorter time step, or stiffer bodies",
+                    report.reverted_vertices));
+  return told;
+}
+
+std::vector<std::string> contact_troubles_of(const RunStatus& status) {
+  if (!is_by_impulses(status.run.scene.collision)) return {};
+  std::uint64_t moving_vertices = 0;
+  for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
+  return contact_troubles_of(status.report, moving_vertices);
 }
 
 Summary summary_of(const RunStatus& status) {
@@ -137,7 +159,7 @@ Summary summary_of(const RunStatus& status) {
   for (const auto& [pass, seconds] : run.simulation->pass_seconds())
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
-  if (const auto trouble = contact_trouble_of(report)) s.warnings.push_back(*trouble);
+  for (std::string& trouble : contact_troubles_of(status)) s.warnings.push_back(std::move(trouble));
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
   s.version = version();
   return s;

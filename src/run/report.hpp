@@ -1,7 +1,9 @@
 // Reports on a run: on the way, at the end, and in its summary.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "output/summary.hpp"
 #include "run/checkpoint.hpp"
@@ -17,15 +19,22 @@ struct RunStatus {
   const StepReport& report;
 };
 
+/// Returns the energy at the latest row of the history, divided by what the run has had. That is the energy in motion at the
+/// start and what gravity has given or taken at most.
+[[nodiscard]] double energy_growth(const RunProgress& progress, const Model& model);
+
 /// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts.
 /// Holds for the latest row of the history.
 [[nodiscard]] bool has_blown_up(const RunStatus& status);
 
-/// Describes a breakdown or growing energy, or returns nothing. A step beyond its bound is already among the run's warnings.
+/// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its
+/// bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
 
-/// Says how often bodies were held, or returns nothing.
-[[nodiscard]] std::optional<std::string> contact_trouble_of(const StepReport& report);
+/// Says how often contact by impulses held bodies or cut motions of vertices short, a text each, if that was often.
+/// `moving_vertices` are those of all bodies that are not static. docs/output.md says how often is often.
+[[nodiscard]] std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices);
+[[nodiscard]] std::vector<std::string> contact_troubles_of(const RunStatus& status);
 
 /// Returns the summary. Unless the state is non-finite, it searches for the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);

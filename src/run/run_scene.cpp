@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/thread_pool.hpp"
 #include "dynamics/forces/force.hpp"
@@ -157,9 +158,7 @@ class Run {
     Measurement& now = progress_.latest;
     now = progress_.times.measuring.time([&] { return measured(); });
     if (report_.steps == 0) progress_.first = now;
-    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
-    const double drift = std::abs(now.energy() - progress_.first.energy());
-    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    note_energy();
     progress_.recorded_steps = report_.steps;
     has_blown_up_ = has_blown_up(status());
     warn_of_forces();
@@ -176,6 +175,19 @@ class Run {
                      .contact_given = report_.response.energy_given,
                      .contact_taken = report_.response.energy_taken,
                      .friction_work = report_.response.friction_work});
+  }
+
+  // An energy that was not measured to its end is NaN.
+  void note_energy() {
+    const Measurement &first = progress_.first, &now = progress_.latest;
+    progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
+    progress_.most_of_gravity = std::max(progress_.most_of_gravity, std::abs(now.gravitational - first.gravitational));
+    const double drift = std::abs(now.energy() - first.energy());
+    progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
+    const double growth = energy_growth(progress_, run_.start.model);
+    if (!(growth > progress_.largest_growth)) return;
+    progress_.largest_growth = growth;
+    progress_.time_of_growth = report_.time;
   }
 
   void warn_of_forces() {
@@ -218,14 +230,14 @@ class Run {
   }
 
   void show_frames() const {
-    const int written = frames_.count() - first_frame_;
+    const auto written = static_cast<std::size_t>(frames_.count() - first_frame_);
     if (options_.quiet || written == 0) return;
     if (!options_.video.empty()) {
-      fmt::print("video:   {} ({})\n", options_.video.string(), counted(written, "frame"));
+      fmt::print("video:   {} ({})\n", options_.video.string(), counted(written, "frame", "frames"));
       return;
     }
     const std::string left = earlier_frame();
-    fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(written, "file"),
+    fmt::print("frames:  {} ({}{})\n", (folder_ / "frames").string(), counted(written, "file", "files"),
                left.empty() ? "" : fmt::format("; {} and later are of an earlier run", left));
   }
 
@@ -255,7 +267,7 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
-    if (const auto trouble = contact_trouble_of(report_)) fmt::print(stderr, "pliant: warning: {}\n", *trouble);
+    for (const std::string& trouble : contact_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
     if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;
   }
@@ -347,7 +359,7 @@ int run_scene(const RunOptions& given) {
     show_check(prepared);
     return 0;
   }
-  watch_for_interrupts();
+  watch_for_interrupts("the steps in hand");
   return Run(options, prepared, std::move(from)).execute();
 }
 

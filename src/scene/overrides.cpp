@@ -16,6 +16,7 @@ namespace {
 }
 
 const char* const override_form = "write section.key=value or body.NAME.key=value";
+const char* const all_grounds = "replace all grounds together, as in --set 'ground=[{height=1}]'";
 
 bool is_bare_word(std::string_view text) {
   return !text.empty() && text.find_first_of(" \t\r\n\"'[]{},=#") == std::string_view::npos;
@@ -75,6 +76,7 @@ std::vector<std::string> split_at_dots(std::string_view text) {
 toml::table& table_of(toml::table& root, const std::string& key, const std::string& place) {
   const std::size_t last_dot = key.rfind('.');
   if (last_dot == std::string::npos) return root;
+  if (key.starts_with("ground.")) fail_override(place, "grounds have no names to reach them by", all_grounds);
   if (key.starts_with("body.")) {
     if (last_dot < 5) fail_override(place, "names no body, or no key of it", override_form);
     return find_body(root, key.substr(5, last_dot - 5), place);

@@ -24,17 +24,49 @@ double depth_in(const Ground& ground, const ModelBody& body, std::span<const glm
   return deepest;
 }
 
-void expect_above_grounds(const Model& model, const State& state, const std::string& place) {
+// Grounds that the body touches or stands in.
+std::vector<const Ground*> grounds_under(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  std::vector<const Ground*> found;
+  for (const Ground& ground : model.grounds)
+    if (!body.is_static && depth_in(ground, body, positions) >= 0) found.push_back(&ground);
+  return found;
+}
+
+// Says how deep the body stands in each of these grounds. The error's place is that of the first one.
+std::string described(std::span<const Ground* const> grounds, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  std::string text = fmt::format("body \"{}\" ", body.name);
+  for (const Ground* ground : grounds) {
+    const double depth = depth_in(*ground, body, positions);
+    if (ground != grounds.front()) text += ", and ";
+    text += depth == 0 ? "touches " : fmt::format("stands {:.4g} m deep in ", depth);
+    text += ground == grounds.front() ? "this ground" : fmt::format("that of {}", ground->where.place);
+  }
+  return text;
+}
+
+// A move out of one ground can lead into another. No move is named then.
+std::string way_out_of(std::span<const Ground* const> grounds, const Model& model, const ModelBody& body,
+                       std::span<const glm::dvec3> positions) {
+  const Ground& ground = *grounds.front();
+  const glm::dvec3 way = (depth_in(ground, body, positions) + usual_gap(model, body)) * ground.normal;
+  std::vector<glm::dvec3> moved(positions.begin(), positions.end());
+  for (glm::dvec3& position : moved) position += way;
+  if (grounds.size() > 1 || !grounds_under(model, body, moved).empty())
+    return "move the body to where it is out of every ground, or the grounds further apart, or give the body a smaller scale";
+  return fmt::format(
+      "move the body by [{:.6g}, {:.6g}, {:.6g}], which leaves a twentieth of an edge between them, or move the ground", way.x,
+      way.y, way.z);
+}
+
+void expect_out_of_grounds(const Model& model, const State& state, const std::string& place) {
   const std::vector<glm::dvec3> positions = state.world_positions(model);
-  for (const ModelBody& body : model.bodies)
-    for (const Ground& ground : model.grounds)
-      if (const double depth = depth_in(ground, body, positions); !body.is_static && depth >= 0)
-        throw Error(
-            ErrorKind::input, place,
-            depth == 0 ? fmt::format("body \"{}\" touches a ground", body.name)
-                       : fmt::format("body \"{}\" stands {:.4g} m deep in a ground", body.name, depth),
-            fmt::format("raise the body by {:.4g} m, which leaves a twentieth of an edge between them, or lower the ground",
-                        depth + usual_gap(model, body)));
+  for (const ModelBody& body : model.bodies) {
+    const std::vector<const Ground*> grounds = grounds_under(model, body, positions);
+    if (grounds.empty()) continue;
+    const Origin& where = grounds.front()->where;
+    throw Error(where.place.empty() ? Origin{Origin::From::file, place} : where, described(grounds, body, positions),
+                way_out_of(grounds, model, body, positions));
+  }
 }
 
 std::string described(const Model& model, const Overlap& overlap) {
@@ -130,7 +162,7 @@ bool keeps_apart(const Simulation& simulation) {
 
 void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
   if (!keeps_apart(simulation)) return;
-  expect_above_grounds(model, simulation.state(), place);
+  expect_out_of_grounds(model, simulation.state(), place);
   const Intersections found = simulation.intersections();
   if (found.pairs == 0) return;
   const Overlap overlap = find_overlap(model, simulation.state().world_positions(model), found.bodies);

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/read_text.hpp"
+#include "output/video.hpp"
 #include "support/has.hpp"
 #include "support/json.hpp"
 #include "support/paths.hpp"
@@ -46,6 +47,26 @@ TEST_CASE("a check with a tolerance estimates the number of steps") {
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("by a tolerance of 1e-05") && Catch::Contains("steps:            about ") &&
                                 !Catch::Contains("inf") && !Catch::Contains("nan"));
+}
+
+TEST_CASE("an empty name of a scene or a mesh is called that") {
+  check_fails("run ''", 2, {"scene: is empty; name a file"});
+  check_fails("mesh ''", 2, {"mesh: is empty; name a file or a generator"});
+  check_fails("view ''", 2, {"scene: is empty; name a file"});
+}
+
+TEST_CASE("folders that are missing are made for each output alike") {
+  const ScratchFolder folder;
+  const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 1 --quiet --out ";
+  const auto place = [&](const char* name) { return folder.path / name / "below" / "it"; };
+  REQUIRE(run_program(run + place("out").string() + " --checkpoint " + (place("kept") / "run.checkpoint").string()).exit_code ==
+          0);
+  CHECK(std::filesystem::exists(place("out") / "summary.json"));
+  CHECK(std::filesystem::exists(place("kept") / "run.checkpoint"));
+  if (!test::has_gl() || !test::has("ffmpeg", VideoFile::has_encoder())) return;
+  const std::filesystem::path video = place("film") / "run.mp4";
+  REQUIRE(run_program(run + place("out").string() + " --video " + video.string()).exit_code == 0);
+  CHECK(std::filesystem::exists(video));
 }
 
 TEST_CASE("options replace what the scene says") {

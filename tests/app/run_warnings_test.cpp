@@ -1,6 +1,10 @@
 // What a run says of its motion: warnings, and where it breaks down.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <fstream>
+#include <sstream>
 
 #include "core/read_text.hpp"
 #include "support/program.hpp"
@@ -32,6 +36,26 @@ TEST_CASE("a run that blows up but stays finite says so in its summary") {
   CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
 }
 
+struct Energies {
+  double first = 0, largest = 0, latest = 0;  // in rows of the history [J]
+  double time_of_largest = 0;                 // [s]
+};
+
+Energies energies_in(const ScratchFolder& folder) {
+  Energies found;
+  std::istringstream rows(read_text(folder.path / "history.csv"));
+  std::string row;
+  for (std::getline(rows, row); std::getline(rows, row);) {
+    double time = 0;
+    REQUIRE(std::sscanf(row.c_str(), "%*[^,],%lf,%*[^,],%*[^,],%*[^,],%lf", &time, &found.latest) == 2);
+    if (time == 0) found.first = found.latest;
+    if (found.latest <= found.largest) continue;
+    found.largest = found.latest;
+    found.time_of_largest = time;
+  }
+  return found;
+}
+
 TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity below 1 too") {
   const ScratchFolder folder;
   const auto growth_and_warnings = [&](const std::string& time_step) {
@@ -40,9 +64,8 @@ TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity
                     " --device cpu --duration 0.5 --set collision.response=reflect --quiet --time-step " + time_step + " --out " +
                     folder.path.string());
     REQUIRE(result.exit_code == 0);
-    const auto summary = summary_in(folder.path);
-    return std::pair(summary["energy"]["final"].get<double>() / summary["energy"]["initial"].get<double>(),
-                     summary["warnings"].text());
+    const Energies energies = energies_in(folder);
+    return std::pair(energies.largest / energies.first, summary_in(folder.path)["warnings"].text());
   };
   const auto [grown, warnings] = growth_and_warnings("0.01");
   CHECK((grown > 1.05 && grown < 2));
@@ -52,6 +75,22 @@ TEST_CASE("energy that contacts have added is told from 5 % on, at an elasticity
   const auto [shrunk, none] = growth_and_warnings("0.002");
   CHECK(shrunk < 1.05);
   CHECK_THAT(none, !Catch::Contains("energy"));
+}
+
+TEST_CASE("energy that grew on the way and was damped away again is told, with its time") {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_program("run " + small_scene(folder, "damping_law = \"constant\"\n").string() +
+                  " --device cpu --duration 3 --set collision.response=reflect --set body.left.damping=0.3"
+                  " --set body.right.damping=0.3 --quiet --out " +
+                  folder.path.string());
+  REQUIRE(result.exit_code == 0);
+  const Energies energies = energies_in(folder);
+  REQUIRE(energies.largest > 1.05 * energies.first);
+  REQUIRE(energies.latest < energies.first);
+  CHECK_THAT(summary_in(folder.path)["warnings"].text(),
+             Catch::Contains(fmt::format("the energy has grown {:.3g}-fold at {:.6g} s: contacts",
+                                         energies.largest / energies.first, energies.time_of_largest)));
 }
 
 // Runs a body with pressure, at rest at the start.
@@ -155,6 +194,26 @@ TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   CHECK(summary["steps"] == 50);
   CHECK(summary["simulated_seconds"].get<double>() == Approx(0.5));
   CHECK(summary["final_intersecting_pairs"] == 0);
+}
+
+TEST_CASE("a body that meets a ground too fast is told, with a remedy, and one turned back by reflection is not") {
+  const ScratchFolder folder;
+  const auto path = folder.path / "fast.toml";
+  std::ofstream(path) << "[simulation]\ntime_step = 0.001\n[[ground]]\n[[body]]\nmesh = \"icosphere:2\"\nposition = [0, 3, 0]\n"
+                         "velocity = [0, -1e6, 0]\n";
+  const ProgramResult result =
+      run_program("run " + path.string() + " --device cpu --steps 5 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output,
+             Catch::Contains("cut short 162 times") && Catch::Contains("try a shorter time step, or stiffer bodies"));
+  CHECK_THAT(summary_in(folder.path)["warnings"].text(), Catch::Contains("cut short 162 times"));
+  const ProgramResult turned =
+      run_program("run " + small_scene(folder).string() +
+                  " --device cpu --duration 1 --quiet --set collision.elasticity=0 --set collision.response=reflect --out " +
+                  folder.path.string());
+  CHECK(turned.exit_code == 0);
+  CHECK(summary_in(folder.path)["contacts"]["reverted_vertices"] > 100);
+  CHECK_THAT(turned.output, !Catch::Contains("cut short"));
 }
 
 TEST_CASE("of many bodies that overlap some are named, and the rest counted") {

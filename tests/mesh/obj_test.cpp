@@ -180,6 +180,11 @@ TEST_CASE("faces without area stay, with a warning that counts them") {
   CHECK_THAT(loaded.warnings[0], Catch::StartsWith("2 triangles"));
 }
 
+TEST_CASE("one flaw is told in the singular") {
+  const LoadedMesh loaded = parse_obj(three_vertices + "v 2 0 0\nf 1 2 3\nf 1 1 2\n", "flat");
+  CHECK(loaded.warnings == std::vector<std::string>{"1 vertex is in no face and left out", "1 triangle has no area"});
+}
+
 TEST_CASE("a mesh's description is a generator's or a path relative to the given folder") {
   CHECK(load_mesh("icosphere:0", "no/such/folder").mesh.positions.size() == 12);
   CHECK(load_mesh("bunny.obj", source_dir() + "/meshes").mesh.positions.size() == 1839);

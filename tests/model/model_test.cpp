@@ -1,5 +1,6 @@
 #include "model/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -179,12 +180,29 @@ TEST_CASE("a point cloud without triangles is a body") {
   CHECK(built.model.bodies[0].radius == 1);
 }
 
-TEST_CASE("a body too small for forces in fp32 is an input error") {
-  BodySetup setup = lopsided();
-  setup.description.scale = 1e-7;
-  const Error error = error_of([&] { return build(setup); });
-  CHECK(error.kind() == ErrorKind::input);
-  check_says(error, {"lopsided", "1e-06 m", "scale"});
+TEST_CASE("a body too small for forces in fp32 is an input error, even if all its vertices are one point") {
+  BodySetup small = lopsided(), point = lopsided();
+  small.description.scale = 1e-7;
+  std::ranges::fill(point.mesh.positions, glm::dvec3(1, 2, 3));
+  for (const BodySetup& setup : {small, point}) {
+    const Error error = error_of([&] { return build(setup); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {"lopsided", "1e-06 m", "scale"});
+  }
+}
+
+TEST_CASE("a ground's normal gives its direction at any length whatever") {
+  const BodySetup setup = lopsided();
+  for (const double length : {5e-324, 1e-300, 1e-170, 1.0, 1e9}) {
+    CAPTURE(length);
+    GroundDescription ground;
+    ground.point = {0, 2, 0};
+    ground.normal = {0, -length, length};
+    const Model model = build_model({&setup, 1}, {0, 0, 0}, {&ground, 1}).model;
+    CHECK(glm::length(model.grounds[0].normal) == Approx(1));
+    CHECK(model.grounds[0].normal.y == -model.grounds[0].normal.z);
+    CHECK(model.grounds[0].offset == Approx(-std::sqrt(2)));
+  }
 }
 
 }  // namespace pliant

@@ -302,6 +302,18 @@ TEST_CASE("grounds, static bodies and what contacts need to know of them are rea
   CHECK((scene.collision.restitution == 0.7 && scene.bodies[0].restitution == 0.4));
 }
 
+TEST_CASE("overrides replace all grounds together, and reach no key of one") {
+  const std::string grounds = "[[ground]]\nheight = 1\n[[ground]]\nnormal = [1, 0, 0]\n" + smallest;
+  CHECK(load_text(grounds, {"ground=[]"}).grounds.empty());
+  const SceneDescription replaced = load_text(grounds, {"ground=[{height=2, friction=0.3}]"});
+  REQUIRE(replaced.grounds.size() == 1);
+  CHECK((replaced.grounds[0].point.y == 2 && replaced.grounds[0].surface.friction == 0.3));
+  CHECK(load_text(smallest, {"ground=[{height=-1}]"}).grounds.size() == 1);
+  for (const char* key : {"ground.height=1", "ground.0.height=1"})
+    for (const std::string& text : {grounds, smallest})
+      check_override_error(text, key, {"grounds have no names", "--set 'ground=[{height=1}]'"});
+}
+
 TEST_CASE("the drawn floor is the first ground that is level and faces up") {
   const std::string slope = "[[ground]]\nnormal = [1, 1, 0]\n", ceiling = "[[ground]]\npoint = [0, 5, 0]\nnormal = [0, -1, 0]\n";
   CHECK_FALSE(load_text(slope + ceiling + smallest).output.ground_height);

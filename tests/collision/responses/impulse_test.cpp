@@ -320,7 +320,7 @@ TEST_CASE("bodies that begin in each other or in the ground are an error that na
   const ModelAndState sunk = on_ground("icosphere:1", 0.75, 0, 0.5);
   Simulation buried(*device, sunk.model, sunk.state, plan_of(Method{"verlet", 0.01}), by_impulses);
   check_says(error_of([&] { expect_apart(buried, sunk.model, "scene.toml"); }),
-             {"body \"body\"", "deep in a ground", "raise the body by", "lower the ground"});
+             {"scene.toml: body \"body\"", "deep in this ground", "move the body by [0, ", "or move the ground"});
   Simulation reflecting(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), {.response = {"reflect"}});
   CHECK_NOTHROW(expect_apart(reflecting, start.model, "scene.toml"));
 }

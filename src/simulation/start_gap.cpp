@@ -1,0 +1,166 @@
+// Sorts boxes along x, first of bodies, then of the triangles of two bodies that are near, and measures what is left.
+#define REAL_BITS 64
+#include "simulation/start_gap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <span>
+
+#include "core/counted.hpp"
+#include "model/mean_edge.hpp"
+#include "physics/contact/features.glsl"
+#include "physics/contact/surface.glsl"
+
+namespace pliant {
+namespace {
+
+constexpr std::size_t most_told = 8;
+constexpr double near_enough = 0.99;  // of the gap: places in scenes are rounded
+
+struct StartBox {
+  std::uint32_t index = 0;  // of the body or triangle
+  glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
+
+  void add(const glm::dvec3& place) {
+    lower = glm::min(lower, place);
+    upper = glm::max(upper, place);
+  }
+};
+
+bool are_near(const StartBox& a, const StartBox& b, double distance) {
+  return glm::all(glm::lessThanEqual(a.lower, b.upper + distance)) && glm::all(glm::lessThanEqual(b.lower, a.upper + distance));
+}
+
+// Calls visit(a, b) for each two boxes that are no further apart than that.
+template <class Visit>
+void for_each_near(std::vector<StartBox> boxes, double distance, const Visit& visit) {
+  std::ranges::sort(boxes, {}, [](const StartBox& box) { return box.lower.x; });
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower.x <= boxes[i].upper.x + distance; ++j)
+      if (are_near(boxes[i], boxes[j], distance)) visit(boxes[i], boxes[j]);
+}
+
+class NearStarts {
+ public:
+  NearStarts(const Model& model, const State& state, const CollisionDescription& collision)
+      : model_(model), collision_(collision), positions_(state.world_positions(model)) {
+    for (const ModelBody& body : model.bodies) edges_.push_back(body.triangle_count > 0 ? mean_edge(model, body) : body.radius);
+  }
+
+  std::vector<std::string> told() {
+    find_near_grounds();
+    find_near_bodies();
+    if (rest_ > 0) told_.push_back(counted(rest_, "more pair begins", "more pairs begin") + " nearer than the gap");
+    return std::move(told_);
+  }
+
+ private:
+  double gap_in_edges(const SurfaceDescription& surface) const { return surface.gap.value_or(collision_.gap); }
+
+  double gap_of(std::uint32_t a, std::uint32_t b) const {
+    const ModelBody &first = model_.bodies[a], &second = model_.bodies[b];
+    const double edge = first.is_static ? edges_[b] : second.is_static ? edges_[a] : std::min(edges_[a], edges_[b]);
+    return physics::mean_of_pair(gap_in_edges(first.surface), gap_in_edges(second.surface)) * edge;
+  }
+
+  void tell(const std::string& who, double distance, double gap) {
+    if (told_.size() == most_told) {
+      ++rest_;
+      return;
+    }
+    told_.push_back(
+        fmt::format("{} {:.3g} m apart, nearer than the gap of {:.3g} m that contacts keep: the first step pushes them "
+                    "apart, which adds energy; move them further apart",
+                    who, distance, gap));
+  }
+
+  void find_near_grounds() {
+    for (std::uint32_t b = 0; b < model_.bodies.size(); ++b)
+      for (const Ground& ground : model_.grounds)
+        if (!model_.bodies[b].is_static) compare(b, ground);
+  }
+
+  void compare(std::uint32_t index, const Ground& ground) {
+    const ModelBody& body = model_.bodies[index];
+    double distance = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& p : std::span(positions_).subspan(body.first_vertex, body.vertex_count))
+      distance = std::min(distance, glm::dot(ground.normal, p) - ground.offset);
+    const double gap = physics::mean_of_pair(gap_in_edges(body.surface), gap_in_edges(ground.surface)) * edges_[index];
+    if (distance < near_enough * gap)
+      tell(fmt::format("body \"{}\" and the ground of {} begin", body.name, ground.where.place), distance, gap);
+  }
+
+  void find_near_bodies() {
+    std::vector<StartBox> boxes;
+    double largest_gap = 0, largest_edge = 0;
+    for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
+      const ModelBody& body = model_.bodies[b];
+      if (body.triangle_count == 0) continue;
+      largest_gap = std::max(largest_gap, gap_in_edges(body.surface));
+      largest_edge = std::max(largest_edge, edges_[b]);
+      StartBox& box = boxes.emplace_back(StartBox{.index = b});
+      for (const glm::dvec3& p : std::span(positions_).subspan(body.first_vertex, body.vertex_count)) box.add(p);
+    }
+    for_each_near(std::move(boxes), largest_gap * largest_edge, [&](const StartBox& a, const StartBox& b) { compare(a, b); });
+  }
+
+  void compare(const StartBox& a, const StartBox& b) {
+    const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
+    if (first.is_static && second.is_static) return;
+    const double gap = gap_of(a.index, b.index);
+    std::vector<StartBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
+    boxes.insert(boxes.end(), others.begin(), others.end());
+    double nearest = near_enough * gap;
+    for_each_near(std::move(boxes), gap, [&](const StartBox& s, const StartBox& t) {
+      if (model_.body_index(model_.triangles[s.index][0]) != model_.body_index(model_.triangles[t.index][0]))
+        nearest = std::min(nearest, distance_of(s.index, t.index));
+    });
+    if (nearest < near_enough * gap)
+      tell(fmt::format("bodies \"{}\" and \"{}\" begin", model_.bodies[std::min(a.index, b.index)].name,
+                       model_.bodies[std::max(a.index, b.index)].name),
+           nearest, gap);
+  }
+
+  // Boxes of the body's triangles that are no further from the other body's box than that.
+  std::vector<StartBox> boxes_near(const ModelBody& body, const StartBox& other, double distance) const {
+    std::vector<StartBox> boxes;
+    for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+      StartBox box{.index = t};
+      for (const std::uint32_t vertex : model_.triangles[t]) box.add(positions_[vertex]);
+      if (are_near(box, other, distance)) boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  double distance_of(std::uint32_t s, std::uint32_t t) const {
+    const glm::dvec3 near_by = positions_[model_.triangles[s][0]];
+    glm::dvec3 corners[6];
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = positions_[model_.triangles[s][k]] - near_by;
+      corners[3 + k] = positions_[model_.triangles[t][k]] - near_by;
+    }
+    return physics64::closest_points(corners).distance;
+  }
+
+  const Model& model_;
+  const CollisionDescription& collision_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<double> edges_;  // mean length, a body
+  std::vector<std::string> told_;
+  std::size_t rest_ = 0;  // pairs beyond those told
+};
+
+}  // namespace
+
+std::vector<std::string> told_near_starts(const Model& model, const State& state, const CollisionDescription& collision) {
+  return NearStarts(model, state, collision).told();
+}
+
+}  // namespace pliant

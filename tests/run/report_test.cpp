@@ -1,0 +1,34 @@
+// What a run warns of at its end.
+#include "run/report.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace pliant {
+namespace {
+
+TEST_CASE("parts of steps in which no body moved are told, with their number") {
+  StepReport report;
+  CHECK(contact_troubles_of(report, 1000).empty());
+  report.held_parts = 17;
+  const std::vector<std::string> told = contact_troubles_of(report, 1000);
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Catch::Contains("no body moved in 17 parts of steps"));
+}
+
+TEST_CASE("motions that were cut short are told from 1 % of those in contact on, and from 100 on") {
+  const auto is_told = [](std::uint64_t cuts, std::uint64_t contact_steps, std::uint64_t vertices) {
+    StepReport report;
+    report.reverted_vertices = cuts;
+    report.contact_steps = contact_steps;
+    return !contact_troubles_of(report, vertices).empty();
+  };
+  CHECK(is_told(100, 1, 100));
+  CHECK_FALSE(is_told(99, 1, 100));
+  CHECK(is_told(100, 0, 100));  // no contact gave an impulse
+  CHECK(is_told(10'000, 1'000, 1'000));
+  CHECK_FALSE(is_told(9'999, 1'000, 1'000));
+  CHECK_FALSE(is_told(0, 0, 100));
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,98 @@
+// What contact by impulses needs of the start: bodies out of grounds and of each other, by a gap.
+#include "simulation/start_check.hpp"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include "device/cpu/cpu_device.hpp"
+#include "model/load_bodies.hpp"
+#include "scene/load_scene.hpp"
+#include "simulation/overlap.hpp"
+#include "simulation/start_gap.hpp"
+#include "simulation/time_plan.hpp"
+#include "support/expect_error.hpp"
+
+namespace pliant {
+namespace {
+
+// A sphere of radius 1 at the origin, named "ball".
+const std::string ball = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:2\"\n";
+
+class Start {
+ public:
+  explicit Start(const std::string& text)
+      : scene_(parse_scene(text, "scene.toml", {})),
+        start_(build_model(load_bodies(scene_), scene_.simulation.gravity, scene_.grounds)) {}
+
+  Error error() {
+    const auto device = make_cpu_device(1, 32);
+    Simulation simulation(*device, start_.model, start_.state, plan_time(scene_, start_.model), scene_.collision);
+    return error_of([&] { expect_apart(simulation, start_.model, "scene.toml"); });
+  }
+
+  std::vector<std::string> told() const { return told_near_starts(start_.model, start_.state, scene_.collision); }
+  // That bodies of one mesh keep [m].
+  double gap() const { return usual_gap(start_.model, start_.model.bodies[0]); }
+
+ private:
+  SceneDescription scene_;
+  ModelAndState start_;
+};
+
+TEST_CASE("a body in a ground is told the way out of that ground, whose line is named") {
+  const Error below = Start("[[ground]]\nheight = -5\n[[ground]]\npoint = [0, 0.5, 0]\nnormal = [0, -2, 0]\n" + ball).error();
+  CHECK(below.kind() == ErrorKind::input);
+  check_says(below, {"scene.toml:3: ground: body \"ball\" stands 0.5 m deep", "move the body by [0, -0.51", "move the ground"});
+  check_says(Start("[[ground]]\nheight = -1\n" + ball).error(), {"scene.toml:1: ground: body \"ball\" touches this ground"});
+}
+
+TEST_CASE("a body that no single move brings out of grounds is promised none") {
+  const std::string floor = "[[ground]]\nheight = -0.5\n", ceiling = "[[ground]]\npoint = [0, 0.75, 0]\nnormal = [0, -1, 0]\n";
+  const Error in_both = Start(floor + ceiling + ball).error();
+  check_says(in_both, {"scene.toml:1: ground", "stands 0.5 m deep in this ground, and stands 0.25 m deep in that of scene.toml:3",
+                       "out of every ground"});
+  CHECK(std::string(in_both.what()).find("move the body by") == std::string::npos);
+  const Error out_of_one = Start(floor + "[[ground]]\npoint = [0, 1.25, 0]\nnormal = [0, -1, 0]\n" + ball).error();
+  check_says(out_of_one, {"scene.toml:1: ground", "out of every ground"});
+  CHECK(std::string(out_of_one.what()).find("move the body by") == std::string::npos);
+}
+
+// A second ball beside the first one, so many gaps from it. A corner of each is nearest to the other.
+std::string beside(double gaps) {
+  return ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n",
+                            2 + gaps * Start(ball).gap());
+}
+
+TEST_CASE("bodies that begin nearer than their gap are named, and those that keep it are not") {
+  const std::vector<std::string> told = Start(beside(0.5)).told();
+  REQUIRE(told.size() == 1);
+  const double gap = Start(ball).gap();
+  CHECK_THAT(told[0], Catch::Contains(fmt::format("bodies \"ball\" and \"other\" begin {:.3g} m apart", 0.5 * gap)) &&
+                          Catch::Contains(fmt::format("the gap of {:.3g} m", gap)) && Catch::Contains("move them further apart"));
+  CHECK(Start(beside(1)).told().empty());
+  CHECK(Start("[collision]\ngap = 0.02\n" + beside(0.5)).told().empty());
+  CHECK(Start("[collision]\ngap = 0.1\n" + beside(1)).told().size() == 1);
+}
+
+TEST_CASE("a body that begins nearer to a ground than the gap is named, with the ground's line") {
+  const auto above = [](double gaps) {
+    return fmt::format("[[ground]]\nheight = {:.9f}\n", -1 - gaps * Start(ball).gap()) + ball;
+  };
+  const std::vector<std::string> told = Start(above(0.25)).told();
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Catch::Contains("body \"ball\" and the ground of scene.toml:1: ground begin"));
+  CHECK(Start(above(1)).told().empty());
+}
+
+TEST_CASE("of many bodies that begin too near eight pairs are named, and the rest counted") {
+  std::string row;
+  for (int k = 0; k < 12; ++k)
+    row += fmt::format("[[body]]\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n", k * (2 + 0.5 * Start(ball).gap()));
+  const std::vector<std::string> told = Start(row).told();
+  REQUIRE(told.size() == 9);
+  CHECK_THAT(told[8], Catch::StartsWith("3 more pairs begin"));
+}
+
+}  // namespace
+}  // namespace pliant
