@@ -4,9 +4,9 @@ namespace pliant {
 namespace {
 
 // The name has to be right even where there is nothing to touch.
-std::unique_ptr<Response> make_response(const ResponseSetting& setting, bool has_contacts) {
-  const ResponseRow* const row = find_response(setting.description.response);
-  return row == nullptr || !has_contacts ? nullptr : row->make(setting);
+ResponseRow row_of(const CollisionDescription& description, bool has_contacts) {
+  const ResponseRow& named = find_response(description.response);
+  return has_contacts ? named : ResponseRow();
 }
 
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
@@ -23,8 +23,10 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_(make_response({bodies, model, description, forest_, body_pairs_, trees_, step_lengths},
-                              searches() || !model.grounds.empty())) {}
+      response_row_(row_of(description, searches() || !model.grounds.empty())) {
+  if (response_row_.make != nullptr)
+    response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, step_lengths});
+}
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
 

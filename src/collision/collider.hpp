@@ -23,6 +23,8 @@ class Collider {
   /// Returns null if contacts are not answered.
   [[nodiscard]] const Response* response() const { return response_.get(); }
   [[nodiscard]] Response* response() { return response_.get(); }
+  /// Returns what is known of the response. It is "none" if contacts are not answered.
+  [[nodiscard]] const ResponseRow& response_row() const { return response_row_; }
   /// Returns whether there are two bodies and triangles to touch.
   [[nodiscard]] bool searches() const;
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.
@@ -54,7 +56,8 @@ class Collider {
   BodyPairs body_pairs_;
   TreeSearch trees_;
   Touching touching_;
-  std::unique_ptr<Response> response_;
+  ResponseRow response_row_;
+  std::unique_ptr<Response> response_;  // null if contacts are not answered
 };
 
 }  // namespace pliant

@@ -174,7 +174,7 @@ void show_end(const RunStatus& status) {
                times.writing.seconds(),
                !options.checkpoint.empty() ? fmt::format(" and {:.2f} s for checkpoints", times.saving.seconds()) : "");
   fmt::print("contacts in {} steps, at most {} {} at once\n", report.contact_steps, report.contact_pairs_max,
-             is_by_impulses(run.scene.collision) ? "impulses" : "triangle pairs");
+             find_response(run.scene.collision.response).gives_impulses ? "impulses" : "triangle pairs");
   if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0)
     fmt::print("contacts took {:.4g} J, of which friction {:.4g} J, and gave {:.4g} J\n", contacts.energy_taken,
                contacts.friction_work, contacts.energy_given);

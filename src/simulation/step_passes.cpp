@@ -39,7 +39,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
                               std::uint32_t from_half, const Pacer* pacer) {
   const std::uint32_t half = physics::other_half(from_half);
   const Response* const response = collider.response();
-  const bool searches = response != nullptr && response->answers_touching();
+  const bool searches = response != nullptr && collider.response_row().answers_touching;
   List step;
   // length
   if (pacer != nullptr) step.add(pacer->beginning_pass());

@@ -52,9 +52,8 @@ void Observer::measure_energy(Session& session) {
 }
 
 void Observer::note_contacts(Session& session, const Counts& before, const Counts& after) {
-  const Response* const response = session.simulation().collider().response();
   const bool goes_on = after.step >= before.step && after.touching >= before.touching;
-  if (response != nullptr && response->gives_impulses())
+  if (session.simulation().collider().response_row().gives_impulses)
     observation_.touching.add(static_cast<double>(session.simulation().contact_impulses().size()));
   else
     observation_.touching.add(goes_on ? static_cast<double>(after.touching - before.touching) : 0);
