@@ -1,5 +1,7 @@
 #include "collision/collider.hpp"
 
+#include <algorithm>
+
 namespace pliant {
 namespace {
 
@@ -19,6 +21,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
                    std::optional<std::uint32_t> parallel_items)
     : description_(description),
       body_count_(bodies.body_count),
+      has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
@@ -32,8 +35,9 @@ bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empt
 
 bool Collider::uses_trees() const { return description_.search == ContactSearch::tree && searches(); }
 
-std::vector<Pass> Collider::pairing_passes() const {
+std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
   if (!searches()) return {};
+  if (has_static_) return {bounding_pass(half), body_pairs_.pairing_pass()};
   return {body_pairs_.pairing_pass()};
 }
 
@@ -53,7 +57,7 @@ std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
 }
 
 std::vector<Pass> Collider::search_passes(std::uint32_t half) const {
-  std::vector<Pass> all = pairing_passes();
+  std::vector<Pass> all = pairing_passes(half);
   for (const auto& passes : {refitting_passes(half), finding_passes(half), testing_passes(half)})
     all.insert(all.end(), passes.begin(), passes.end());
   return all;

@@ -30,14 +30,14 @@ class Collider {
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.
   [[nodiscard]] bool uses_trees() const;
 
-  /// Bounds every body at `half`. A step does that itself as it ends.
+  /// Bounds every body at `half`. A step does that itself as it ends, but for static bodies.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
   /// Return the passes of a search at `half`, which run in this order:
-  /// - Pairing finds pairs of bodies.
+  /// - Pairing finds pairs of bodies. If there are static ones, it bounds bodies first.
   /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.
   /// - Testing finds touching triangles and marks their vertices.
-  /// A pass may run beside those after the first if it changes neither world positions nor the collider's own arrays.
-  [[nodiscard]] std::vector<Pass> pairing_passes() const;
+  /// A pass may run beside those after pairing if it changes neither world positions nor the collider's own arrays.
+  [[nodiscard]] std::vector<Pass> pairing_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> refitting_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> finding_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> testing_passes(std::uint32_t half) const;
@@ -52,6 +52,7 @@ class Collider {
  private:
   CollisionDescription description_;
   std::uint32_t body_count_;
+  bool has_static_;
   Forest forest_;
   BodyPairs body_pairs_;
   TreeSearch trees_;

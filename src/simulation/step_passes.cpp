@@ -20,7 +20,7 @@ class List {
 // Frames follow their bodies while search passes run that do not use the changed arrays.
 void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
   const std::uint32_t half = physics::other_half(from_half);
-  step.add(collider.pairing_passes());
+  step.add(collider.pairing_passes(half));
   step.add(collider.refitting_passes(half));
   step.add(beside_next(stepper.following_pass(from_half)));
   step.add(collider.finding_passes(half));

@@ -111,8 +111,14 @@ TEST_CASE("a mistyped response is named as such, also where a body is static") {
 
 TEST_CASE("a response of another program may allow static bodies and grounds") {
   add_own_rows();
-  const SceneDescription scene = scene_of("[[ground]]\nheight = -9\n" + plate, "halt");
-  CHECK(response_of(scene).name == "halt");
+  const SceneDescription scene =
+      scene_of("[[ground]]\nheight = -9\n" + plate + smallest + "position = [0, 2.05, 0]\nvelocity = [0, -4, 0]\n", "halt");
+  const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity, scene.grounds);
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_time(scene, start.model), scene.collision);
+  simulation.advance(20);
+  CHECK(simulation.report().contact_steps > 0);
+  CHECK_FALSE(simulation.report().non_finite);
 }
 
 TEST_CASE("elasticity and damping law have the default of the response, unless the scene names them") {
