@@ -27,7 +27,7 @@ struct RunStatus {
 /// Says how often bodies were held, or returns nothing.
 [[nodiscard]] std::optional<std::string> contact_trouble_of(const StepReport& report);
 
-/// Returns the summary. Unless the state is non-finite, it searches for the triangles that intersect at the end.
+/// Returns the summary. Unless there was a breakdown, it searches for the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);
 
 /// Prints where a resumed run goes on.

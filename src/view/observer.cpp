@@ -16,7 +16,7 @@ void Series::add(double value) {
 void Observer::look(Session& session) {
   constexpr double interval = 0.1, largest_share = 0.1;  // [s], and the part of the time that samples may take
   const double began = clock_();
-  if (began < next_ || session.non_finite()) return;
+  if (began < next_ || session.breakdown()) return;
   if (!before_ || session.step() != before_->step) take_sample(session);
   const double ended = clock_();
   next_ = began + std::max(interval, (ended - began) / largest_share);
