@@ -23,7 +23,8 @@ void view(const ViewOptions& options) {
   view::Window window(scene.description.output.size, scene.description.title);
   std::unique_ptr<Device> device = choose_device(options.device, window.context());
   const auto make_device = [&](DeviceKind kind) {
-    return kind == DeviceKind::gpu ? make_gpu_device(window.context()) : make_cpu_device(options.device.threads, 32);
+    return kind == DeviceKind::gpu ? make_gpu_device(window.context())
+                                   : make_cpu_device(options.device.threads, options.device.precision.value_or(32));
   };
   view::Viewer viewer(window, std::move(device), std::move(scene),
                       {.pace = {.speed = options.speed},

@@ -1,12 +1,14 @@
 #include "collision/collider.hpp"
 
+#include <algorithm>
+
 namespace pliant {
 namespace {
 
 // The name has to be right even where there is nothing to touch.
-std::unique_ptr<Response> make_response(const ResponseSetting& setting, bool has_contacts) {
-  const ResponseRow* const row = find_response(setting.description.response);
-  return row == nullptr || !has_contacts ? nullptr : row->make(setting);
+ResponseRow row_of(const CollisionDescription& description, bool has_contacts) {
+  const ResponseRow& named = find_response(description.response);
+  return has_contacts ? named : ResponseRow();
 }
 
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
@@ -19,19 +21,23 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
                    std::optional<std::uint32_t> parallel_items)
     : description_(description),
       body_count_(bodies.body_count),
+      has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_(make_response({bodies, model, description, forest_, body_pairs_, trees_, step_lengths},
-                              searches() || !model.grounds.empty())) {}
+      response_row_(row_of(description, searches() || !model.grounds.empty())) {
+  if (response_row_.make != nullptr)
+    response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, step_lengths});
+}
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
 
 bool Collider::uses_trees() const { return description_.search == ContactSearch::tree && searches(); }
 
-std::vector<Pass> Collider::pairing_passes() const {
+std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
   if (!searches()) return {};
+  if (has_static_) return {bounding_pass(half), body_pairs_.pairing_pass()};
   return {body_pairs_.pairing_pass()};
 }
 
@@ -51,7 +57,7 @@ std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
 }
 
 std::vector<Pass> Collider::search_passes(std::uint32_t half) const {
-  std::vector<Pass> all = pairing_passes();
+  std::vector<Pass> all = pairing_passes(half);
   for (const auto& passes : {refitting_passes(half), finding_passes(half), testing_passes(half)})
     all.insert(all.end(), passes.begin(), passes.end());
   return all;

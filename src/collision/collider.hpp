@@ -23,19 +23,21 @@ class Collider {
   /// Returns null if contacts are not answered.
   [[nodiscard]] const Response* response() const { return response_.get(); }
   [[nodiscard]] Response* response() { return response_.get(); }
+  /// Returns what is known of the response. It is "none" if contacts are not answered.
+  [[nodiscard]] const ResponseRow& response_row() const { return response_row_; }
   /// Returns whether there are two bodies and triangles to touch.
   [[nodiscard]] bool searches() const;
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.
   [[nodiscard]] bool uses_trees() const;
 
-  /// Bounds every body at `half`. A step does that itself as it ends.
+  /// Bounds every body at `half`. A step does that itself as it ends, but for static bodies.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
   /// Return the passes of a search at `half`, which run in this order:
-  /// - Pairing finds pairs of bodies.
+  /// - Pairing finds pairs of bodies. If there are static ones, it bounds bodies first.
   /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.
   /// - Testing finds touching triangles and marks their vertices.
-  /// A pass may run beside those after the first if it changes neither world positions nor the collider's own arrays.
-  [[nodiscard]] std::vector<Pass> pairing_passes() const;
+  /// A pass may run beside those after pairing if it changes neither world positions nor the collider's own arrays.
+  [[nodiscard]] std::vector<Pass> pairing_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> refitting_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> finding_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> testing_passes(std::uint32_t half) const;
@@ -50,11 +52,13 @@ class Collider {
  private:
   CollisionDescription description_;
   std::uint32_t body_count_;
+  bool has_static_;
   Forest forest_;
   BodyPairs body_pairs_;
   TreeSearch trees_;
   Touching touching_;
-  std::unique_ptr<Response> response_;
+  ResponseRow response_row_;
+  std::unique_ptr<Response> response_;  // null if contacts are not answered
 };
 
 }  // namespace pliant

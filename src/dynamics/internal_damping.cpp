@@ -15,8 +15,6 @@ InternalDamping::InternalDamping(DeviceBodies& bodies, const Model& model, Dampi
   arrays.make("moment_range", all.ranges);
   arrays.make<physics::Moments>("moment", all.parts.size());
   arrays.make<physics::RigidMotion>("rigid_motion", bodies.body_count);
-  arrays.make<double>("added_force", std::size_t{3} * bodies.vertex_count);
-  arrays.make<double>("acceleration", 1);  // a method with stages makes its own
 }
 
 std::vector<Pass> InternalDamping::passes(const StageState& at, bool is_first) const {

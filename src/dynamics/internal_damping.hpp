@@ -21,8 +21,7 @@ struct StageState {
 /// fixed order.
 class InternalDamping {
  public:
-  /// `bodies` must outlive this. Makes arrays only if a body has internal damping. `added_force` and `acceleration` then have the
-  /// room that these passes need.
+  /// `bodies` must outlive this. Makes arrays only if a body has internal damping.
   InternalDamping(DeviceBodies& bodies, const Model& model, DampingLaw law);
   /// Returns whether any body has internal damping.
   [[nodiscard]] bool acts() const { return part_count_ > 0; }

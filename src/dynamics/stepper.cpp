@@ -87,16 +87,18 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
       law_(law_of_stages(law)),
       time_step_(time_step) {
   PLIANT_EXPECT(allows_damping(integrator, law));
-  const std::size_t count = bodies.vertex_count;
+  const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
-  bodies.arrays.make<double>("kept_force", 3 * count);
+  bodies.arrays.make<double>("kept_force", coordinates);
+  bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
-    bodies.arrays.make<double>("acceleration", 3 * count * stage_count_);
+    bodies.arrays.make<double>("acceleration", coordinates * stage_count_);
   } else {
     const auto& splitting = std::get<Splitting>(integrator.method);
     stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
+    bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
   }
 }
 

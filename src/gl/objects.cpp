@@ -93,9 +93,11 @@ void expect_within_limit(std::size_t bytes, std::string_view label) {
                 "use coarser meshes or --device cpu");
 }
 
-bool has_room_for(GLuint buffer, std::span<const std::byte> content) {
+// Gives the buffer its storage, which the GPU alone may write if `content` is null. Returns whether there is room for it.
+bool has_room_for(GLuint buffer, std::size_t bytes, const std::byte* content) {
   const Allocation allocation;
-  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(content.size()), content.data(), GL_DYNAMIC_STORAGE_BIT);
+  const GLbitfield flags = content != nullptr ? GL_DYNAMIC_STORAGE_BIT : 0;
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), content, flags);
   return !allocation.ran_out();
 }
 
@@ -112,7 +114,7 @@ Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   // Zeros are uploaded, because a clear is not safe. On NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued
   // before it and is lost. An empty buffer still gets storage, so that it can be bound.
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
-  if (!has_room_for(id_, zeros)) {
+  if (!has_room_for(id_, zeros.size(), zeros.data())) {
     glDeleteBuffers(1, &id_);
     throw no_room(bytes, label);
   }
@@ -139,7 +141,7 @@ void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   if (data.empty()) return;
   GLuint copy = 0;
   glCreateBuffers(1, &copy);
-  const bool has_room = has_room_for(copy, data);
+  const bool has_room = has_room_for(copy, data.size(), data.data());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   if (has_room) glCopyNamedBufferSubData(copy, id_, 0, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()));
   glDeleteBuffers(1, &copy);
@@ -152,11 +154,14 @@ void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   const auto size = static_cast<GLsizeiptr>(data.size());
   GLuint copy = 0;
   glCreateBuffers(1, &copy);
-  glNamedBufferStorage(copy, size, nullptr, 0);
+  const bool has_room = has_room_for(copy, data.size(), nullptr);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glCopyNamedBufferSubData(id_, copy, static_cast<GLintptr>(first_byte), 0, size);
-  glGetNamedBufferSubData(copy, 0, size, data.data());
+  if (has_room) {
+    glCopyNamedBufferSubData(id_, copy, static_cast<GLintptr>(first_byte), 0, size);
+    glGetNamedBufferSubData(copy, 0, size, data.data());
+  }
   glDeleteBuffers(1, &copy);
+  if (!has_room) throw no_room(data.size(), "data on its way");
 }
 
 Program Program::compute(const FlatShader& source, std::string_view label) {

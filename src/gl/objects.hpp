@@ -23,7 +23,7 @@ class Buffer {
 
   /// Throws Error (device) when the GPU has no room for a copy of the data.
   void write(std::size_t first_byte, std::span<const std::byte> data);
-  /// Waits for the GPU to finish what writes this buffer.
+  /// Waits for the GPU to finish what writes this buffer. Throws Error (device) when the GPU has no room for a copy of the data.
   void read(std::size_t first_byte, std::span<std::byte> data) const;
   [[nodiscard]] std::uint32_t id() const { return id_; }
   [[nodiscard]] std::size_t size() const { return size_; }  // [bytes]

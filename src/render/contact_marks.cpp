@@ -72,8 +72,7 @@ void add_impulses(Lines& lines, const Model& model, std::span<const glm::dvec3> 
 }
 
 void add_contacts(Lines& lines, Simulation& simulation, const Model& model, std::span<const glm::dvec3> positions) {
-  const Response* const response = simulation.collider().response();
-  if (response != nullptr && response->gives_impulses())
+  if (simulation.collider().response_row().gives_impulses)
     add_impulses(lines, model, positions, simulation.contact_impulses());
   else
     add_touching(lines, model, positions, simulation.touching_vertices());

@@ -14,7 +14,7 @@ namespace {
 constexpr double longest_tried = 1;  // longest step that a trial with a tolerance makes [s of wall time]
 
 struct Estimate {
-  double steps = 0, seconds = 0;  // NaN if no step of the trial stood or it became non-finite
+  double steps = 0, seconds = 0;  // NaN if no step of the trial stood or it broke down
   bool is_least = false;          // a lower bound, because a trial would take long
 };
 
@@ -38,7 +38,7 @@ Estimate estimate_adaptive(const PreparedRun& run) {
   Simulation trial(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   StepReport report = trial.report();
   Stopwatch watch;
-  for (std::uint64_t frame = 1; watch.seconds() < 1 && report.time < run.plan.duration && !report.non_finite;) {
+  for (std::uint64_t frame = 1; watch.seconds() < 1 && report.time < run.plan.duration && !report.breakdown;) {
     const double target = run.plan.time_of_frame(frame).value_or(run.plan.duration);
     if (report.time < target)
       report = watch.time([&] { return trial.advance_toward(target, batch); });
@@ -46,7 +46,7 @@ Estimate estimate_adaptive(const PreparedRun& run) {
       ++frame;
   }
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (report.non_finite || (report.time == 0 && run.plan.duration > 0)) return {nothing, nothing};
+  if (report.breakdown || (report.time == 0 && run.plan.duration > 0)) return {nothing, nothing};
   const double part = run.plan.duration > 0 ? report.time / run.plan.duration : 1;
   return {static_cast<double>(report.steps) / part, watch.seconds() / part};
 }

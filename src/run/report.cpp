@@ -83,7 +83,7 @@ bool has_blown_up(const RunStatus& status) {
 
 std::optional<std::string> instability_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
-  if (report.non_finite) return describe_breakdown(*report.non_finite, run.plan, run.start.model);
+  if (report.breakdown) return describe_breakdown(*report.breakdown, run.plan, run.start.model);
   const Model& model = run.start.model;
   if (has_blown_up(status))
     return fmt::format("{}, which ends the run at step {}; try a shorter time step", told_growth_of(progress, model),
@@ -140,11 +140,9 @@ Summary summary_of(const RunStatus& status) {
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
   s.contacts = {report.contact_steps,         report.contact_pairs_max,     report.reverted_vertices,     report.substeps,
                 report.response.energy_given, report.response.energy_taken, report.response.friction_work};
-  if (report.non_finite)
-    s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
-  else
-    s.final_intersecting_pairs = run.simulation->intersections().pairs;
-  s.non_finite = report.non_finite.has_value();
+  s.non_finite = report.breakdown && !report.breakdown->is_finite;
+  if (s.non_finite) s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
+  if (!report.breakdown) s.final_intersecting_pairs = run.simulation->intersections().pairs;
   s.interrupted = is_interrupted();
   s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
   s.skipped = {{"force_evaluations", report.forces_skipped},
@@ -180,7 +178,7 @@ void show_progress(const RunStatus& status) {
       adapts ? report.time / run.plan.duration : static_cast<double>(report.steps) / static_cast<double>(run.plan.steps);
   fmt::print(stderr, "\r{}  step {}{}  {:.1f} steps/s ", progress_bar(done), report.steps,
              adapts ? "" : fmt::format("/{}", run.plan.steps), static_cast<double>(report.steps) / times.stepping.seconds());
-  if (is_interrupted() || report.non_finite || done == 1) fmt::print(stderr, "\n");
+  if (is_interrupted() || report.breakdown || done == 1) fmt::print(stderr, "\n");
 }
 
 void show_end(const RunStatus& status) {
@@ -196,7 +194,7 @@ void show_end(const RunStatus& status) {
                times.writing.seconds(),
                !options.checkpoint.empty() ? fmt::format(" and {:.2f} s for checkpoints", times.saving.seconds()) : "");
   fmt::print("contacts in {} steps, at most {} {} at once\n", report.contact_steps, report.contact_pairs_max,
-             is_by_impulses(run.scene.collision) ? "impulses" : "triangle pairs");
+             find_response(run.scene.collision.response).gives_impulses ? "impulses" : "triangle pairs");
   if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0)
     fmt::print("contacts took {:.4g} J, of which friction {:.4g} J, and gave {:.4g} J\n", contacts.energy_taken,
                contacts.friction_work, contacts.energy_given);

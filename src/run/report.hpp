@@ -36,7 +36,7 @@ struct RunStatus {
 [[nodiscard]] std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices);
 [[nodiscard]] std::vector<std::string> contact_troubles_of(const RunStatus& status);
 
-/// Returns the summary. Unless the state is non-finite, it searches for the triangles that intersect at the end.
+/// Returns the summary. Unless there was a breakdown, it searches for the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);
 
 /// Prints where a resumed run goes on.

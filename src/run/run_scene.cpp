@@ -80,7 +80,7 @@ class Run {
 
  private:
   RunStatus status() { return {options_, run_, progress_, report_}; }
-  bool has_failed() const { return report_.non_finite || has_blown_up_; }
+  bool has_failed() const { return report_.breakdown || has_blown_up_; }
   bool stopped() const { return is_interrupted() || has_failed(); }
 
   void begin() {

@@ -220,11 +220,9 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("restitution", collision.restitution, fraction);
   table.read("gap", collision.gap, edge_part);
   table.read("search", collision.search, searches);
+  collision.search_where = table.where("search");
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
-  if (is_by_impulses(collision) && collision.search == ContactSearch::brute_force)
-    throw Error(table.where("search"), "contact by impulses finds pairs by trees alone",
-                "remove search = \"brute_force\", or write response = \"reflect\"");
 }
 
 void read_table(TableReader& table, CameraDescription& camera) {
@@ -343,18 +341,6 @@ void draw_level_ground(SceneDescription& scene) {
   }
 }
 
-// The paper's response turns vertices back, wherever they are, and knows nothing that never moves.
-void expect_response_to_immovable(const SceneDescription& scene) {
-  if (is_by_impulses(scene.collision)) return;
-  const auto fail_at = [&](const Origin& where, const char* what) {
-    throw Error(where, fmt::format("{} with the response \"{}\"", what, scene.collision.response.value),
-                "write response = \"impulse\" in [collision], which is the default");
-  };
-  if (!scene.grounds.empty()) fail_at(scene.grounds.front().where, "bodies would fall through a ground");
-  for (const BodyDescription& body : scene.bodies)
-    if (body.kind == BodyKind::immovable) fail_at(body.kind_where, "a body can't be static");
-}
-
 }  // namespace
 
 glm::dvec3 default_color(std::size_t index) {
@@ -373,7 +359,6 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
   SceneDescription scene;
   scene.file = file;
   TableReader::section(root, "", scene);
-  expect_response_to_immovable(scene);
   draw_level_ground(scene);
   if (scene.bodies.empty()) throw Error(ErrorKind::input, file.string(), "has no body", "add a [[body]] with a mesh");
   return scene;

@@ -38,7 +38,7 @@ struct SimulationDescription {
   std::optional<double> tolerance;  // of a step's error, relative to the bodies. If set, steps have no fixed length
   double duration = 2.0;            // [s]
   Origin time_step_where, tolerance_where, duration_where;
-  std::optional<DampingLaw> damping_law;  // by damping_law_of() if empty
+  std::optional<DampingLaw> damping_law;  // by the response and gravity if empty
   glm::dvec3 gravity{0.0};                // [m/s^2]
 };
 
@@ -49,21 +49,15 @@ struct TreeDescription {
 
 struct CollisionDescription {
   Named response{"impulse"};              // a name in the list of responses, or "none"
-  std::optional<double> elasticity = {};  // by elasticity_of() if empty
+  std::optional<double> elasticity = {};  // the response's default if empty
   double friction = 0.5;
   std::optional<double> restitution = {};  // of bodies that have none of their own
   double gap = 0.05;                       // that contacts keep, in mean edges of the meshes
   ContactSearch search = ContactSearch::tree;
+  Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
 };
-
-inline bool is_by_impulses(const CollisionDescription& collision) { return collision.response.value == "impulse"; }
-
-/// Returns the elasticity that a scene names, or the default of its response.
-inline double elasticity_of(const CollisionDescription& collision) {
-  return collision.elasticity.value_or(is_by_impulses(collision) ? 0.5 : 0.9);
-}
 
 /// What contacts know of a body or a ground. What is empty is the scene's.
 struct SurfaceDescription {
@@ -136,13 +130,5 @@ struct SceneDescription {
   std::vector<BodyDescription> bodies;
   std::vector<GroundDescription> grounds;
 };
-
-/// Returns the damping law that a scene names, or its default. With contact by impulses gravity makes that the internal law,
-/// which does not slow a fall.
-inline DampingLaw damping_law_of(const SceneDescription& scene) {
-  const bool falls = scene.simulation.gravity != glm::dvec3(0.0);
-  return scene.simulation.damping_law.value_or(is_by_impulses(scene.collision) && falls ? DampingLaw::internal
-                                                                                        : DampingLaw::adaptive);
-}
 
 }  // namespace pliant

@@ -19,7 +19,7 @@ std::string remedy(const TimePlan& plan, const ModelBody& body) {
   return "shorten the time step, or lower stiffness, damping or velocities";
 }
 
-std::string reason(const NonFinite& where, const TimePlan& plan) {
+std::string reason(const Breakdown& where, const TimePlan& plan) {
   if (where.failed_step == 0) return "the simulation became non-finite";
   if (where.takes_too_many)
     return fmt::format("the run would exceed 3e8 steps, because the tolerance of {:g} needs steps as short as {:.3g} s,",
@@ -29,7 +29,7 @@ std::string reason(const NonFinite& where, const TimePlan& plan) {
 
 }  // namespace
 
-std::string describe_breakdown(const NonFinite& where, const TimePlan& plan, const Model& model) {
+std::string describe_breakdown(const Breakdown& where, const TimePlan& plan, const Model& model) {
   const ModelBody& body = model.bodies[where.body];
   return fmt::format("{} in step {} at vertex {} of body \"{}\"{}; {}", reason(where, plan), where.step, where.vertex, body.name,
                      may_have_lost_its_volume(body) ? ", whose volume may have come to zero or grown without end" : "",

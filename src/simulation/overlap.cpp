@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
-#include <numbers>
 #include <vector>
 
+#include "model/inside.hpp"
 #include "model/mean_edge.hpp"
 
 namespace pliant {
@@ -55,24 +54,15 @@ double distance(const glm::dvec3& p, const Corners& t) {
   return glm::length(ap - (vb * ab + vc * ac) / (va + vb + vc));
 }
 
-// The solid angle of a triangle. A. Van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126.
-double solid_angle(const glm::dvec3& from, const Corners& t) {
-  const glm::dvec3 a = t[0] - from, b = t[1] - from, c = t[2] - from;
-  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-  return 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                        la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-}
-
 // How far the point is inside the body, or 0 if it is outside [m].
 double depth_in(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions, const glm::dvec3& point) {
-  double angle = 0, nearest = std::numeric_limits<double>::infinity();
+  if (!is_inside(point, model, body, positions)) return 0;
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
     const auto& [a, b, c] = model.triangles[t];
-    const Corners corners{positions[a], positions[b], positions[c]};
-    angle += solid_angle(point, corners);
-    nearest = std::min(nearest, distance(point, corners));
+    nearest = std::min(nearest, distance(point, {positions[a], positions[b], positions[c]}));
   }
-  return std::abs(angle) > 2 * std::numbers::pi ? nearest : 0;
+  return nearest;
 }
 
 // The largest depth of the first body's vertices in the second. Of a large mesh it looks at some vertices only.

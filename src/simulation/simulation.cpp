@@ -38,6 +38,12 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
   }
 }
 
+// A step whose error ends the run stands. Its state may be finite or not.
+bool is_finite(const State& state, const Model& model) {
+  return std::ranges::all_of(state.motion, [](double number) { return std::isfinite(number); }) &&
+         std::ranges::all_of(state.world_positions(model), [](const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); });
+}
+
 void expect_groups_met(const std::vector<physics::Status>& statuses) {
   if (std::ranges::find(statuses, physics::halted_waiting, &physics::Status::activity) == statuses.end()) return;
   throw Error(ErrorKind::device, "",
@@ -115,7 +121,7 @@ StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {
 
 StepReport Simulation::advance_to(double time) {
   StepReport last = advance_toward(time);
-  while (last.time < time && !last.non_finite) last = advance_toward(time);
+  while (last.time < time && !last.breakdown) last = advance_toward(time);
   return last;
 }
 
@@ -153,11 +159,12 @@ StepReport Simulation::report() {
   if (collider_.response() != nullptr) report.response = collider_.response()->report();
   if (control.non_finite_step != 0) {
     const std::uint32_t body = model_.body_index(control.non_finite_vertex);
-    report.non_finite = NonFinite{.step = report.steps,
-                                  .body = body,
-                                  .vertex = control.non_finite_vertex - model_.bodies[body].first_vertex,
-                                  .failed_step = known_pace_.failed_step,
-                                  .takes_too_many = known_pace_.failure == physics::too_many_steps};
+    report.breakdown = Breakdown{.step = report.steps,
+                                 .body = body,
+                                 .vertex = control.non_finite_vertex - model_.bodies[body].first_vertex,
+                                 .failed_step = known_pace_.failed_step,
+                                 .is_finite = known_pace_.failed_step > 0 && is_finite(state(), model_),
+                                 .takes_too_many = known_pace_.failure == physics::too_many_steps};
   }
   add_collision_counts(report, control);
   const std::uint64_t searches = report.steps + report.substeps + (report.adaptive ? report.adaptive->rejected : 0);

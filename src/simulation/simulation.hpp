@@ -20,14 +20,16 @@
 
 namespace pliant {
 
-/// The first vertex that became non-finite, or whose error ended a run with a tolerance.
-struct NonFinite {
+/// Why nothing moves any more: a vertex became non-finite, or its error ended a run with a tolerance. It is the first such
+/// vertex.
+struct Breakdown {
   std::uint64_t step = 0;              // in which it happened, counted from 1
   std::uint32_t body = 0, vertex = 0;  // the vertex counts within the body
   double failed_step = 0;              // length of the step whose error ended the run [s]; 0: no error did
+  bool is_finite = false;              // all numbers of the state are
   bool takes_too_many = false;         // steps have become so short that more are left than a run may have
 
-  bool operator==(const NonFinite&) const = default;
+  bool operator==(const Breakdown&) const = default;
 };
 
 /// What a tolerance did to the steps.
@@ -42,10 +44,10 @@ struct AdaptiveReport {
 
 /// What the simulation did since its start.
 struct StepReport {
-  std::uint64_t steps = 0;  // completed steps, including a non-finite one, without rejected ones
+  std::uint64_t steps = 0;  // completed steps, including the one of a breakdown, without rejected ones
   double time = 0;          // of the state [s]
   std::optional<AdaptiveReport> adaptive;
-  std::optional<NonFinite> non_finite;
+  std::optional<Breakdown> breakdown;
   std::uint64_t contact_steps = 0;      // steps with a pair
   std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
   std::uint64_t reverted_vertices = 0;
@@ -78,7 +80,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Queues steps of a fixed length. They may still be running when this returns. After a non-finite step nothing moves.
+  /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves.
   void advance(std::uint64_t steps);
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
@@ -86,7 +88,7 @@ class Simulation {
   /// reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
   /// how many steps are queued at a time.
   StepReport advance_toward(double time, std::uint64_t most_steps = most_steps_at_once);
-  /// Goes on until report().time is `time` [s], or a step was non-finite.
+  /// Goes on until report().time is `time` [s], or there was a breakdown.
   StepReport advance_to(double time);
   /// Turns on or off that steps measure the time of each pass. Measured steps are slower: see run_timed.
   void time_passes(bool timed = true) { timed_ = timed; }

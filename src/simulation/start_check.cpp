@@ -155,13 +155,8 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
   return fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names);
 }
 
-bool keeps_apart(const Simulation& simulation) {
-  const Response* const response = simulation.collider().response();
-  return response != nullptr && response->keeps_apart();
-}
-
 void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
-  if (!keeps_apart(simulation)) return;
+  if (!simulation.collider().response_row().keeps_apart) return;
   expect_out_of_grounds(model, simulation.state(), place);
   const Intersections found = simulation.intersections();
   if (found.pairs == 0) return;

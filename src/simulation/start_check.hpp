@@ -1,4 +1,4 @@
-// Checks what contact by impulses needs: bodies that are apart at the start. Then it keeps them apart.
+// Checks what a response needs that keeps bodies apart: bodies that are apart at the start.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,9 +9,6 @@ namespace pliant {
 
 /// Returns which bodies intersect, with the number of triangle pairs, or nothing if none do. Names at most eight.
 [[nodiscard]] std::string told_overlap(Simulation& simulation, const Model& model);
-
-/// Returns whether the scene's response keeps bodies apart.
-[[nodiscard]] bool keeps_apart(const Simulation& simulation);
 
 /// Returns a text for each body whose contacts are lost in rounding: the margin of proofs that bodies stay apart is more than a
 /// quarter of the gap that contacts keep. Such bodies stand where they touch, or tremble. `precision` is that of the device.

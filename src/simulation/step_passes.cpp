@@ -20,7 +20,7 @@ class List {
 // Frames follow their bodies while search passes run that do not use the changed arrays.
 void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
   const std::uint32_t half = physics::other_half(from_half);
-  step.add(collider.pairing_passes());
+  step.add(collider.pairing_passes(half));
   step.add(collider.refitting_passes(half));
   step.add(beside_next(stepper.following_pass(from_half)));
   step.add(collider.finding_passes(half));
@@ -39,7 +39,7 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
                               std::uint32_t from_half, const Pacer* pacer) {
   const std::uint32_t half = physics::other_half(from_half);
   const Response* const response = collider.response();
-  const bool searches = response != nullptr && response->answers_touching();
+  const bool searches = response != nullptr && collider.response_row().answers_touching;
   List step;
   // length
   if (pacer != nullptr) step.add(pacer->beginning_pass());

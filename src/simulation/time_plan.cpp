@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "collision/responses/response.hpp"
 #include "core/error.hpp"
 #include "dynamics/automatic_integrator.hpp"
 #include "dynamics/stability.hpp"
@@ -69,9 +70,9 @@ void expect_method_estimates(const TimePlan& plan, const Origin& where) {
                           names_that_bear_tolerance(plan.damping_law)));
 }
 
-// Contact by impulses divides steps of fixed length, where there is something to touch.
-bool divides_steps(const SceneDescription& scene, const Model& model) {
-  return is_by_impulses(scene.collision) && (model.bodies.size() > 1 || !model.grounds.empty());
+// Steps of a fixed length are divided only where there is something to touch.
+bool divides_steps(const ResponseRow& response, const Model& model) {
+  return response.divides_steps && (model.bodies.size() > 1 || !model.grounds.empty());
 }
 
 void expect_method_damps(const TimePlan& plan, const Origin& where, bool divides) {
@@ -105,10 +106,9 @@ void expect_tableaus_fit(const TimePlan& plan, const Model& model, const Origin&
 
 void expect_method_divides(const TimePlan& plan, const Origin& where, bool divides) {
   if (!divides || plan.damping_law == DampingLaw::none || !std::holds_alternative<Nystrom>(plan.integrator->method)) return;
-  throw Error(
-      where,
-      fmt::format("{} meets damping only with steps of one length, and contact by impulses divides them", plan.integrator->name),
-      "choose another integrator, such as verlet, set damping_law = \"none\", or write response = \"reflect\"");
+  throw Error(where,
+              fmt::format("{} meets damping only with steps of one length, and the response divides them", plan.integrator->name),
+              "choose another integrator, such as verlet, set damping_law = \"none\", or write response = \"reflect\"");
 }
 
 void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDescription& simulation) {
@@ -176,18 +176,25 @@ std::optional<double> TimePlan::time_of_frame(std::uint64_t frame) const {
   return std::min(time, duration);
 }
 
+DampingLaw damping_law_of(const SceneDescription& scene) {
+  const bool falls = scene.simulation.gravity != glm::dvec3(0.0);
+  return scene.simulation.damping_law.value_or(falls ? find_response(scene.collision.response).law_with_gravity
+                                                     : DampingLaw::adaptive);
+}
+
 TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optional<std::uint64_t> steps) {
   const SimulationDescription& simulation = scene.simulation;
   if (steps && simulation.tolerance)
     throw Error(ErrorKind::command_line, "--steps", "steps have no fixed length if a tolerance governs them",
                 "give --duration instead");
+  const ResponseRow& response = response_of(scene);
   TimePlan plan{.frame_rate = scene.output.frame_rate,
                 .damping_law = effective_law(damping_law_of(scene), model),
                 .tolerance = simulation.tolerance,
                 .duration = simulation.duration};
   plan.integrator = &choose_integrator(simulation, plan.damping_law);
   expect_method_estimates(plan, simulation.integrator.where);  // first, because its remedies also help with damping
-  const bool divides = divides_steps(scene, model);
+  const bool divides = divides_steps(response, model);
   expect_method_damps(plan, simulation.integrator.where, divides);
   expect_tableaus_fit(plan, model, simulation.integrator.where);
   expect_method_divides(plan, simulation.integrator.where, divides);

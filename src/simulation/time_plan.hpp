@@ -33,9 +33,13 @@ struct TimePlan {
   [[nodiscard]] std::optional<double> time_of_frame(std::uint64_t frame) const;
 };
 
+/// Returns the damping law that a scene names, or its default by response and gravity.
+[[nodiscard]] DampingLaw damping_law_of(const SceneDescription& scene);
+
 /// Chooses the integrator and the steps for a scene. `steps` replaces the scene's duration. If the scene's integrator cannot meet
 /// the tolerance of --tolerance, the plan takes the one that "auto" chooses.
 /// Throws Error, which names the origin of the value, for
+/// - an unknown response, or one that does not allow the scene's static bodies, grounds or search
 /// - an unknown integrator, or "auto" without a tolerance
 /// - an integrator that cannot meet the scene's damping, or has no room for its damping rates
 /// - an integrator that can't estimate the error, if the scene has a tolerance

@@ -16,7 +16,7 @@ void Series::add(double value) {
 void Observer::look(Session& session) {
   constexpr double interval = 0.1, largest_share = 0.1;  // [s], and the part of the time that samples may take
   const double began = clock_();
-  if (began < next_ || session.non_finite()) return;
+  if (began < next_ || session.breakdown()) return;
   if (!before_ || session.step() != before_->step) take_sample(session);
   const double ended = clock_();
   next_ = began + std::max(interval, (ended - began) / largest_share);
@@ -52,9 +52,8 @@ void Observer::measure_energy(Session& session) {
 }
 
 void Observer::note_contacts(Session& session, const Counts& before, const Counts& after) {
-  const Response* const response = session.simulation().collider().response();
   const bool goes_on = after.step >= before.step && after.touching >= before.touching;
-  if (response != nullptr && response->gives_impulses())
+  if (session.simulation().collider().response_row().gives_impulses)
     observation_.touching.add(static_cast<double>(session.simulation().contact_impulses().size()));
   else
     observation_.touching.add(goes_on ? static_cast<double>(after.touching - before.touching) : 0);

@@ -66,8 +66,8 @@ Session::Session(Device& device, LoadedScene scene, std::size_t most_history_byt
 
 double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }
 
-std::optional<NonFinite> Session::non_finite() const {
-  std::optional<NonFinite> found = report_.non_finite;
+std::optional<Breakdown> Session::breakdown() const {
+  std::optional<Breakdown> found = report_.breakdown;
   if (found) found->step += base_step_;
   return found;
 }
@@ -77,7 +77,7 @@ std::uint64_t Session::next_frame() const {
 }
 
 bool Session::is_due(double time) const {
-  if (report_.non_finite) return false;
+  if (report_.breakdown) return false;
   if (plan_.tolerance) return time_of_frame(next_frame()) <= time + rounding / plan_.frame_rate;
   return time_of_step(step() + 1) <= time + rounding * plan_.time_step;
 }
@@ -105,11 +105,11 @@ StepReport Session::advance(double time, std::uint64_t most_steps) {
 void Session::step_once() {
   const std::uint64_t before = step();
   const double due = plan_.tolerance ? time_of_frame(next_frame()) : time_of_step(before + 1);
-  while (step() == before && !report_.non_finite) advance_toward(due, 1);  // a tolerance may reject some
+  while (step() == before && !report_.breakdown) advance_toward(due, 1);  // a tolerance may reject some
 }
 
 void Session::record() {
-  if (!report_.non_finite) history_.record({step(), simulation_->save()});
+  if (!report_.breakdown) history_.record({step(), simulation_->save()});
 }
 
 // Goes to the snapshot before and steps on from there. Of a long way it records only the last steps. Earlier ones are made again
@@ -121,7 +121,7 @@ bool Session::step_back() {
   const std::uint64_t wanted = step() - 1;
   const std::optional<Pull> pulled = std::exchange(pull_, std::nullopt);
   go_to(found->saved);
-  while (step() < wanted && !report_.non_finite) {
+  while (step() < wanted && !report_.breakdown) {
     step_once();
     if (wanted - step() < most_kept) record();
   }
@@ -152,7 +152,7 @@ void Session::change(const Settings& wanted) {
   auto changed = std::make_unique<const LoadedScene>(with_settings(*scene_, wanted));
   const TimePlan plan = plan_time(changed->description, changed->start.model);
   expect_carried(changed->description, plan, device_->precision());
-  const bool starts_anew = report_.non_finite.has_value();
+  const bool starts_anew = report_.breakdown.has_value();
   auto simulation = make_simulation(*device_, *changed, starts_anew ? changed->start.state : simulation_->state(), plan);
   expect_apart(*simulation, changed->start.model, changed->description.file.string());
   const double at_time = starts_anew ? 0 : time();

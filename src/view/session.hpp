@@ -58,7 +58,7 @@ class Session {
   [[nodiscard]] Stepping stepping() const { return {steps_made_, stepping_.seconds()}; }  // since the session began
   [[nodiscard]] double time() const;                                                      // of the state [s]
   [[nodiscard]] const TimePlan& plan() const { return plan_; }
-  [[nodiscard]] std::optional<NonFinite> non_finite() const;  // its step counts like step()
+  [[nodiscard]] std::optional<Breakdown> breakdown() const;  // its step counts like step()
 
   /// Returns whether there is a step to make toward `time` [s]. That is so if the next step ends at or before `time`. With a
   /// tolerance the next frame counts instead, because steps end at frames, whenever they are made. After a non-finite step

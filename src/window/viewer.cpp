@@ -232,9 +232,9 @@ void Viewer::play() {
 }
 
 void Viewer::tell_if_broken() {
-  if (!session_->non_finite()) return;
+  if (!session_->breakdown()) return;
   playback_.pause();
-  message_ = describe_breakdown(*session_->non_finite(), session_->plan(), session_->model());
+  message_ = describe_breakdown(*session_->breakdown(), session_->plan(), session_->model());
   if (std::exchange(is_breakdown_told_, true)) return;
   fmt::print(stderr, "pliant: {}\n", message_);
 }
@@ -251,7 +251,7 @@ void Viewer::step_once() {
 void Viewer::step_back() {
   playback_.pause();
   if (!session_->step_back()) message_ = "no earlier state is kept";
-  is_breakdown_told_ = session_->non_finite().has_value();
+  is_breakdown_told_ = session_->breakdown().has_value();
 }
 
 void Viewer::restart() {
@@ -388,7 +388,7 @@ void Viewer::fulfil() {
 }
 
 void Viewer::change(const Settings& wanted) {
-  const bool is_broken = session_->non_finite().has_value();
+  const bool is_broken = session_->breakdown().has_value();
   session_->change(wanted);
   if (!is_broken) return observer_.count_anew();
   is_breakdown_told_ = false;  // it is at its start again

@@ -246,6 +246,21 @@ TEST_CASE("a run that goes non-finite says where, writes what there is and exits
   CHECK_THAT(read_text(folder.path / "final_state.csv"), Catch::Contains(",nan") && !Catch::Contains("inf"));
 }
 
+TEST_CASE("a run that can't meet its tolerance is not called non-finite, and its final energy is told") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "hopeless.toml";
+  std::ofstream(scene) << "[simulation]\ntolerance = 1e-14\nduration = 1e6\ndamping_law = \"none\"\n"
+                          "[output]\nframe_rate = 1e-6\n[[body]]\nmesh = \"icosphere:1\"\nstretch = [1.1, 1, 1]\n";
+  const ProgramResult result =
+      run_program("run " + scene.string() + " --device cpu --precision 64 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 5);
+  CHECK_THAT(result.output, Catch::Contains("the tolerance of 1e-14"));
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["non_finite"] == false);
+  CHECK(summary["energy"]["final"].get<double>() == Approx(summary["energy"]["initial"].get<double>()));
+  CHECK_THAT(summary["warnings"].text(), Catch::Contains("the tolerance of 1e-14"));
+}
+
 TEST_CASE("a run whose energy grows a thousandfold while its steps fall into parts says so and exits with 5") {
   const ScratchFolder folder;
   const ProgramResult result =

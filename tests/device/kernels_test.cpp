@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/error.hpp"
 #include "device/array_list.hpp"
 #include "dynamics/grip.hpp"
 #include "gl/context.hpp"
@@ -468,6 +469,13 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   for (const gl::ShaderFile& file : gl::embedded_shaders())
     if (file.name.starts_with("compute/kernels/") && file.name.find("/parts/") == std::string_view::npos) ++kernel_count;
   CHECK(seen.size() == kernel_count);
+}
+
+TEST_CASE("a kernel that was built for one caller is not another caller's", "[gl]") {
+  const auto device = make_gpu_device(0);
+  const KernelId kernel = device->kernel("refit");
+  CHECK(device->kernel("refit") == kernel);
+  CHECK_THROWS_AS(device->round_kernel("refit"), Error);  // it has no rounds
 }
 
 TEST_CASE("boxes of trees are the same bits on CPU and GPU, and bound their triangles", "[gl]") {

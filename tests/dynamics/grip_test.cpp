@@ -106,7 +106,7 @@ Pulled pull_wildly(Device& device, const ModelAndState& start, const TimePlan& p
   WildMouse mouse(start.model.bodies.back().first_vertex);
   const auto steps = static_cast<std::uint64_t>(std::ceil(picture / plan.time_step));
   StepReport report;
-  for (double time = 0; time < duration && !report.non_finite; time += picture) {
+  for (double time = 0; time < duration && !report.breakdown; time += picture) {
     const Pull pull = mouse.next(start.model, simulation.state());
     if (plan.tolerance) {
       report = simulation.advance_to(time + picture);
@@ -132,7 +132,7 @@ void check_whole(const Model& model, const std::vector<glm::dvec3>& positions) {
 
 void check_bears(Device& device, const ModelAndState& start, const TimePlan& plan, double duration /* [s] */) {
   const Pulled end = pull_wildly(device, start, plan, {}, duration);
-  CHECK_FALSE(end.report.non_finite);
+  CHECK_FALSE(end.report.breakdown);
   CHECK(end.report.contact_steps > 0);
   check_whole(start.model, end.positions);
 }
@@ -182,7 +182,7 @@ TEST_CASE("a minute of a wild mouse leaves every scene whose step is stable fini
     const SceneDescription scene = test::load_shipped_scene(name);
     const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity);
     const Pulled end = pull_wildly(*devices.back().device, start, plan_time(scene, start.model), scene.collision, 60);
-    CHECK_FALSE(end.report.non_finite);
+    CHECK_FALSE(end.report.breakdown);
     for (const glm::dvec3& position : end.positions) CHECK(std::isfinite(glm::length(position)));
     if (damping_law_of(scene) != DampingLaw::none) check_whole(start.model, end.positions);
   }

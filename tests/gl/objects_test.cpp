@@ -1,8 +1,12 @@
 // Contexts, buffers and programs on every adapter of this machine.
 #include "gl/objects.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <vector>
 
 #include "core/error.hpp"
@@ -76,6 +80,48 @@ TEST_CASE("a large write into a buffer just made arrives whole", "[gl]") {
   buffer.read(0, received);
   CHECK(sent == received);
 }
+
+#ifndef __SANITIZE_ADDRESS__  // its own memory is beyond any limit
+#ifndef __SANITIZE_THREAD__
+// Lets the process have hardly more memory than it has, as long as it lives.
+class NoMoreMemory {
+ public:
+  NoMoreMemory() {
+    getrlimit(RLIMIT_AS, &before_);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlimit tight{pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + (16u << 20), before_.rlim_max};
+    setrlimit(RLIMIT_AS, &tight);
+  }
+  ~NoMoreMemory() { setrlimit(RLIMIT_AS, &before_); }
+  NoMoreMemory(const NoMoreMemory&) = delete;
+  NoMoreMemory& operator=(const NoMoreMemory&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_CASE("reading and writing without room for a copy are errors of kind device", "[gl]") {
+  const Context context(0);
+  if (!context.adapter().is_software) return;  // only its buffers are in the process's memory
+  Buffer buffer(100u << 20, "large");
+  std::vector<std::byte> data(buffer.size());
+  const auto check_no_room = [](const auto& copy) {
+    try {
+      const NoMoreMemory tight;
+      copy();
+      FAIL("there was room");
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::device);
+      CHECK_THAT(error.what(), Catch::Contains("no room for 104857600 bytes"));
+    }
+  };
+  check_no_room([&] { buffer.write(0, data); });
+  check_no_room([&] { buffer.read(0, data); });
+  CHECK_NOTHROW(buffer.read(0, data));
+}
+#endif
+#endif
 
 TEST_CASE("a buffer that moved keeps its object and leaves nothing behind", "[gl]") {
   const Context context(0);

@@ -48,10 +48,10 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK_FALSE(scene.simulation.time_step);
   CHECK_FALSE(scene.simulation.tolerance);
   CHECK(scene.simulation.duration == 2.0);
-  CHECK(damping_law_of(scene) == DampingLaw::adaptive);
+  CHECK_FALSE(scene.simulation.damping_law);
   CHECK(scene.simulation.gravity == glm::dvec3(0.0));
   CHECK(scene.collision.response.value == "impulse");
-  CHECK(elasticity_of(scene.collision) == 0.5);
+  CHECK_FALSE(scene.collision.elasticity);
   CHECK((scene.collision.friction == 0.5 && scene.collision.gap == 0.05 && !scene.collision.restitution));
   CHECK(scene.collision.search == ContactSearch::tree);
   CHECK(scene.collision.triangle_test == TriangleTest::certified);
@@ -73,23 +73,6 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK((!body.surface.elasticity && !body.surface.friction && !body.surface.gap && !body.restitution));
   CHECK((body.pressure == 0.0 && body.pressure_law == PressureLaw::gas));
   CHECK_THAT(body.where, Catch::EndsWith("scene.toml:1"));
-}
-
-TEST_CASE("elasticity and damping law have the default of the response, unless the scene names them") {
-  const std::string falling = "[simulation]\ngravity = [0, -9.81, 0]\n" + smallest;
-  const auto check_defaults = [&](const char* response, double elasticity, DampingLaw law) {
-    CAPTURE(response);
-    const std::string named = std::string("collision.response=") + response;
-    CHECK(elasticity_of(load_text(falling, {named}).collision) == elasticity);
-    CHECK(damping_law_of(load_text(falling, {named})) == law);
-    CHECK(damping_law_of(load_text(smallest, {named})) == DampingLaw::adaptive);
-    CHECK(elasticity_of(load_text(falling, {named, "collision.elasticity=0.25"}).collision) == 0.25);
-    CHECK(damping_law_of(load_text(falling, {named, "simulation.damping_law=constant"})) == DampingLaw::constant);
-  };
-  check_defaults("impulse", 0.5, DampingLaw::internal);
-  check_defaults("reflect", 0.9, DampingLaw::adaptive);
-  check_defaults("none", 0.9, DampingLaw::adaptive);
-  CHECK(damping_law_of(load_text(falling)) == DampingLaw::internal);
 }
 
 TEST_CASE("bodies without a colour have colours of their own") {
@@ -321,20 +304,12 @@ TEST_CASE("the drawn floor is the first ground that is level and faces up") {
   CHECK(load_text("[output]\nground_height = -3\n" + ceiling + smallest).output.ground_height == -3);
 }
 
-TEST_CASE("what never moves needs contact by impulses, and does not move") {
-  for (const std::string response : {"reflect", "none"}) {
-    const std::string named = "[collision]\nresponse = \"" + response + "\"\n";
-    check_input_error(named + "[[ground]]\n" + smallest, 3, {"ground", response.c_str(), "response = \"impulse\""});
-    check_input_error(named + smallest + "kind = \"static\"\n", 5,
-                      {"body.body0.kind", "can't be static", "response = \"impulse\""});
-  }
+TEST_CASE("what never moves does not move, and a ground is told in one way") {
   for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]", "stretch = [1, 2, 1]", "pressure = 1"})
     check_input_error(smallest + "kind = \"static\"\n" + key + "\n", 4, {"neither moves nor changes", "remove"});
   check_input_error("[[ground]]\nheight = 1\nnormal = [1, 0, 0]\n" + smallest, 3, {"can't be combined with height"});
   check_input_error("[[ground]]\nnormal = [0, 0, 0]\n" + smallest, 2, {"has no direction"});
   check_input_error("[output]\nground_height = 1\n[[ground]]\n" + smallest, 3, {"ground", "remove output.ground_height"});
-  check_input_error("[collision]\nsearch = \"brute_force\"\n" + smallest, 2,
-                    {"trees alone", "remove search", "response = \"reflect\""});
 }
 
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {

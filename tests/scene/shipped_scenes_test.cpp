@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "bench/contact/apart.hpp"
+#include "collision/responses/response.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "simulation/time_plan.hpp"
 
 namespace pliant {
 namespace {

@@ -224,7 +224,7 @@ TEST_CASE("a step rejected for its error or in contact changes nothing") {
       REQUIRE(report.triangle_tests > 0);
       CHECK(same_bits(run.simulation.state(), start.state));
       CHECK((drawn_positions(run.simulation) == positions));
-      CHECK((report.contact_steps == 0 && report.contact_pairs_max == 0 && report.reverted_vertices == 0 && !report.non_finite));
+      CHECK((report.contact_steps == 0 && report.contact_pairs_max == 0 && report.reverted_vertices == 0 && !report.breakdown));
       // What can't be seen is as it was, too. The step that stands at last, and what follows, are as if it had come first.
       while (report.steps == 0) report = run.simulation.advance_toward(report.time + report.adaptive->next_step);
       REQUIRE(report.steps == 1);
@@ -242,7 +242,7 @@ TEST_CASE("a rejected step that was not finite is only rejected") {
   const StepReport first = run.simulation.advance_toward(1e12);
   CHECK((first.steps == 0 && first.adaptive->rejected == 1));
   const StepReport report = run.simulation.advance_to(1);
-  CHECK_FALSE(report.non_finite);
+  CHECK_FALSE(report.breakdown);
   CHECK(report.time == 1);
 }
 
@@ -297,19 +297,20 @@ TEST_CASE("a body that falls freely costs one step a target, on a parabola") {
   CHECK(glm::length(to[0] - from[0] - glm::dvec3(6, -20, 0)) < 1e-12);
 }
 
-TEST_CASE("a run that no step can continue ends as non-finite and names the vertex") {
+TEST_CASE("a run that no step can continue breaks down and names the vertex") {
   ModelAndState start = squashed();
   start.state.motion[6 * 17] = 1e300;
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
     Run run(*test.device, start, {});
     const StepReport report = run.simulation.advance_to(1);
-    REQUIRE(report.non_finite);
-    CHECK(report.non_finite->step == 1);
-    CHECK(report.non_finite->body == 0);
+    REQUIRE(report.breakdown);
+    CHECK(report.breakdown->step == 1);
+    CHECK(report.breakdown->body == 0);
     CHECK(report.steps == 1);
     CHECK(report.time < 1e-10);
-    CHECK(report.non_finite->failed_step == report.time);
+    CHECK(report.breakdown->failed_step == report.time);
+    CHECK_FALSE(report.breakdown->is_finite);
     const State state = run.simulation.state();
     CHECK(run.simulation.advance_toward(2).steps == 1);
     CHECK(same_bits(run.simulation.state(), state));
@@ -325,10 +326,11 @@ TEST_CASE("a run whose tolerance no rounding meets ends, with a state to write a
       plan.duration = 1e5 / stiffest_omega(start.model);
       Simulation simulation(*test.device, start.model, start.state, plan, with_response(Named{"none"}));
       const StepReport report = simulation.advance_to(plan.duration);
-      REQUIRE(report.non_finite);
-      CHECK(report.non_finite->failed_step > 0);
+      REQUIRE(report.breakdown);
+      CHECK(report.breakdown->failed_step > 0);
+      CHECK(report.breakdown->is_finite);
       CHECK(report.steps + report.adaptive->rejected < 3000);
-      CHECK_THAT(describe_breakdown(*report.non_finite, plan, start.model),
+      CHECK_THAT(describe_breakdown(*report.breakdown, plan, start.model),
                  Catch::Contains("1e-30") && Catch::Contains("step " + std::to_string(report.steps) + " at vertex") &&
                      Catch::Contains("loosen the tolerance"));
       const State state = simulation.state();

@@ -183,9 +183,9 @@ TEST_CASE("both searches count the same contacts in the step that a body elsewhe
   const auto device = make_cpu_device(2, 32);
   const StepReport by_tree = collide(*device, start, usual, 3, reflected).report;
   const StepReport by_force = collide(*device, start, usual, 3, reflected_by(ContactSearch::brute_force)).report;
-  CHECK(by_tree.non_finite);
+  CHECK(by_tree.breakdown);
   CHECK(by_tree.contact_steps == 1);
-  CHECK(by_force.non_finite == by_tree.non_finite);
+  CHECK(by_force.breakdown == by_tree.breakdown);
   CHECK(by_force.contact_steps == by_tree.contact_steps);
   CHECK(by_force.contact_pairs_max == by_tree.contact_pairs_max);
   CHECK(by_force.triangle_tests == by_tree.triangle_tests);
@@ -352,12 +352,12 @@ TEST_CASE("a vertex that goes non-finite is named in the step that made it, and 
     Simulation simulation(*test.device, start.model, start.state, plan_of({"rk4", step}), reflected);
     simulation.advance(1);
     std::uint64_t steps = 1;
-    while (!simulation.report().non_finite && steps < 1000) simulation.advance(1), ++steps;
+    while (!simulation.report().breakdown && steps < 1000) simulation.advance(1), ++steps;
     const StepReport report = simulation.report();
-    REQUIRE(report.non_finite);
-    CHECK(report.non_finite->step == steps);
-    CHECK(report.non_finite->body == 1);
-    CHECK(report.non_finite->vertex < 12);
+    REQUIRE(report.breakdown);
+    CHECK(report.breakdown->step == steps);
+    CHECK(report.breakdown->body == 1);
+    CHECK(report.breakdown->vertex < 12);
     const auto broken = simulation.world_positions();
     const bool finite = std::all_of(broken.begin() + 12, broken.end(), [](const glm::vec4& p) {
       return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -367,7 +367,7 @@ TEST_CASE("a vertex that goes non-finite is named in the step that made it, and 
     CHECK_FALSE((finite && state_finite));
     simulation.advance(3);
     CHECK(simulation.report().steps == steps);
-    CHECK(simulation.report().non_finite->step == steps);
+    CHECK(simulation.report().breakdown->step == steps);
   }
 }
 

@@ -50,7 +50,7 @@ class Trial {
       simulation_.advance(std::min(stride, steps - done));
       largest = larger(largest, measured().energy());
     }
-    return report().non_finite ? std::numeric_limits<double>::infinity() : largest;
+    return report().breakdown ? std::numeric_limits<double>::infinity() : largest;
   }
 
  private:

@@ -113,7 +113,11 @@ void add_own_rows() {
                .frequency_squared = chain_frequency_squared,
                .make = make_chain,
                .warnings = nullptr});
-    add_response({"halt", make_halt});
+    add_response({.name = "halt",
+                  .make = make_halt,
+                  .elasticity = 0.75,
+                  .law_with_gravity = DampingLaw::constant,
+                  .allows_immovable = true});
     return true;
   }();
   static_cast<void>(once);

@@ -338,18 +338,18 @@ TEST_CASE("after a step that is not finite nothing is due, and one can go back b
   LoadedScene scene = colliding();
   scene.description.simulation.time_step = 10;
   Session session(*device, scene);
-  for (int k = 0; k < 1000 && !session.non_finite(); ++k) {
+  for (int k = 0; k < 1000 && !session.breakdown(); ++k) {
     session.step_once();
     session.record();
   }
-  REQUIRE(session.non_finite());
+  REQUIRE(session.breakdown());
   const std::uint64_t broken = session.step();
   CHECK_FALSE(session.is_due(1e9));
   session.step_once();
   CHECK(session.step() == broken);
   REQUIRE(session.step_back());
   CHECK(session.step() == broken - 1);
-  CHECK_FALSE(session.non_finite());
+  CHECK_FALSE(session.breakdown());
 }
 
 TEST_CASE("after a change of settings, too, a step that is not finite has the number that the session gives it") {
@@ -360,9 +360,9 @@ TEST_CASE("after a change of settings, too, a step that is not finite has the nu
   Settings settings = session.settings();
   settings.time_step = 1e30;
   session.change(settings);
-  for (int k = 0; k < 10 && !session.non_finite(); ++k) session.step_once();
-  REQUIRE(session.non_finite());
-  CHECK(session.non_finite()->step == session.step());
+  for (int k = 0; k < 10 && !session.breakdown(); ++k) session.step_once();
+  REQUIRE(session.breakdown());
+  CHECK(session.breakdown()->step == session.step());
 }
 
 TEST_CASE("an OBJ file is a scene of one body at rest") {

@@ -51,8 +51,8 @@ void push_away(uint a, uint b, double speed) {
     double most_along = above(body_motion[b].upper[k], body_motion[a].lower[k]);
     uint least = ordered_bits(float(double(0.5) * part * (least_along - speed)));
     uint most = ordered_bits(float(double(0.5) * part * (most_along + speed)));
-    LOWER_TO(room[a].least_push[k], least)
-    RAISE_TO(room[a].most_push[k], most)
+    atomicMin(room[a].least_push[k], least);  // nobody waits for their results
+    atomicMax(room[a].most_push[k], most);
   }
 }
 

@@ -23,7 +23,7 @@ ARRAY(control, Control, run, carried, "the step's length, clock and counters")
 
 // integrators
 ARRAY(kept_force, double, vertex, carried, "[vertex][3] spring forces of a splitting method, kept for the next step [N]")
-ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting with internal damping")
+ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting")
 ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
 ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")
 ARRAY(error_scale, double, body, fixed, "[body][2] 1 / r [1/m], 1 / (r omega) [s/m]")

@@ -47,7 +47,7 @@ struct BoxBits { uint lower[3]; uint upper[3]; };
 
 struct Status {
   uint activity;           // whether the body moves: see below
-  uint non_finite_vertex;  // the body's first vertex that is not finite at the step's end, or no_vertex
+  uint non_finite_vertex;  // the body's first vertex that is not finite at the step's end or whose error ends the run, or no_vertex
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
 };

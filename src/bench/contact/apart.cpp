@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
 #include <utility>
+
+#include "model/inside.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -85,27 +85,12 @@ bool is_apart(const Corners& a, const Corners& b) {
   return is_apart_on({1, 0, 0}, p) || is_apart_on({0, 1, 0}, p) || is_apart_on({0, 0, 1}, p);
 }
 
-// The solid angle of a triangle as seen from a point. A. Van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125-126.
-double solid_angle(const glm::dvec3& from, const Corners& t) {
-  const glm::dvec3 a = t[0] - from, b = t[1] - from, c = t[2] - from;
-  const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-  return 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                        la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-}
-
 // Whether every edge belongs to two triangles or more.
 bool is_closed(const Model& model, const ModelBody& body) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
     for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(model.triangles[t][k], model.triangles[t][(k + 1) % 3])];
   return !edges.empty() && std::ranges::none_of(edges, [](const auto& edge) { return edge.second == 1; });
-}
-
-bool is_inside(const glm::dvec3& point, const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
-  double sum = 0;
-  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
-    sum += solid_angle(point, triangle_of(model, positions, t).corners);
-  return std::abs(sum) > 2 * std::numbers::pi;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how)
   Witness witness(start);
   StepReport& report = witness.seen.report;
   for (std::uint64_t part = 1;
-       report.steps < how.steps && part <= how.most_parts && !report.non_finite && !how.stop.stop_requested(); ++part) {
+       report.steps < how.steps && part <= how.most_parts && !report.breakdown && !how.stop.stop_requested(); ++part) {
     simulation.advance_part();
     report = simulation.report();
     const State state = simulation.state();
@@ -50,7 +50,7 @@ Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how)
 Seen watch_for(Simulation& simulation, const ModelAndState& start, double duration) {
   Witness witness(start);
   StepReport& report = witness.seen.report;
-  while (report.time < duration && !report.non_finite) {
+  while (report.time < duration && !report.breakdown) {
     report = simulation.advance_toward(duration, 1);
     const State state = simulation.state();
     witness.look_at_places(state);

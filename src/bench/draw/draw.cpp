@@ -29,7 +29,7 @@ class Drawing {
 
   void restart() { simulation_.restore(start_); }
   void step(std::uint64_t steps) { simulation_.advance(steps); }
-  [[nodiscard]] bool is_broken() { return simulation_.report().non_finite.has_value(); }
+  [[nodiscard]] bool is_broken() { return simulation_.report().breakdown.has_value(); }
   void draw(const render::PassObserver& after_pass = {}) {
     renderer_.draw(gpu::gl_buffer_of(device_, simulation_.position_buffer()), simulation_.first_position(), after_pass);
   }

@@ -25,7 +25,7 @@ Run run_pliant(Device& device, const PrecisionCase& what, const TimePlan& plan, 
           .contact_steps = report.contact_steps,
           .ending = ending_of(what.start.model, simulation.state())};
   // If no step meets the tolerance, the state is finite, but of an earlier time.
-  if (report.non_finite) std::ranges::fill(run.ending.velocities, glm::dvec3(NAN));
+  if (report.breakdown) std::ranges::fill(run.ending.velocities, glm::dvec3(NAN));
   return run;
 }
 

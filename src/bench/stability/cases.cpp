@@ -38,7 +38,7 @@ class Experiment {
       : model_(start.model), simulation_(device, start.model, start.state, plan, alone()) {}
 
   void advance(std::uint64_t steps) { simulation_.advance(steps); }
-  bool is_finite() { return !simulation_.report().non_finite; }
+  bool is_finite() { return !simulation_.report().breakdown; }
   State state() { return simulation_.state(); }
   StepReport report() { return simulation_.report(); }
   Measurement measured() { return measure(model_, simulation_.state(), glm::dvec3(0.0), pool_); }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -217,7 +218,6 @@ class Impulse final : public Response {
             .energy_taken = total[physics::energy_taken],
             .friction_work = total[physics::friction_work]};
   }
-  bool gives_impulses() const override { return true; }
   std::vector<ContactImpulse> contact_impulses() const override {
     std::vector<ContactImpulse> contacts;
     for (const Held& c : held_contacts()) {
@@ -261,8 +261,6 @@ class Impulse final : public Response {
     list.upload(std::span(&lengths, 1));
     if (keeps_impulses()) arrays.get<std::uint32_t>("kept_slot").upload(std::vector<std::uint32_t>(kept_slot_count));
   }
-  bool keeps_apart() const override { return true; }
-  bool answers_touching() const override { return false; }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
   std::vector<Pass> after_step(std::uint32_t from_half) const override {
@@ -375,8 +373,21 @@ class Impulse final : public Response {
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
 };
 
+std::unique_ptr<Response> make_impulse(const ResponseSetting& setting) { return std::make_unique<Impulse>(setting); }
+
 }  // namespace
 
-std::unique_ptr<Response> make_impulse(const ResponseSetting& setting) { return std::make_unique<Impulse>(setting); }
+ResponseRow impulse_row() {
+  return {.name = "impulse",
+          .make = make_impulse,
+          .elasticity = 0.5,
+          .law_with_gravity = DampingLaw::internal,  // it does not slow a fall
+          .allows_immovable = true,
+          .allows_brute_force = false,
+          .divides_steps = true,
+          .keeps_apart = true,
+          .gives_impulses = true,
+          .answers_touching = false};
+}
 
 }  // namespace pliant

@@ -16,8 +16,10 @@ class Reflect final : public Response {
   double elasticity_;
 };
 
+std::unique_ptr<Response> make_reflect(const ResponseSetting& setting) { return std::make_unique<Reflect>(setting); }
+
 }  // namespace
 
-std::unique_ptr<Response> make_reflect(const ResponseSetting& setting) { return std::make_unique<Reflect>(setting); }
+ResponseRow reflect_row() { return {.name = "reflect", .make = make_reflect}; }
 
 }  // namespace pliant

@@ -48,15 +48,9 @@ class Response {
   [[nodiscard]] virtual std::string save() const { return {}; }
   /// Goes on from these bytes.
   virtual void restore(std::string_view /*saved*/) {}
-  /// Returns whether contact_impulses() says what contacts gave.
-  [[nodiscard]] virtual bool gives_impulses() const { return false; }
-  /// Returns the impulses of the latest step, in no fixed order, without those that are zero. Waits for the queued steps. Nothing
-  /// is read back without this call.
+  /// Returns the impulses of the latest step, in no fixed order, without those that are zero. There are none if the row's
+  /// `gives_impulses` is false. Waits for the queued steps. Nothing is read back without this call.
   [[nodiscard]] virtual std::vector<ContactImpulse> contact_impulses() const { return {}; }
-  /// Returns whether bodies that are apart at the start stay apart. Those that are not then can't begin.
-  [[nodiscard]] virtual bool keeps_apart() const { return false; }
-  /// Returns whether after_step() answers triangles that touch at the step's end, so that the step looks for them.
-  [[nodiscard]] virtual bool answers_touching() const { return true; }
   /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs
   /// steps, they run after the verdict.
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
@@ -75,15 +69,30 @@ struct ResponseSetting {
   StepLengths step_lengths;
 };
 
+/// A response, and what others have to know of it. A row that says no more than these defaults is "none".
 struct ResponseRow {
-  std::string_view name;  // the scene's `collision.response`
-  std::unique_ptr<Response> (*make)(const ResponseSetting& setting);
+  std::string_view name = "none";  // the scene's `collision.response`
+  /// Null if contacts are not answered.
+  std::unique_ptr<Response> (*make)(const ResponseSetting& setting) = nullptr;
+  double elasticity = 0.9;                             // of a scene that names none
+  DampingLaw law_with_gravity = DampingLaw::adaptive;  // of a scene with gravity that names none
+  bool allows_immovable = false;                       // static bodies and grounds
+  bool allows_brute_force = true;                      // as the scene's `collision.search`
+  bool divides_steps = false;                          // of a fixed length: see step_parts()
+  bool keeps_apart = false;      // bodies that are apart at the start stay so. Those that are not can't begin
+  bool gives_impulses = false;   // contact_impulses() says what contacts gave
+  bool answers_touching = true;  // after_step() answers triangles that touch at the step's end, so the step looks for them
 };
 
+/// Returns all rows but "none".
 [[nodiscard]] std::span<const ResponseRow> responses();
-/// Adds another program's row. Scenes read from then on may name it.
+/// Adds another program's row. Scenes planned from then on may name it. Rows that others hold by reference are invalid then.
 void add_response(const ResponseRow& row);
-/// Returns null for "none". Throws Error that blames the name's origin if no row has the name.
-[[nodiscard]] const ResponseRow* find_response(const Named& name);
+/// Throws Error that blames the name's origin if no row has the name.
+[[nodiscard]] const ResponseRow& find_response(const Named& name);
+/// Returns the scene's response. Throws Error if there is none of that name, or if it does not allow what the scene has.
+[[nodiscard]] const ResponseRow& response_of(const SceneDescription& scene);
+/// Returns the elasticity that a scene names, or the default of its response.
+[[nodiscard]] double elasticity_of(const CollisionDescription& collision);
 
 }  // namespace pliant

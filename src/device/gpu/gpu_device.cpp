@@ -87,14 +87,8 @@ class GpuDevice final : public Device {
     storage(buffer).read(first_byte, data);
   }
 
-  KernelId kernel(std::string_view name) override {
-    return build(std::string(name), thread_caller,
-                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
-  }
-  KernelId round_kernel(std::string_view name) override {
-    return build(std::string(name), round_caller,
-                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
-  }
+  KernelId kernel(std::string_view name) override { return build(name, thread_caller); }
+  KernelId round_kernel(std::string_view name) override { return build(name, round_caller); }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
     PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
@@ -153,7 +147,7 @@ class GpuDevice final : public Device {
  private:
   struct Kernel {
     std::string name;
-    bool items_are_groups;
+    const Caller* caller;
     KernelSignature signature;
     gl::Program program;
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
@@ -164,11 +158,17 @@ class GpuDevice final : public Device {
     std::array<BufferId, max_arrays> storage{}, constants{};
   };
 
+  KernelId build(std::string_view name, const Caller& caller) {
+    return build(std::string(name), caller,
+                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+  }
+
+  // Returns the kernel that was built before for the same caller, or builds it.
   KernelId build(const std::string& name, const Caller& caller, const std::vector<gl::Define>& defines) {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
-      if (kernels_[k].name == name) return static_cast<KernelId>(k);
+      if (kernels_[k].name == name && kernels_[k].caller == &caller) return static_cast<KernelId>(k);
     gpu::KernelSource source = gpu::kernel_source(files_, caller.file, defines);
-    Kernel made{name, caller.items_are_groups, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
+    Kernel made{name, &caller, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
     for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
       made.parameter_is_used.push_back(has_location(made.program.id(), slot));
     made.parameters.resize(made.signature.parameters.size());
@@ -193,7 +193,7 @@ class GpuDevice final : public Device {
   void dispatch(const Pass& pass) {
     if (pass.item_count == 0) return;
     const std::uint32_t groups =
-        kernels_[pass.call.kernel].items_are_groups ? pass.item_count : physics::groups_for(pass.item_count);
+        kernels_[pass.call.kernel].caller->items_are_groups ? pass.item_count : physics::groups_for(pass.item_count);
     const std::uint32_t rows = (groups + physics::max_groups - 1) / physics::max_groups;
     prepare(pass.call);
     glDispatchCompute(std::min(groups, physics::max_groups), rows, 1);

@@ -34,7 +34,6 @@ AddedForces::AddedForces(DeviceBodies& bodies, const Model& model) {
     forces_.push_back(force.make(bodies, model));
     count_as_deformed(bodies, force, model);
   }
-  bodies.arrays.make<double>("added_force", any() ? std::size_t{3} * bodies.vertex_count : 1);
 }
 
 std::vector<Pass> AddedForces::passes(std::uint32_t slot) const {

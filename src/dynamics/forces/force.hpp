@@ -55,8 +55,8 @@ struct Force {
 /// Adds another program's row. Simulations that are made from then on have it.
 void add_force(const Force& force);
 
-/// The forces beside the springs that act on any body of a scene. Makes their arrays, and `added_force` in any case, because
-/// stages name it. Bodies that feel one at rest count as deformed.
+/// The forces beside the springs that act on any body of a scene. Makes their arrays, but not `added_force`, which the stepper
+/// makes. Bodies that feel one at rest count as deformed.
 class AddedForces {
  public:
   /// `bodies` must outlive this.

@@ -150,7 +150,7 @@ TEST_CASE("a body turned inside out ends the run as non-finite, and is named") {
     CAPTURE(test.name);
     Simulation simulation(*test.device, start.model, start.state, plan_of(Method{"cv8", 1e-3}), {.response = {"none"}});
     simulation.advance(3);
-    const auto end = simulation.report().non_finite;
+    const auto end = simulation.report().breakdown;
     REQUIRE(end.has_value());
     CHECK((end->step == 1 && end->body == 1));
   }
