@@ -104,14 +104,13 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
-                    "move too far in a "
-                    "step, or are pressed too hard; try a shorter time step, or stiffer bodies",
+                    "move too far in a step, or are pressed too hard; try a shorter time step, or stiffer bodies",
                     report.reverted_vertices));
   return told;
 }
 
 std::vector<std::string> contact_troubles_of(const RunStatus& status) {
-  if (!is_by_impulses(status.run.scene.collision)) return {};
+  if (!status.run.simulation->collider().response_row().gives_impulses) return {};
   std::uint64_t moving_vertices = 0;
   for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
   return contact_troubles_of(status.report, moving_vertices);

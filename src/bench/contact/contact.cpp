@@ -31,6 +31,7 @@ namespace {
 
 constexpr double apart_omega_step = 0.5;
 constexpr std::uint64_t apart_parts = 900, quick_apart_parts = 90;  // of steps, twice as many for bodies that come fast
+constexpr std::size_t many_triangles = 4000;                        // of both bodies
 constexpr std::uint32_t few_vertices = 400;                         // of both bodies: more take longer to measure than to move
 
 CollisionDescription by(const char* response, double elasticity = 0.5) {
@@ -92,17 +93,30 @@ struct Pairing {
 };
 
 // Waits until bodies that come fast have parted, too. They make many parts of a step.
-bool part_at_last(Simulation& simulation, const Model& model, const std::stop_token& stop) {
-  constexpr int most_parts = 3000;
+bool part_at_last(Simulation& simulation, const Model& model, std::uint64_t most_parts, const std::stop_token& stop) {
   const ApartOracle oracle(model);
-  for (int part = 0; part < most_parts && !stop.stop_requested(); part += 16) {
+  for (std::uint64_t part = 0; part < most_parts && !stop.stop_requested(); part += 16) {
     if (oracle.have_parted(simulation.state().world_positions(model))) return true;
     for (int k = 0; k < 16; ++k) simulation.advance_part();
   }
   return false;
 }
 
-ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, std::uint64_t parts,
+// How many parts of steps to watch, and how many more bodies get to part.
+struct Patience {
+  std::uint64_t parts, to_part = 3000;
+};
+
+// Bodies of large meshes that come fast take most of the time, and a GPU waits for the host's proofs. Both get less.
+Patience patience_for(std::size_t triangles, double speed, const Place& place, bool quick) {
+  const std::uint64_t all = (speed > 1 ? 2 : 1) * (quick ? quick_apart_parts : apart_parts);
+  if (quick) return {all};
+  const std::uint64_t on_device = all / (place.device == DeviceKind::gpu ? 5 : 1);
+  if (speed > 1 && triangles > many_triangles) return {on_device / 10, on_device / 10};
+  return {on_device};
+}
+
+ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, const Patience& patience,
                        const std::stop_token& stop) {
   const Meeting meeting = meeting_of(
       pair.left, pair.right,
@@ -111,8 +125,9 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
   const std::uint32_t vertices = model.vertex_count();
   Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
                         by("impulse"));
-  const Seen seen = watch(simulation, meeting.start,
-                          {.steps = parts, .most_parts = parts, .stride = vertices > few_vertices ? 16u : 1u, .stop = stop});
+  const Seen seen =
+      watch(simulation, meeting.start,
+            {.steps = patience.parts, .most_parts = patience.parts, .stride = vertices > few_vertices ? 16u : 1u, .stop = stop});
   return {.bodies = pair.name,
           .device = device.info().kind,
           .precision = device.precision(),
@@ -129,7 +144,7 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
           .held_parts = seen.report.held_parts,
           .touching = seen.touching,
           .inside = seen.inside,
-          .parted = part_at_last(simulation, model, stop),
+          .parted = part_at_last(simulation, model, patience.to_part, stop),
           .momentum_change = seen.momentum_change,
           .angular_momentum_change = seen.angular_momentum_change,
           .most_energy = seen.most_energy,
@@ -164,12 +179,12 @@ void add_apart(std::vector<Task>& tasks, const ContactOptions& options) {
   for (const Pairing& pair : pairings(options))
     for (const Place& place : places(options.devices))
       for (const double speed : speeds) {
-        const double triangles = static_cast<double>(pair.left.mesh.triangles.size() + pair.right.mesh.triangles.size());
-        const std::uint64_t parts = (speed > 1 ? 2 : 1) * (options.quick ? quick_apart_parts : apart_parts);
+        const std::size_t triangles = pair.left.mesh.triangles.size() + pair.right.mesh.triangles.size();
+        const Patience patience = patience_for(triangles, speed, place, options.quick);
         tasks.push_back({fmt::format("apart, {}, {} edges a step, {}", pair.name, speed, name_of(place)),
-                         triangles * static_cast<double>(parts) * 1e-5,
+                         static_cast<double>(triangles * patience.parts) * 1e-5,
                          [=](Device& device, const std::stop_token& stop) {
-                           return std::vector<ContactRow>{measure_apart(device, pair, speed, parts, stop)};
+                           return std::vector<ContactRow>{measure_apart(device, pair, speed, patience, stop)};
                          },
                          place});
       }
@@ -201,7 +216,7 @@ void add_extremes(std::vector<Task>& tasks, const ContactOptions& options) {
       for (const double speed : speeds)
         tasks.push_back({fmt::format("extremes, {}, {} edges a step, {}", pair.name, speed, name_of(place)), 1,
                          [=](Device& device, const std::stop_token& stop) {
-                           return std::vector<ContactRow>{measure_apart(device, pair, speed, parts, stop)};
+                           return std::vector<ContactRow>{measure_apart(device, pair, speed, {parts}, stop)};
                          },
                          place});
 }
