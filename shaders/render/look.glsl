@@ -7,14 +7,15 @@ const vec3 zenith_color = vec3(0.25, 0.31, 0.40);
 const vec3 pool_color = vec3(0.80, 0.81, 0.82);  // the ground under the lights
 
 #include "taps.glsl"
-layout(binding = 1) uniform sampler2D ground_light;  // x: key, y: sky
+layout(binding = 1) uniform sampler2D ground_light;  // x: key, y: sky, with mipmaps
 
-/// Light on the ground at a place, 0 to 1: x of the key light, y of the sky. Beyond the map all light arrives.
-vec2 light_on_ground(vec2 xz) {
+/// Light on the ground at a place, 0 to 1: x of the key light, y of the sky. It is the mean over some `width` [m]. Beyond the map all
+/// light arrives.
+vec2 light_on_ground(vec2 xz, float width) {
   if (ground.w <= 0.0) return vec2(1.0);
   vec2 at = (xz - ground.xz) / ground.w;
   float inside = 1.0 - smoothstep(0.8, 1.0, max(abs(at.x), abs(at.y)));
-  return mix(vec2(1.0), mean_at(ground_light, at * 0.5 + 0.5), inside);
+  return mix(vec2(1.0), mean_at(ground_light, at * 0.5 + 0.5, level_of(ground_light, width / (2.0 * ground.w))), inside);
 }
 
 vec3 backdrop(vec3 direction) {
@@ -28,7 +29,7 @@ vec3 ground_shade(vec2 light) {
 
 vec3 ground_color(vec3 hit) {
   float distance_to_centre = length(hit.xz) / centre.w;
-  vec3 shade = ground_shade(light_on_ground(hit.xz));
+  vec3 shade = ground_shade(light_on_ground(hit.xz, 0.0));
   return mix(shade, shade * horizon_color / pool_color, smoothstep(0.5, 6.0, distance_to_centre));
 }
 

@@ -61,23 +61,29 @@ float mirrored_share(float facing) {
   return 0.04 * scale.x + scale.y;
 }
 
+/// What comes along a mirrored ray. A rough surface spreads such rays, so the ground is blurred the more the farther away it is.
+vec3 mirrored_light(vec3 where, vec3 ray) {
+  const float spread = 4.0 * roughness * roughness;  // rays turn by twice as much as the microfacets' normals, to either side
+  float away = (ground.y - where.y) / min(ray.y, -0.1);
+  vec2 light = light_on_ground(where.xz + away * ray.xz, spread * away);
+  return mix(ground_shade(light), backdrop(ray), smoothstep(-0.4, 0.4, ray.y));
+}
+
 vec3 shade(Hit hit, vec3 view, float open) {
   vec3 light = key_direction.xyz, normal = hit.normal;
-  vec3 below = ground_shade(light_on_ground(hit.where.xz));
+  vec3 below = ground_shade(light_on_ground(hit.where.xz, 0.0));
   Search taps = Search(vec2(1.0, 0.0), 0.02, BLOCKER_TAPS, SHADOW_TAPS);
   float lit = max(dot(normal, light), 0.0) * key_visibility(hit.where, normal, taps);
   vec3 fill = fill_color * max(dot(normal, normalize(vec3(-light.x, 0.35 * light.y, light.z))) * 0.7 + 0.3, 0.0);
   vec3 around = mix(below * 0.6, sky_color, 0.5 + 0.5 * normal.y);
-  vec3 mirrored = reflect(-view, normal);
-  vec2 met = hit.where.xz + mirrored.xz * ((ground.y - hit.where.y) / min(mirrored.y, -0.1));  // where it meets the ground
-  mirrored = mix(ground_shade(light_on_ground(met)), backdrop(mirrored), smoothstep(-0.4, 0.4, mirrored.y));
+  vec3 mirrored = mirrored_light(hit.where, reflect(-view, normal));
   vec3 gloss = key_color * pi * highlight(normal, view, light) * min(lit * 8.0, 1.0) +
                mirrored * open * mirrored_share(max(dot(normal, view), 0.0));
   return hit.albedo * 0.40 * (key_color * lit + open * (fill + around)) + gloss;
 }
 
 float openness_at(vec2 place) {
-  vec2 mean = mean_at(occlusion, place);
+  vec2 mean = mean_at(occlusion, place, 0.0);
   return mean.y > 0.0 ? mean.x / mean.y : 1.0;  // the mean over bodies alone
 }
 

@@ -8,5 +8,10 @@ vec2 start_of(ivec2 texel) {
   return vec2(cos(turn), sin(turn));
 }
 
+/// Mip level of a map whose texels are as wide as a share of the map.
+float level_of(sampler2D map, float share) { return log2(max(share * float(textureSize(map, 0).x), 1.0)); }
+
 /// The value of a map that mean.comp has made. `place` goes from 0 to 1 over the map.
-vec2 mean_at(sampler2D means, vec2 place) { return textureLod(means, place - 0.5 / vec2(textureSize(means, 0)), 0.0).xy; }
+vec2 mean_at(sampler2D means, vec2 place, float level) {
+  return textureLod(means, place - 0.5 / vec2(textureSize(means, 0)), level).xy;
+}

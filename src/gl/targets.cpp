@@ -45,7 +45,8 @@ bool has_room_for(GLuint texture, const TextureOptions& options) {
 }
 
 void set_sampling(GLuint texture, const TextureOptions& options) {
-  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, options.levels > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
+  const GLint between_levels = options.blends_levels ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST;
+  glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, options.levels > 1 ? between_levels : GL_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);

@@ -9,11 +9,12 @@
 namespace pliant::gl {
 
 struct TextureOptions {
-  std::uint32_t format = 0;  // a sized internal format
-  glm::uvec2 size{1, 1};     // [pixels]
-  int levels = 1;
-  int samples = 1;    // over 1: multisampled, without mipmaps
-  float outside = 0;  // what sampling outside of the texture gives
+  std::uint32_t format = 0;    // a sized internal format
+  glm::uvec2 size{1, 1};       // [pixels]
+  int levels = 1;              // mipmaps and the texture itself
+  bool blends_levels = false;  // whether a lookup between two levels gives a mix of both, or the nearer one
+  int samples = 1;             // over 1: multisampled, without mipmaps
+  float outside = 0;           // what sampling outside of the texture gives
 };
 
 /// A 2D texture with linear filtering. Throws Error (device) if it is beyond the driver's largest size or most samples, or if the

@@ -123,12 +123,20 @@ gl::TextureOptions footprint_options() {
   return options;
 }
 
+gl::TextureOptions ground_light_options(std::uint32_t side) {
+  gl::TextureOptions options = square(GL_RG16, side);
+  options.levels = std::bit_width(side);
+  options.blends_levels = true;
+  options.outside = 1;  // all light arrives
+  return options;
+}
+
 /// The maps of light and shadow. They do not depend on the picture's size.
 struct Maps {
   Maps(const Sampling& sampling, int pictures_per_clear)
       : shadow_slices(pictures_per_clear),
         ground_light(square(GL_RG16, sampling.ground_light_size), "light on the ground"),
-        mean_ground_light(square(GL_RG16, sampling.ground_light_size), "mean light on the ground") {}
+        mean_ground_light(ground_light_options(sampling.ground_light_size), "mean light on the ground") {}
 
   gl::Texture shadow{shadow_options(), "shadow map"};
   DepthSlices shadow_slices;
@@ -280,6 +288,7 @@ void FrameRenderer::Impl::light_ground() const {
   glBindTextureUnit(1, maps.footprint.id());
   fill(maps.ground_light, GL_RG16, programs.ground_light);
   average(maps.ground_light, maps.mean_ground_light);
+  glGenerateTextureMipmap(maps.mean_ground_light.id());
 }
 
 void FrameRenderer::Impl::draw_seen() {

@@ -73,6 +73,26 @@ TEST_CASE("a body mirrors the shadow that it casts on the ground, and is lit the
   CHECK(darkened(white, mirrors_none) > 5);
 }
 
+TEST_CASE("a body mirrors the shadow of another only in soft outlines, because its surface is rough", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.0;
+  options.camera.field_of_view = 17;  // a soft outline is many pixels wide
+  const Subject body = sphere({0, 0, 0}, black, "icosphere:5");
+  const Image alone = draw(body, options), beside = draw(together(body, sphere({2.4, 0, 0.4})), options);
+  const auto darkened = [&](const glm::ivec2& pixel) { return brightness(alone, pixel) - brightness(beside, pixel); };
+  int most = 0, steepest = 0;
+  for (const glm::dvec3& place : places_seen()) {
+    const glm::ivec2 pixel = pixel_of(place, options.camera);
+    most = std::max(most, darkened(pixel));
+    for (const glm::ivec2 next : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
+      steepest = std::max(steepest, std::abs(darkened(pixel + next) - darkened(pixel)));
+  }
+  CAPTURE(most, steepest);
+  CHECK(most > 10);
+  CHECK(steepest < most / 3);
+}
+
 TEST_CASE("a white body in full light keeps its shades", "[gl]") {
   const gl::Context context(0);
   const Image image = draw(sphere({0, 0, 0}, white));
