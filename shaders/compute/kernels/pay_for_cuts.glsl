@@ -1,7 +1,7 @@
 // A kernel in rounds. One thread serves some vertices of a body that had motions cut short, or still owes for earlier cuts. A vertex that
 // is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum and
 // its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
-// that is near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't pay, they owe.
+// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't pay, they owe.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -94,9 +94,17 @@ Means own_means_of(uint b) {
 
 bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
 
+// In this step. A body that still owes but flies freely is not held by anything, so its rigid motion stays.
+bool was_cut_short(uint b) {
+  uvec2 range = vertex_part_range[b];
+  bool was_cut = false;
+  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].gained != double(0);
+  return was_cut;
+}
+
 Means means_of(uint b) {
   Means m = own_means_of(b);
-  if (!(m.due > m.deformation) || is_in_cluster(b) || is_near_one_that_moves(b)) m.rigid = double(0);
+  if (!(m.due > m.deformation) || !was_cut_short(b) || is_in_cluster(b) || is_near_one_that_moves(b)) m.rigid = double(0);
   return m;
 }
 
