@@ -1,6 +1,8 @@
 // The frame around kernels that go in rounds. One thread calls the kernel's function for one item in one round. The next round begins when
 // all threads have ended theirs. Work groups wait for each other, so no more of them are started than certainly run side by side. Only as
-// many take part as there are items for. On an H200 64 threads a group were faster than more: rounds wait for memory, not for arithmetic.
+// many take part as there are items for. What items_in_a_round() reads must not change in the first round, and what goes_on() reads must
+// not change in a later one: else a slow group would leave alone. On an H200 64 threads a group were faster than more: rounds wait for
+// memory, not for arithmetic.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"
@@ -26,7 +28,8 @@ void wait_for_others(uint groups, uint often) {
 
 void main() {
   uint count = items_in_a_round();
-  uint groups = clamp((count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, 1u, item_count);
+  if (count == 0u) return;
+  uint groups = min((count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, item_count);
   if (gl_WorkGroupID.x < groups) {
     for (uint number = 0u; number < rounds_at_most(); ++number) {
       for (uint item = gl_GlobalInvocationID.x; item < count; item += groups * gl_WorkGroupSize.x) KERNEL(item, number);

@@ -1,7 +1,8 @@
 // A kernel in rounds. One thread serves some vertices of a body that had motions cut short, or still owes for earlier cuts. A vertex that
 // is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum and
 // its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
-// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't pay, they owe.
+// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies
+// can't pay, they owe.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -38,7 +39,7 @@ bool is_needed() {
 }
 uint items_in_a_round() { return is_needed() ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
-bool goes_on(uint number) { return number < last_round && is_needed(); }
+bool goes_on(uint number) { return number < last_round; }  // rounds change what is_needed() reads
 
 uint moments_half() { return other_half(from_half); }
 #include "parts/rigid_motion_by_parts.glsl"

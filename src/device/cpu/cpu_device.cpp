@@ -133,6 +133,7 @@ class CpuDevice final : public Device {
 
   void run_rounds(const cpu::KernelEntry& entry, const cpu::KernelArguments& arguments) {
     const std::uint32_t items = entry.rounds.items(arguments), most = entry.rounds.most(arguments);
+    if (items == 0) return;
     for (std::uint32_t round = 0; round < most; ++round) {
       pool_.for_ranges(items, entry.grain,
                        [&](std::uint32_t first, std::uint32_t end) { entry.rounds.run(arguments, round, first, end); });
