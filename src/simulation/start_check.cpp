@@ -8,9 +8,8 @@
 #include <limits>
 #include <span>
 
+#include "collision/responses/impulse.hpp"
 #include "core/error.hpp"
-#include "model/mean_edge.hpp"
-#include "physics/contact/surface.glsl"
 #include "simulation/overlap.hpp"
 
 namespace pliant {
@@ -109,17 +108,12 @@ struct Resolution {
   double gap = 0;
 };
 
-double gap_in_edges(const ModelBody& body, const CollisionDescription& collision) {
-  return body.surface.gap.value_or(collision.gap);
-}
-
 Resolution resolution_of(const Model& model, const ModelBody& body, const ModelBody& other, double far,
                          const CollisionDescription& collision, int precision) {
   const double epsilon = precision == 64 ? 0x1p-52 : 0x1p-23;
   const double size = std::sqrt(3.0) * (longest_edge(model, body) + longest_edge(model, other));
-  const double edge = other.is_static ? mean_edge(model, body) : std::min(mean_edge(model, body), mean_edge(model, other));
   return {.margin = physics::margin_of_rounding(epsilon, size, far + 4 * std::max(body.radius, other.radius)),
-          .gap = physics::mean_of_pair(gap_in_edges(body, collision), gap_in_edges(other, collision)) * edge};
+          .gap = physics::gap_of_pair(surface_of(model, body, collision), surface_of(model, other, collision))};
 }
 
 }  // namespace

@@ -13,10 +13,9 @@
 #include <limits>
 #include <span>
 
+#include "collision/responses/impulse.hpp"
 #include "core/counted.hpp"
-#include "model/mean_edge.hpp"
 #include "physics/contact/features.glsl"
-#include "physics/contact/surface.glsl"
 
 namespace pliant {
 namespace {
@@ -51,7 +50,7 @@ class NearStarts {
  public:
   NearStarts(const Model& model, const State& state, const CollisionDescription& collision)
       : model_(model), collision_(collision), positions_(state.world_positions(model)) {
-    for (const ModelBody& body : model.bodies) edges_.push_back(body.triangle_count > 0 ? mean_edge(model, body) : body.radius);
+    for (const ModelBody& body : model.bodies) surfaces_.push_back(surface_of(model, body, collision));
   }
 
   std::vector<std::string> told() {
@@ -62,14 +61,6 @@ class NearStarts {
   }
 
  private:
-  double gap_in_edges(const SurfaceDescription& surface) const { return surface.gap.value_or(collision_.gap); }
-
-  double gap_of(std::uint32_t a, std::uint32_t b) const {
-    const ModelBody &first = model_.bodies[a], &second = model_.bodies[b];
-    const double edge = first.is_static ? edges_[b] : second.is_static ? edges_[a] : std::min(edges_[a], edges_[b]);
-    return physics::mean_of_pair(gap_in_edges(first.surface), gap_in_edges(second.surface)) * edge;
-  }
-
   void tell(const std::string& who, double distance, double gap) {
     if (told_.size() == most_told) {
       ++rest_;
@@ -92,7 +83,7 @@ class NearStarts {
     double distance = std::numeric_limits<double>::infinity();
     for (const glm::dvec3& p : std::span(positions_).subspan(body.first_vertex, body.vertex_count))
       distance = std::min(distance, glm::dot(ground.normal, p) - ground.offset);
-    const double gap = physics::mean_of_pair(gap_in_edges(body.surface), gap_in_edges(ground.surface)) * edges_[index];
+    const double gap = physics::gap_above(ground_of(ground, collision_), surfaces_[index]);
     if (distance < near_enough * gap)
       tell(fmt::format("body \"{}\" and the ground of {} begin", body.name, ground.where.place), distance, gap);
   }
@@ -103,8 +94,8 @@ class NearStarts {
     for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
       const ModelBody& body = model_.bodies[b];
       if (body.triangle_count == 0) continue;
-      largest_gap = std::max(largest_gap, gap_in_edges(body.surface));
-      largest_edge = std::max(largest_edge, edges_[b]);
+      largest_gap = std::max(largest_gap, surfaces_[b].gap);
+      largest_edge = std::max(largest_edge, surfaces_[b].edge);
       StartBox& box = boxes.emplace_back(StartBox{.index = b});
       for (const glm::dvec3& p : std::span(positions_).subspan(body.first_vertex, body.vertex_count)) box.add(p);
     }
@@ -114,7 +105,7 @@ class NearStarts {
   void compare(const StartBox& a, const StartBox& b) {
     const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
     if (first.is_static && second.is_static) return;
-    const double gap = gap_of(a.index, b.index);
+    const double gap = physics::gap_of_pair(surfaces_[a.index], surfaces_[b.index]);
     std::vector<StartBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
     boxes.insert(boxes.end(), others.begin(), others.end());
     double nearest = near_enough * gap;
@@ -152,7 +143,7 @@ class NearStarts {
   const Model& model_;
   const CollisionDescription& collision_;
   std::vector<glm::dvec3> positions_;
-  std::vector<double> edges_;  // mean length, a body
+  std::vector<physics::Surface> surfaces_;
   std::vector<std::string> told_;
   std::size_t rest_ = 0;  // pairs beyond those told
 };

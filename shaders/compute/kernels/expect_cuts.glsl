@@ -42,7 +42,8 @@ double part_to(double from, double along, double lower, double upper) {
 
 // The part of a way that does not end below a ground. A vertex may come down to a fiftieth of the gap, but not go down from there.
 double part_above(uint g, dvec3 from, dvec3 gone, double gap) {
-  double height = dot(LOAD3(ground[g].normal, 0u), from) - ground[g].offset, sinks = -dot(LOAD3(ground[g].normal, 0u), gone);
+  dvec3 normal = LOAD3(ground[g].normal, 0u);
+  double height = dot(normal, from) - ground[g].offset, sinks = -dot(normal, gone);
   double room = height - double(0.02) * gap;
   return sinks > room ? double(0.99) * max(room, double(0)) / sinks : double(1);
 }
@@ -57,7 +58,8 @@ void add_contact_sums() {
 
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
 void bound_way(uint i, dvec3 from, dvec3 together, dvec3 own) {
-  dvec3 by_cluster = from + together, to = by_cluster + own, lower = min(min(from, by_cluster), to), upper = max(max(from, by_cluster), to);
+  dvec3 by_cluster = from + together, to = by_cluster + own;
+  dvec3 lower = min(min(from, by_cluster), to), upper = max(max(from, by_cluster), to);
   dvec3 farthest = max(abs(lower), abs(upper));
   double far = double(2) * (farthest.x + farthest.y + farthest.z) + double(4) * largest_body;
   dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
@@ -84,7 +86,7 @@ void expect_cuts(uint i) {
   for (int k = 0; k < 3; ++k)
     part = min(part, part_to(from[k] + together[k], own[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
   for (uint g = 0u; g < ground_count; ++g)
-    if (is_movable) part = min(part, part_above(g, from + together, own, mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge));
+    if (is_movable) part = min(part, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
   bound_way(i, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint k = 1u; k <= cut_rounds; ++k) cut[k * vertex_count + i] = floatBitsToUint(1.0f);

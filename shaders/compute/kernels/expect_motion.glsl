@@ -1,5 +1,5 @@
-// One thread serves one vertex at a step's start. It finds how the vertex is expected to move. It bounds place and motion by a cage that the
-// vertex will not leave in this step, and its expected way by another box.
+// One thread serves one vertex at a step's start. It finds how the vertex is expected to move. It bounds place and motion by a cage that
+// the vertex will not leave in this step, and its expected way by another box.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -49,13 +49,14 @@ dvec3 least_push(uint b) {
   return dvec3(from_ordered_bits(room[b].least_push[0]), from_ordered_bits(room[b].least_push[1]), from_ordered_bits(room[b].least_push[2]));
 }
 dvec3 most_push(uint b) {
-  return dvec3(from_ordered_bits(room[b].most_push[0]), from_ordered_bits(room[b].most_push[1]), from_ordered_bits(room[b].most_push[2]));
+  return dvec3(from_ordered_bits(room[b].most_push[0]), from_ordered_bits(room[b].most_push[1]),
+               from_ordered_bits(room[b].most_push[2]));
 }
 
 // A cluster near a ground does not have its motion to itself.
 void stay_above_grounds(uint b, dvec3 place) {
   for (uint g = 0u; g < ground_count; ++g)
-    if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < mean_of_pair(surface[b].gap, ground[g].gap) * surface[b].edge)
+    if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < gap_above(ground[g], surface[b]))
       ATOMIC_STORE(cluster[cluster[b].first].is_met, 1u);
 }
 

@@ -55,7 +55,7 @@ Pair pair_of(uvec2 triangles) {
     p.way[k] = real3(h * (LOAD3(expected, force_of(p.vertex[k])) - base));
   }
   Surface a = surface[uint(rest_position[p.vertex[0]].w)], b = surface[uint(rest_position[p.vertex[3]].w)];
-  p.gap = real(mean_of_pair(a.gap, b.gap) * edge_of_pair(a, b));
+  p.gap = real(gap_of_pair(a, b));
   p.slowest = real(min(a.longest_pressed, b.longest_pressed));
   p.elasticity = real(mean_of_pair(a.elasticity, b.elasticity));
   p.friction = real(mean_of_pair(a.friction, b.friction));

@@ -20,7 +20,7 @@ void meet_ground(uint i, uint g) {
   dvec3 normal = LOAD3(ground[g].normal, 0u), velocity = LOAD3(start, start_velocity_of(i));
   dvec3 surplus_now = LOAD3(expected, force_of(i)) - velocity;
   Approach a;
-  a.gap = real(mean_of_pair(s.gap, ground[g].gap) * s.edge);
+  a.gap = real(gap_above(ground[g], s));
   a.time_step = real(control[0].time_step);
   a.slowest = real(s.longest_pressed);
   a.elasticity = real(mean_of_pair(s.elasticity, ground[g].elasticity));

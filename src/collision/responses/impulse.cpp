@@ -16,7 +16,6 @@
 #include "dynamics/stability.hpp"
 #include "model/mean_edge.hpp"
 #include "physics/contact/impact.glsl"
-#include "physics/contact/surface.glsl"
 #include "state/vertex_parts.hpp"
 
 namespace pliant {
@@ -33,17 +32,6 @@ std::optional<double> restitution_of(const ModelBody& body, const CollisionDescr
   return body.restitution || body.is_static ? body.restitution : description.restitution;
 }
 
-physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
-  return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
-          .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
-          .elasticity = body.surface.elasticity.value_or(elasticity_of(description)),
-          .friction = body.surface.friction.value_or(description.friction),
-          .gap = body.surface.gap.value_or(description.gap),
-          .restitution = restitution_of(body, description).value_or(-1),
-          .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30),
-          .nearness = 0};
-}
-
 // Contacts matter within 1.5 gaps. A pair's gap is at most the mean of what its bodies have. A static body takes the other's
 // edge, so that the moving one has to count for both.
 void find_nearness(std::span<physics::Surface> surfaces) {
@@ -53,15 +41,6 @@ void find_nearness(std::span<physics::Surface> surfaces) {
   for (physics::Surface& surface : surfaces)
     if (surface.inverse_mass != 0)
       surface.nearness = 1.5 * surface.edge * std::max(0.5 * surface.gap, std::sqrt(surface.gap * largest_static_gap));
-}
-
-physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
-  return {.normal = {ground.normal.x, ground.normal.y, ground.normal.z},
-          .offset = ground.offset,
-          .elasticity = ground.surface.elasticity.value_or(elasticity_of(description)),
-          .friction = ground.surface.friction.value_or(description.friction),
-          .gap = ground.surface.gap.value_or(description.gap),
-          .padding = 0};
 }
 
 // Returns [triangle][4], in leaf order.
@@ -376,6 +355,26 @@ class Impulse final : public Response {
 std::unique_ptr<Response> make_impulse(const ResponseSetting& setting) { return std::make_unique<Impulse>(setting); }
 
 }  // namespace
+
+physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
+  return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
+          .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
+          .elasticity = body.surface.elasticity.value_or(elasticity_of(description)),
+          .friction = body.surface.friction.value_or(description.friction),
+          .gap = body.surface.gap.value_or(description.gap),
+          .restitution = restitution_of(body, description).value_or(-1),
+          .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30),
+          .nearness = 0};
+}
+
+physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {
+  return {.normal = {ground.normal.x, ground.normal.y, ground.normal.z},
+          .offset = ground.offset,
+          .elasticity = ground.surface.elasticity.value_or(elasticity_of(description)),
+          .friction = ground.surface.friction.value_or(description.friction),
+          .gap = ground.surface.gap.value_or(description.gap),
+          .padding = 0};
+}
 
 ResponseRow impulse_row() {
   return {.name = "impulse",

@@ -65,6 +65,10 @@ FN double margin_of_rounding(double epsilon, double size, double far) {
 // Properties of a pair are geometric means.
 FN double mean_of_pair(double a, double b) { return sqrt(a * b); }
 
+// The distance that contacts keep [m].
+FN double gap_of_pair(IN(Surface) a, IN(Surface) b) { return mean_of_pair(a.gap, b.gap) * edge_of_pair(a, b); }
+FN double gap_above(IN(Ground) below, IN(Surface) a) { return mean_of_pair(a.gap, below.gap) * a.edge; }
+
 const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups did not run at once, though they should
 const uint cut_rounds = 8u;  // in which motions are cut short
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
