@@ -39,10 +39,10 @@ struct Summary {
     std::optional<double> max_drift;  // relative; empty with damping or after contacts
   } energy;
   struct {
-    std::uint64_t steps = 0;                                       // steps with a pair of touching triangles
-    std::uint64_t pairs_max = 0;                                   // most triangle pairs in one step
-    std::uint64_t reverted_vertices = 0;                           // sum over the run
-    std::uint64_t substeps = 0;                                    // parts that steps fell into, beyond one each
+    std::uint64_t steps = 0;              // steps with a contact, or parts of steps if they fall into such
+    std::uint64_t pairs_max = 0;          // most touching triangle pairs, or impulses, in one of them
+    std::uint64_t reverted_vertices = 0;  // sum over the run
+    std::uint64_t substeps = 0;           // parts that steps fell into, beyond one each
     double energy_given = 0, energy_taken = 0, friction_work = 0;  // [J]
   } contacts;
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite

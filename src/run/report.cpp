@@ -192,7 +192,8 @@ void show_end(const RunStatus& status) {
     fmt::print("besides stepping: {:.2f} s for measuring the state and {:.2f} s for frames{}\n", times.measuring.seconds(),
                times.writing.seconds(),
                !options.checkpoint.empty() ? fmt::format(" and {:.2f} s for checkpoints", times.saving.seconds()) : "");
-  fmt::print("contacts in {} steps, at most {} {} at once\n", report.contact_steps, report.contact_pairs_max,
+  fmt::print("contacts in {} {}, at most {} {} at once\n", report.contact_steps, report.substeps > 0 ? "parts of steps" : "steps",
+             report.contact_pairs_max,
              find_response(run.scene.collision.response).gives_impulses ? "impulses" : "triangle pairs");
   if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0)
     fmt::print("contacts took {:.4g} J, of which friction {:.4g} J, and gave {:.4g} J\n", contacts.energy_taken,

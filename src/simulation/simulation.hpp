@@ -48,8 +48,8 @@ struct StepReport {
   double time = 0;          // of the state [s]
   std::optional<AdaptiveReport> adaptive;
   std::optional<Breakdown> breakdown;
-  std::uint64_t contact_steps = 0;      // steps with a pair
-  std::uint64_t contact_pairs_max = 0;  // most triangle pairs in one step
+  std::uint64_t contact_steps = 0;      // steps with a contact, or parts of steps if they fall into such
+  std::uint64_t contact_pairs_max = 0;  // most touching triangle pairs, or impulses, in one of them
   std::uint64_t reverted_vertices = 0;
   std::uint64_t substeps = 0;    // parts that steps of a fixed length fell into, beyond one each
   std::uint64_t held_parts = 0;  // parts of steps in which no body moved, because contacts were too many or not proven apart

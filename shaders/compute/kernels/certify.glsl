@@ -37,7 +37,7 @@ bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut[cut_rou
 
 struct Case {
   uint vertex[6];
-  real part[6];     // of its way that a vertex goes so far
+  real part[6];       // of its way that a vertex goes so far
   real3 together[6];  // its way with its cluster, which it goes in any case [m]
   Motion motion;
 };
@@ -50,8 +50,8 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
     c.part[k] = real(uintBitsToFloat(cut_so_far(who[k], cut_round + 1u)));
-    dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin, together = dvec3(0);
-    if (cluster[body_count].bodies != 0u) together = common_way(uint(rest_position[who[k]].w), place);
+    dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
+    dvec3 together = common_way(uint(rest_position[who[k]].w), place);
     c.motion.start[k] = real3(from);
     c.motion.end[k] = real3(from + together + double(c.part[k]) * LOAD3(way, force_of(who[k])));
     c.together[k] = real3(together);

@@ -35,7 +35,8 @@ void first_kick(uint i) {
     if (adds_force != 0u) all_force += added_force[force_of(i) + k];
     double velocity = kicked(body[b], pose[b].gravity[k], all_force, dot(spring_force, spring_force),
                              motion[velocity_of(before) + k], part_of_step() * kick_time);
-    double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) + part_of_step() * drift_time * (velocity - motion[velocity_of(first) + k]);
+    double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) +
+                      part_of_step() * drift_time * (velocity - motion[velocity_of(first) + k]);
     place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
     motion[displacement_of(after) + k] = motion[displacement_of(before) + k] + part_of_step() * drift_time * velocity;
     motion[velocity_of(after) + k] = velocity;

@@ -12,8 +12,10 @@ PARAMETER(uint, body_count)
 
 Box box_of(uint b) {
   Box box;
-  box.lower = vec3(from_ordered_bits(body_box[b].lower[0]), from_ordered_bits(body_box[b].lower[1]), from_ordered_bits(body_box[b].lower[2]));
-  box.upper = vec3(from_ordered_bits(body_box[b].upper[0]), from_ordered_bits(body_box[b].upper[1]), from_ordered_bits(body_box[b].upper[2]));
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = from_ordered_bits(body_box[b].lower[k]);
+    box.upper[k] = from_ordered_bits(body_box[b].upper[k]);
+  }
   return box;
 }
 

@@ -71,7 +71,8 @@ dvec2 weigh_four(uint first, double a, double b, double c, double d) {
 dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
   dvec2 sums = dvec2(0);
   for (uint j = 0u; j < stage_index; j += 4u)
-    sums += weigh_four(row + first_earlier_weight + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u), earlier(i, k, j + 3u));
+    sums += weigh_four(row + first_earlier_weight + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u),
+                       earlier(i, k, j + 3u));
   return sums;
 }
 

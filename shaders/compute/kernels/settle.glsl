@@ -46,8 +46,9 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   dvec3 together = rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
   dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
-  world_position[after] = part == double(0) && together == dvec3(0) ? world_position[before]
-                                            : vec4(vec3(to_world(pose[b], rest + displacement)), 1);
+  world_position[after] = part == double(0) && together == dvec3(0)
+                              ? world_position[before]
+                              : vec4(vec3(to_world(pose[b], rest + displacement)), 1);
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
   cut[i] = floatBitsToUint(float(part));

@@ -32,9 +32,9 @@ bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return slot_of_force(stage_index); }
 
 // These read the tableau's two rows for this stage.
-double kick_time() { return part_of_step() * tableau[splitting_row_size * stage_index].x; }    // [s]
-double drift_time() { return part_of_step() * tableau[splitting_row_size * stage_index].y; }   // of the drift that follows, zero at the end [s]
-double elapsed() { return part_of_step() * tableau[splitting_row_size * stage_index + 1u].x; }  // all drifts of the step up to that one [s]
+double kick_time() { return part_of_step() * tableau[splitting_row_size * stage_index].x; }     // [s]
+double drift_time() { return part_of_step() * tableau[splitting_row_size * stage_index].y; }    // of the next drift, zero at the end [s]
+double elapsed() { return part_of_step() * tableau[splitting_row_size * stage_index + 1u].x; }  // all drifts of the step up to it [s]
 
 struct Pending {
   double rest;

@@ -1,6 +1,5 @@
 // The way in the step that a place in the world has in common with all of its body's cluster [m].
 dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
-  if (cluster[body_count].bodies == 0u) return dvec3(0);
   uint first = cluster[b].first;
   if (cluster[first].bodies == 0u) return dvec3(0);
   RigidMotion of_cluster = cluster[first].motion;
