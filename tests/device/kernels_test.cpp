@@ -2,7 +2,6 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <set>
 
@@ -16,6 +15,7 @@
 #include "support/collision_scene.hpp"
 #include "support/has.hpp"
 #include "support/own_rows.hpp"
+#include "support/struct_numbers.hpp"
 
 namespace pliant {
 namespace {
@@ -78,109 +78,6 @@ double largest_difference(const std::vector<T>& a, const std::vector<T>& b) {
     scale = std::max(scale, std::abs(static_cast<double>(b[i])));
   }
   return largest / scale;
-}
-
-std::vector<double> numbers_of(const physics::Pose& pose) {
-  std::vector<double> numbers(sizeof(physics::Pose) / sizeof(double));
-  std::memcpy(numbers.data(), &pose, sizeof(physics::Pose));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::FrameChange& change) {
-  std::vector<double> numbers(offsetof(physics::FrameChange, turned) / sizeof(double));
-  std::memcpy(numbers.data(), &change, numbers.size() * sizeof(double));
-  numbers.push_back(change.turned);
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::BoxBits& box) {
-  std::vector<double> numbers;
-  const bool is_empty = box.lower[0] > box.upper[0];
-  for (const auto& corner : {box.lower, box.upper})
-    for (int k = 0; k < 3; ++k) numbers.push_back(is_empty ? double(corner[k]) : physics::from_ordered_bits(corner[k]));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::Room& room) {
-  const auto to_others = static_cast<double>(std::bit_cast<float>(room.to_others));
-  std::vector<double> numbers{std::isinf(to_others) ? 1e30 : to_others};
-  for (const auto& push : {room.least_push, room.most_push})
-    for (int k = 0; k < 3; ++k) numbers.push_back(physics::from_ordered_bits(push[k]));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::Status& status) {
-  return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale)};
-}
-
-std::vector<double> numbers_of(const physics::Tally& tally) {
-  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes)};
-}
-
-std::vector<double> numbers_of(const physics::Moments& moments) {
-  std::vector<double> numbers(sizeof(physics::Moments) / sizeof(double));
-  std::memcpy(numbers.data(), &moments, sizeof(physics::Moments));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::PartSums& sums) {
-  std::vector<double> numbers = numbers_of(sums.moments);
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained});
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::RigidMotion& motion) {
-  std::vector<double> numbers(sizeof(physics::RigidMotion) / sizeof(double));
-  std::memcpy(numbers.data(), &motion, sizeof(physics::RigidMotion));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::Control& control) {
-  std::vector<double> numbers{control.time_step};
-  std::uint32_t words[(sizeof(physics::Control) - offsetof(physics::Control, step)) / 4];
-  std::memcpy(words, &control.step, sizeof(words));
-  numbers.insert(numbers.end(), std::begin(words), std::end(words));
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::Pace& pace) {
-  static_assert(sizeof(physics::Pace) == offsetof(physics::Pace, error) + 16 * sizeof(std::uint32_t));  // all of them are below
-  std::vector<double> numbers(offsetof(physics::Pace, error) / sizeof(double));
-  std::memcpy(numbers.data(), &pace, numbers.size() * sizeof(double));
-  for (const std::uint32_t error : {pace.error, pace.lowest_error}) numbers.push_back(std::bit_cast<float>(error));
-  for (const std::uint32_t side : {pace.least_x, pace.least_y, pace.least_z, pace.most_x, pace.most_y, pace.most_z})
-    numbers.push_back(side);
-  for (const std::uint32_t count : {pace.estimate_order, pace.verdict, pace.accepted, pace.rejected, pace.rejected_in_contact,
-                                    pace.rejected_before, pace.failure, pace.is_too_slow})
-    numbers.push_back(count);
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::ContactList& list) {
-  return {list.longer,
-          double(list.triangle_pair_count),
-          double(list.contact_count),
-          double(list.uncertified),
-          double(list.changed_rounds),
-          double(std::bit_cast<float>(list.fastest))};
-}
-
-std::vector<double> numbers_of(const physics::Debt& debt) { return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2]}; }
-
-// Its motion means nothing if it has no bodies.
-std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_met)};
-  if (cluster.bodies == 0) return numbers;
-  const std::vector<double> motion = numbers_of(cluster.motion);
-  numbers.insert(numbers.end(), motion.begin(), motion.end());
-  numbers.insert(numbers.end(), {cluster.mass, cluster.kinetic, cluster.due});
-  return numbers;
-}
-
-std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, impact.kept}; }
-
-std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.last, parts.simulated, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 std::multiset<std::pair<std::uint32_t, std::uint32_t>> as_set(const std::vector<glm::uvec2>& pairs, std::size_t count) {

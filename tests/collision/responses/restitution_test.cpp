@@ -102,18 +102,8 @@ TEST_CASE("a ball leaves a ground, and a static body, with what its restitution 
 
 TEST_CASE("impacts with restitution give the same bits on any number of threads, and after saving amid one") {
   const ModelAndState start = spheres_in_flight(0.2, total_stiffness, 0.5, 0.3);
-  const auto simulation_on = [&](Device& device) {
-    return std::make_unique<Simulation>(device, start.model, start.state, plan_of(Method{"verlet", 0.3 / omega}), by_impulses);
-  };
-  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
-  const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
-  whole->advance(20);
-  REQUIRE(whole->report().contact_steps > 5);
-  resumed->restore(whole->save());
-  for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(40);
-  shared_out->advance(60);
-  CHECK(shared_out->state().motion == whole->state().motion);
-  CHECK(resumed->state().motion == whole->state().motion);
+  const StepReport saved = check_same_bits(start, {"verlet", 0.3 / omega}, by_impulses, 20, 60);
+  CHECK(saved.contact_steps > 5);
 }
 
 }  // namespace
