@@ -16,25 +16,24 @@ PARAMETER(uint, body_count)
 // The largest that a number of the first box can be above one of the second.
 double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
 
-// The length of a vector of which each component is the larger of two numbers, or 0.
-double size_of_larger(dvec3 a, dvec3 b) { return length(max(max(a, b), dvec3(0))); }
-
 dvec3 all_above(IN(BoxBits) a, IN(BoxBits) b) {
   return dvec3(above(a.upper[0], b.lower[0]), above(a.upper[1], b.lower[1]), above(a.upper[2], b.lower[2]));
 }
 
 // How fast vertices of the two can move against each other, at most [m/s].
 double approach(uint a, uint b) {
-  return size_of_larger(all_above(body_motion[a], body_motion[b]), all_above(body_motion[b], body_motion[a]));
+  return length(max(max(all_above(body_motion[a], body_motion[b]), all_above(body_motion[b], body_motion[a])), dvec3(0)));
 }
 
-double distance_of_boxes(uint a, uint b) {
-  return size_of_larger(-all_above(body_box[a], body_box[b]), -all_above(body_box[b], body_box[a]));
+// The way from one body's box to the other's, along each axis, or 0 where they overlap.
+dvec3 way_between(uint a, uint b) {
+  return max(max(-all_above(body_box[a], body_box[b]), -all_above(body_box[b], body_box[a])), dvec3(0));
 }
 
-// Shares the distance that is left of two bodies after the step. Rounding takes less than what is held back.
-void keep_apart(uint a, uint b, double distance) {
-  uint share_of_it = floatBitsToUint(max(float(distance) * 0.45f, 0.0f));
+// Shares what is left of two bodies' distance on some axis after the step, so that boxes which grow by it on all sides stay apart there.
+// Rounding takes less than what is held back.
+void keep_apart(uint a, uint b, double on_an_axis) {
+  uint share_of_it = floatBitsToUint(max(float(on_an_axis) * 0.45f, 0.0f));
   LOWER_TO(room[a].to_others, share_of_it)
   LOWER_TO(room[b].to_others, share_of_it)
 }
@@ -63,7 +62,8 @@ void limit_step(uint item) {
   if (a == b) {
     if (pressed[a] != 0u && step_parts[0].parts - pressed[a] < pressed_for) longest = surface[a].longest_pressed;
   } else {
-    double speed = approach(a, b), distance = distance_of_boxes(a, b);
+    dvec3 between = way_between(a, b);
+    double speed = approach(a, b), distance = length(between);
     double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
     if (speed * longest > most) longest = most / speed;
     if (speed * longest > distance) {
@@ -71,7 +71,7 @@ void limit_step(uint item) {
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
-    keep_apart(a, b, distance - speed * longest);
+    keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }
   if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
 }
