@@ -136,7 +136,8 @@ std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts_of(Bench& b
   std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts;
   for (std::uint32_t c = 0; c < count; ++c) {
     std::vector<double>& numbers = contacts[{vertices[c].x, vertices[c].y, vertices[c].z, vertices[c].w}];
-    numbers.assign(rows.begin() + 16 * c, rows.begin() + 16 * c + 12);
+    const auto first = rows.begin() + 4 * physics::contact_rows * c;
+    numbers.assign(first, first + 12);
     numbers.insert(numbers.end(), impulses.begin() + 4 * c, impulses.begin() + 4 * (c + 1));
   }
   return contacts;

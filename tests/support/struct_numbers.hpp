@@ -93,7 +93,7 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(list.triangle_pair_count),
           double(list.contact_count),
           double(list.uncertified),
-          double(list.changed_rounds),
+          double(list.rounds_that_cut),
           double(std::bit_cast<float>(list.fastest))};
 }
 

@@ -1,5 +1,5 @@
 // A kernel in rounds. One thread proves that two triangles stay apart while their corners move, or cuts these motions short. A round sees
-// the cuts of the rounds before. From the fifth on, motions that can't be proven are not made at all.
+// the cuts of the rounds before.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -22,18 +22,13 @@ PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/boxes_in_motion.glsl"
 #include "parts/common_way.glsl"
+#include "parts/cut_before.glsl"
 
 uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
 uint rounds_at_most() { return cut_rounds; }
-bool goes_on(uint cut_round) { return (contact_list[0].changed_rounds >> cut_round & 1u) != 0u; }
+bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
 
-uint cut_so_far(uint i, uint rounds) {
-  uint least = cut[i];
-  for (uint k = 1u; k < rounds; ++k) least = min(least, cut[k * vertex_count + i]);
-  return least;
-}
-
-bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut[cut_round * vertex_count + i] < cut_so_far(i, cut_round); }
+bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut_before(i, cut_round) != cut_before(i, cut_round - 1u); }
 
 struct Case {
   uint vertex[6];
@@ -49,7 +44,7 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   double far = abs(origin.x) + abs(origin.y) + abs(origin.z) + double(4) * largest_body;
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
-    c.part[k] = real(uintBitsToFloat(cut_so_far(who[k], cut_round + 1u)));
+    c.part[k] = real(uintBitsToFloat(cut_before(who[k], cut_round)));
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
     dvec3 together = common_way(uint(rest_position[who[k]].w), place);
     c.motion.start[k] = real3(from);
@@ -77,13 +72,13 @@ bool stop_at(IN(Case) c, uint first, IN(real3) axis, real limit, uint cut_round)
     if (to >= limit) continue;
     float part = float(max(c.part[k] * ((from - limit) / (from - to)), real(0))) * 0.999999f;
     stops = true;
-    atomicMin(cut[(cut_round + 1u) * vertex_count + c.vertex[k]], floatBitsToUint(part));
+    atomicMin(cut[cut_in(cut_round + 1u, vertex_count, c.vertex[k])], floatBitsToUint(part));
   }
   return stops;
 }
 
 void stop_all(IN(Case) c, uint cut_round) {
-  for (uint k = 0u; k < 6u; ++k) atomicMin(cut[(cut_round + 1u) * vertex_count + c.vertex[k]], 0u);
+  for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], cut_round);
 }
 
 bool stands(IN(Case) c) {
@@ -93,9 +88,9 @@ bool stands(IN(Case) c) {
 }
 
 void cut_short(IN(Case) c, uint cut_round) {
-  atomicOr(contact_list[0].changed_rounds, 1u << cut_round);
+  atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
   Closest at = closest_points(c.motion.start);
-  if (cut_round >= 4u || !(at.distance > real(32) * c.motion.margin)) {
+  if (cut_round >= plane_rounds || !(at.distance > real(32) * c.motion.margin)) {
     stop_all(c, cut_round);
     return;
   }
@@ -126,9 +121,7 @@ void certify(uint item, uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k], cut_round);
   if (!changed) return;
   Case c = case_of(who, cut_round);
-  if (stands(c) || stays_apart_at_a_glance(c.motion)) return;
-  Closest at = closest_points(c.motion.start);
-  if (stays_apart_on(at.away, c.motion) || stays_apart_at_last(c.motion)) return;
+  if (stands(c) || stays_apart(c.motion)) return;
   if (cut_round + 1u == cut_rounds)
     atomicAdd(contact_list[0].uncertified, 1u);
   else

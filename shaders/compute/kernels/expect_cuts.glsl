@@ -89,5 +89,6 @@ void expect_cuts(uint i) {
     if (is_movable) part = min(part, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
   bound_way(i, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
-  for (uint k = 1u; k <= cut_rounds; ++k) cut[k * vertex_count + i] = floatBitsToUint(1.0f);
+  for (uint row = 1u; row <= plane_rounds; ++row) cut[cut_in(row, vertex_count, i)] = floatBitsToUint(1.0f);
+  cut[stop_of(vertex_count, i)] = cut_rounds;
 }

@@ -32,7 +32,7 @@ void empty_lists() {
   contact_list[0].triangle_pair_count = 0u;
   contact_list[0].contact_count = 0u;
   contact_list[0].uncertified = 0u;
-  contact_list[0].changed_rounds = 0u;
+  contact_list[0].rounds_that_cut = 0u;
   contact_list[0].arrivals &= waited_in_vain;
   contact_list[0].presses = 0u;
   contact_list[0].has_cuts = 0u;

@@ -29,16 +29,13 @@ PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
 #include "parts/common_way.glsl"
+#include "parts/cut_before.glsl"
 #include "parts/place.glsl"
 
 // If lists were too short, or proofs are missing, bodies keep their place. Those that are near none could move, but this is rare.
 bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
-double part_left(uint i) {
-  uint least = cut[i];
-  for (uint k = 1u; k <= cut_rounds; ++k) least = min(least, cut[k * vertex_count + i]);
-  return holds_all() ? double(0) : double(uintBitsToFloat(least));
-}
+double part_left(uint i) { return holds_all() ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
 
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);

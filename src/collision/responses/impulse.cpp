@@ -22,6 +22,7 @@ namespace pliant {
 namespace {
 
 constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u << physics::kept_index_bits;
+constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
 constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
@@ -128,7 +129,7 @@ class Impulse final : public Response {
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
-    contacts_ = &arrays.make_reals("contact", std::size_t{16} * contact_capacity);
+    contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity);
     impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
     arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
     if (keeps_impulses()) {
@@ -139,7 +140,7 @@ class Impulse final : public Response {
     arrays.make<std::uint32_t>("contact_weight", vertices);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
     arrays.make<double>("way", 3 * vertices);
-    arrays.make<std::uint32_t>("cut", (physics::cut_rounds + 1) * vertices);
+    arrays.make<std::uint32_t>("cut", physics::cut_rows * vertices);
     arrays.make<std::uint32_t>("last_cut", vertices);
     make_debts(setting.model);
     if (std::ranges::any_of(surfaces, [](const physics::Surface& surface) { return surface.restitution >= 0; })) make_impacts();
@@ -295,10 +296,11 @@ class Impulse final : public Response {
     const std::size_t count = bodies_.arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
     if (count == 0) return {};
     const std::vector<glm::uvec4> vertices = bodies_.arrays.get<glm::uvec4>("contact_vertex").download(0, count);
-    const std::vector<double> rows = download_reals(*contacts_, 16 * count), impulses = download_reals(*impulses_, 4 * count);
+    const std::vector<double> rows = download_reals(*contacts_, contact_numbers * count),
+                              impulses = download_reals(*impulses_, 4 * count);
     std::vector<Held> contacts;
     for (std::size_t c = 0; c < count; ++c) {
-      const double *const row = &rows[16 * c], *const impulse = &impulses[4 * c];
+      const double *const row = &rows[contact_numbers * c], *const impulse = &impulses[4 * c];
       if (impulse[0] > 0)
         contacts.push_back({.vertex = vertices[c],
                             .normal = {row[0], row[1], row[2]},

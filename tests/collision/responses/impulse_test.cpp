@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "bench/contact/meeting.hpp"
 #include "model/mean_edge.hpp"
 #include "simulation/start_check.hpp"
 #include "support/collision_scene.hpp"
@@ -134,6 +135,20 @@ TEST_CASE("motions are cut short where a kick could not have foreseen them, and 
   CHECK(seen.touching == 0);
   CHECK(seen.inside == 0);
   CHECK(seen.report.reverted_vertices > 0);
+}
+
+TEST_CASE("spheres that dent each other by edges part again, and hardly a motion is cut short") {
+  const bench::Partner sphere{.mesh = generate_mesh("icosphere:3")};
+  const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 1.3});
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"verlet", meeting.time_step}),
+                        by_impulses);
+  for (int part = 0; part < 900; ++part) simulation.advance_part();
+  const StepReport report = simulation.report();
+  CHECK(report.contact_steps > 300);
+  CHECK(report.held_parts == 0);
+  CHECK(report.reverted_vertices < 50);  // of 550,000 motions
+  CHECK(bench::ApartOracle(meeting.start.model).have_parted(simulation.state().world_positions(meeting.start.model)));
 }
 
 TEST_CASE("contact by impulses gives the same bits on any number of threads, and the same motion on a GPU", "[gl]") {

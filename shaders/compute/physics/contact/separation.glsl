@@ -31,37 +31,84 @@ FN bool stays_above(IN(real3) axis, IN(Motion) m) {
   return shadow_gap(axis, m.start) > least && shadow_gap(axis, m.end) > least;
 }
 
-FN bool stays_apart_on(IN(real3) axis, IN(Motion) m) { return stays_above(axis, m) || stays_above(-axis, m); }
-
-FN bool stays_apart_on_faces(IN(Motion) m, IN_ARRAY(real3, p, 6)) {
-  return stays_apart_on(cross(p[1] - p[0], p[2] - p[1]), m) || stays_apart_on(cross(p[4] - p[3], p[5] - p[4]), m);
+// Returns the difference of two corners, one of each triangle, that goes least along the axis.
+FN real3 least_difference(IN(real3) axis, IN_ARRAY(real3, p, 6)) {
+  real3 first = p[0], second = p[3];
+  for (int k = 1; k < 3; ++k) {
+    if (dot(axis, p[k]) < dot(axis, first)) first = p[k];
+    if (dot(axis, p[3 + k]) > dot(axis, second)) second = p[3 + k];
+  }
+  return first - second;
 }
 
-FN bool stays_apart_on_edges(IN(Motion) m, IN_ARRAY(real3, p, 6)) {
-  for (int j = 0; j < 3; ++j)
-    for (int k = 0; k < 3; ++k) {
-      int after_j = j == 2 ? 0 : j + 1, after_k = k == 2 ? 0 : k + 1;
-      if (stays_apart_on(cross(p[after_j] - p[j], p[3 + after_k] - p[3 + k]), m)) return true;
-    }
-  return false;
+// A corner, a line, a triangle or a tetrahedron.
+struct Simplex {
+  real3 corner[4];
+  int corners;
+};
+
+// These return a simplex's point that is closest to the origin, and leave the corners that it lies between.
+FN real3 closest_on_line(INOUT(Simplex) s) {
+  real3 line = s.corner[1] - s.corner[0];
+  real along = -dot(s.corner[0], line), square = dot(line, line);
+  if (along > real(0) && along < square) return s.corner[0] + (along / square) * line;
+  if (along >= square) s.corner[0] = s.corner[1];
+  s.corners = 1;
+  return s.corner[0];
 }
 
-// Tries the cheapest axes: those of coordinates, the line between the triangles' centres, and their normals.
-FN bool stays_apart_at_a_glance(IN(Motion) m) {
-  if (stays_apart_on(((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]), m)) return true;
-  if (stays_apart_on(real3(1, 0, 0), m) || stays_apart_on(real3(0, 1, 0), m) || stays_apart_on(real3(0, 0, 1), m)) return true;
-  return stays_apart_on_faces(m, m.start);
+FN real3 closest_on_face(INOUT(Simplex) s) {
+  real3 weight = closest_on_triangle(real3(0), s.corner[0], s.corner[1], s.corner[2]);
+  real3 closest = weight.x * s.corner[0] + weight.y * s.corner[1] + weight.z * s.corner[2];
+  s.corners = 0;
+  for (int k = 0; k < 3; ++k)
+    if (weight[k] > real(0)) s.corner[s.corners++] = s.corner[k];
+  return closest;
 }
 
-// Tries the axes on which touching triangles part, and those across the relative motion.
-FN bool stays_apart_at_last(IN(Motion) m) {
-  if (stays_apart_on_edges(m, m.start) || stays_apart_on_faces(m, m.end) || stays_apart_on_edges(m, m.end)) return true;
-  real3 course = ((m.end[0] - m.start[0]) + (m.end[1] - m.start[1]) + (m.end[2] - m.start[2])) -
-                 ((m.end[3] - m.start[3]) + (m.end[4] - m.start[4]) + (m.end[5] - m.start[5]));
+// It lies on one of the three faces at the latest corner, unless the origin is inside.
+FN real3 closest_on_tetrahedron(INOUT(Simplex) s) {
+  Simplex best = s;
+  real3 closest = s.corner[3];
   for (int k = 0; k < 3; ++k) {
-    int after = k == 2 ? 0 : k + 1;
-    if (stays_apart_on(cross(course, m.start[after] - m.start[k]), m)) return true;
-    if (stays_apart_on(cross(course, m.start[3 + after] - m.start[3 + k]), m)) return true;
+    Simplex face = s;
+    face.corner[0] = s.corner[3];
+    face.corner[1] = s.corner[k];
+    face.corner[2] = s.corner[k == 2 ? 0 : k + 1];
+    real3 on_face = closest_on_face(face);
+    if (k > 0 && dot(on_face, on_face) >= dot(closest, closest)) continue;
+    best = face;
+    closest = on_face;
+  }
+  s = best;
+  return closest;
+}
+
+FN real3 closest_to_origin(INOUT(Simplex) s) {
+  if (s.corners == 1) return s.corner[0];
+  if (s.corners == 2) return closest_on_line(s);
+  return s.corners == 3 ? closest_on_face(s) : closest_on_tetrahedron(s);
+}
+
+// Across a face the normal is a better axis than the closest point, which is rounded by the size of the corners.
+FN real3 axis_across(IN(Simplex) s, IN(real3) closest) {
+  if (s.corners != 3) return closest;
+  real3 normal = cross(s.corner[1] - s.corner[0], s.corner[2] - s.corner[0]);
+  return dot(normal, closest) < real(0) ? -normal : normal;
+}
+
+// Looks for an axis. If there is one, the closest point to the origin in the hull of all differences of corners, at both ends, is one, too.
+// Source: E. Gilbert, D. Johnson and S. Keerthi, A fast procedure for computing the distance between complex objects (1988).
+FN bool stays_apart(IN(Motion) m) {
+  real3 axis = ((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]);
+  Simplex s;
+  s.corners = 0;
+  for (int k = 0; k < 16; ++k) {
+    if (stays_above(axis, m)) return true;
+    real3 at_start = least_difference(axis, m.start), at_end = least_difference(axis, m.end);
+    s.corner[s.corners++] = dot(axis, at_end) < dot(axis, at_start) ? at_end : at_start;
+    real3 closest = closest_to_origin(s);
+    axis = axis_across(s, closest);
   }
   return false;
 }

@@ -38,7 +38,7 @@ struct ContactList {
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them, and with grounds
   uint uncertified;          // pairs of triangles that were not proven to stay apart
-  uint changed_rounds;       // of certificates, as bits: motions were cut shorter in them
+  uint rounds_that_cut;      // of proofs, up to the last one that cut motions short
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
   uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
@@ -70,11 +70,20 @@ FN double gap_of_pair(IN(Surface) a, IN(Surface) b) { return mean_of_pair(a.gap,
 FN double gap_above(IN(Ground) below, IN(Surface) a) { return mean_of_pair(a.gap, below.gap) * a.edge; }
 
 const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups did not run at once, though they should
-const uint cut_rounds = 8u;  // in which motions are cut short
+// Proofs go in rounds. The first ones cut motions short at planes, the others stop vertices.
+const uint plane_rounds = 4u;
+const uint cut_rounds = 32u;
+
+// `cut` has a row of parts from before the first round, and one from each that cuts at planes. The last row has the round in which a vertex
+// was stopped, or cut_rounds.
+FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
+FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, vertex_count, i); }
+const uint cut_rows = plane_rounds + 2u;
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
 
+const uint contact_rows = 5u;  // of four numbers in `contact`
 const uint kick_rounds = 17u;  // the first one adds what contacts at rest had in the last step
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
