@@ -114,9 +114,17 @@ void push(uint c, uint kick_round) {
   if (kick_round == 0u) contact_row[contact_rows * c + 3u] = resistance_of(who, weight, of_quantum);
   real4 resistance = contact_row[contact_rows * c + 3u];
   if (resistance.z == real(0)) return;  // between immovable bodies
-  real4 impulse = impulse_row[c];
-  if (kick_round > 0u)
-    impulse = next_impulse(impulse, normal_row, goal_row, relative_velocity(who, weight, resistance, kick_round), resistance.z);
+  real4 impulse = impulse_row[c], ahead = impulse;
+  if (kick_round > 0u) {
+    real4 had = contact_row[contact_rows * c + 4u], before = impulse;
+    impulse = next_impulse(had, normal_row, goal_row, relative_velocity(who, weight, resistance, kick_round), resistance.z);
+    bool turns = dot(had - impulse, impulse - before) > real(0);  // the sums went too far ahead
+    resistance.w = turns ? real(0) : resistance.w + real(1);
+    ahead = impulse;
+    if (kick_round + 1u < kick_rounds) ahead += momentum_after(resistance.w) * (impulse - before);
+    contact_row[contact_rows * c + 3u] = resistance;
+  }
+  contact_row[contact_rows * c + 4u] = ahead;
   impulse_row[c] = impulse;
   if (kick_round + 1u == kick_rounds && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_impulse(buffer_of(kick_round + 2u), who.x);
@@ -125,9 +133,9 @@ void push(uint c, uint kick_round) {
     clear_impulse(buffer_of(kick_round + 2u), who.z);
     clear_impulse(buffer_of(kick_round + 2u), who.w);
   }
-  if (impulse.x == real(0)) return;
+  if (ahead == real4(0)) return;
   if (kick_round <= 1u) ATOMIC_STORE(contact_list[0].presses, 1u);
-  dvec3 total = (dvec3(real3(impulse.x * real3(normal_row))) + dvec3(real3(impulse.y, impulse.z, impulse.w))) * (double(1) / of_quantum);
+  dvec3 total = (dvec3(real3(ahead.x * real3(normal_row))) + dvec3(real3(ahead.y, ahead.z, ahead.w))) * (double(1) / of_quantum);
   if (who.y == no_vertex)
     push_off(who.x, nearest(total), buffer_of(kick_round + 1u));
   else

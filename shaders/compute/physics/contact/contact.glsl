@@ -6,12 +6,13 @@
 #include "surface.glsl"
 REAL_BEGIN
 
-const uint contact_rows = 4u;  // of four numbers in `contact`
+// Rows in `contact`:
 // row 0: the normal, from the second body to the first, and the least velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
 // row 2: the goal of the velocity across the normal [m/s], and the friction
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
-//        mass that resists the contact [kg]
+//        mass that resists the contact [kg]. Its last number counts the rounds that went on the same way
+// row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 
 // Lengths of a pair of bodies [m], and the time step [s].
 struct Approach {
@@ -68,6 +69,10 @@ FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3)
   next.w = across.z;
   return next;
 }
+
+// Returns how far sums go ahead of a contact's impulse, in changes of it by the latest round. `rounds` have gone the same way.
+// Source: Y. Nesterov, A method of solving a convex programming problem with convergence rate O(1/k^2) (1983).
+FN real momentum_after(real rounds) { return max(rounds - real(1), real(0)) / (rounds + real(2)); }
 
 REAL_END
 #endif
