@@ -185,30 +185,34 @@ void consider(IN(Pair) p, IN(Feature) f) {
   if (distance > real(0) && distance <= real(1.5) * p.gap) add_contact(p, f, away / distance);
 }
 
-// Whether points that are not near yet will be. `part` of the step is then over. Weights and normal are taken there.
-bool is_foreseen(IN(Pair) p, IN(Feature) f, OUT(real) part) {
+// Returns the part of the step that is over when points have come near each other: 0 if they are near now, and below 0 if they will not be.
+real comes_near_after(IN(Pair) p, IN(Feature) f) {
   real3 away = weighed(f, p.place);
   real distance = length(away);
-  part = real(0);
-  if (!(distance > real(1.5) * p.gap)) return false;
+  if (!(distance > real(1.5) * p.gap)) return real(0);
   real closing = -dot(away, weighed(f, p.way)) / distance;
-  if (distance - closing >= real(1.5) * p.gap) return false;
-  part = min((distance - p.gap) / closing, real(1));
-  return true;
+  if (distance - closing >= real(1.5) * p.gap) return real(-1);
+  return min((distance - p.gap) / closing, real(1));
 }
 
+// A normal that has turned too far says that the points would pass each other.
 void consider_later(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, later, 6)) {
-  real3 away = weighed(f, later);
+  real3 away = weighed(f, later), now = weighed(f, p.place);
   real distance = length(away);
-  if (distance > real(0) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
+  if (dot(away, now) > real(0.8) * distance * length(now) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
 }
 
+// What is near now, but not the nearest, may be so half a step later: surfaces slide.
 void meet_vertex(IN(Pair) p, uint corner, real side) {
   Feature f = vertex_and_triangle(corner, side, p.place);
-  real part;
-  if (!is_foreseen(p, f, part)) {
-    if (!is_nearer_to_others(p, f, p.place, real(0))) consider(p, f);
-    return;
+  real part = comes_near_after(p, f);
+  if (part < real(0)) return;
+  if (part == real(0)) {
+    if (!is_nearer_to_others(p, f, p.place, real(0))) {
+      consider(p, f);
+      return;
+    }
+    part = real(0.5);
   }
   real3 later[6];
   for (uint k = 0u; k < 6u; ++k) later[k] = p.place[k] + part * p.way[k];
@@ -231,10 +235,14 @@ bool is_nearer_to_faces(IN(Pair) p, uint j, uint k, IN(Feature) f, IN_ARRAY(real
 void meet_edges(IN(Pair) p, uint j, uint k) {
   bool crosses;
   Feature f = two_edges(j, k, p.place, crosses);
-  real part;
-  if (!is_foreseen(p, f, part)) {
-    if (crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) consider(p, f);
-    return;
+  real part = comes_near_after(p, f);
+  if (part < real(0)) return;
+  if (part == real(0)) {
+    if (crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) {
+      consider(p, f);
+      return;
+    }
+    part = real(0.5);
   }
   real3 later[6];
   for (uint n = 0u; n < 6u; ++n) later[n] = p.place[n] + part * p.way[n];

@@ -35,11 +35,21 @@ PARAMETER(double, heaviest_vertex)
 #include "parts/impulse_sums.glsl"
 
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
-uint rounds_at_most() { return kick_rounds + 1u; }
+uint rounds_at_most() { return most_kick_rounds + 1u; }
+
+// The last round follows one in which all contacts had settled. It notes no others, so that all threads agree on which it is.
+bool is_last(uint kick_round) {
+  return kick_round + 1u >= fewest_kick_rounds &&
+         (ATOMIC_LOAD(contact_list[0].unsettled_round) + 2u <= kick_round || kick_round + 1u == most_kick_rounds);
+}
+bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1u); }
+
 // If no contact presses in the first two rounds, none does in the others.
-bool goes_on(uint kick_round) { return kick_round != 1u || contact_list[0].presses != 0u; }
+bool goes_on(uint kick_round) { return kick_round == 1u ? contact_list[0].presses != 0u : !is_kick(kick_round); }
 
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
+
+double gap_of(uint i, uint j) { return gap_of_pair(surface[uint(rest_position[i].w)], surface[uint(rest_position[j].w)]); }
 
 // Returns row 3. Every vertex shares its mass among its contacts.
 real4 resistance_of(uvec4 who, real4 weight, double of_quantum) {
@@ -51,7 +61,9 @@ real4 resistance_of(uvec4 who, real4 weight, double of_quantum) {
     if (weight[k] < real(0)) second = of_quantum * inverse_mass;
     sum += double(abs(weight[k])) * double(contact_weight[who[k]]) * double(weight_unit()) * inverse_mass;
   }
-  return real4(real(first), real(second), sum > double(0) ? real(double(1) / sum) : real(0), real(0));
+  if (sum == double(0)) return real4(real(first), real(second), 0, 0);
+  double gap = who.y == no_vertex ? gap_of(who.x, who.x) : gap_of(who.x, who.w);
+  return real4(real(first), real(second), real(double(1) / sum), real(settled_part() * gap / (control[0].time_step * sum)));
 }
 
 // With the impulses of the rounds so far [m/s]. `of_quantum` is what a quantum changes it by.
@@ -115,18 +127,18 @@ void push(uint c, uint kick_round) {
   real4 resistance = contact_row[contact_rows * c + 3u];
   if (resistance.z == real(0)) return;  // between immovable bodies
   real4 impulse = impulse_row[c], ahead = impulse;
+  bool ends = is_last(kick_round);
   if (kick_round > 0u) {
     real4 had = contact_row[contact_rows * c + 4u], before = impulse;
     impulse = next_impulse(had, normal_row, goal_row, relative_velocity(who, weight, resistance, kick_round), resistance.z);
     bool turns = dot(had - impulse, impulse - before) > real(0);  // the sums went too far ahead
-    resistance.w = turns ? real(0) : resistance.w + real(1);
     ahead = impulse;
-    if (kick_round + 1u < kick_rounds) ahead += momentum_after(resistance.w) * (impulse - before);
-    contact_row[contact_rows * c + 3u] = resistance;
+    if (!ends && !turns) ahead += momentum_after(kick_round) * (impulse - before);
+    if (!ends && length(impulse - had) > resistance.w) ATOMIC_STORE(contact_list[0].unsettled_round, kick_round);
   }
   contact_row[contact_rows * c + 4u] = ahead;
   impulse_row[c] = impulse;
-  if (kick_round + 1u == kick_rounds && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
+  if (ends && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_impulse(buffer_of(kick_round + 2u), who.x);
   if (who.y != no_vertex) {
     clear_impulse(buffer_of(kick_round + 2u), who.y);
@@ -142,9 +154,9 @@ void push(uint c, uint kick_round) {
     push_apart(who, weight, total, buffer_of(kick_round + 1u));
 }
 
-void kick(uint i) {
+void kick(uint i, uint kick_round) {
   if (i == no_vertex || atomicExchange(contact_weight[i], 0u) == 0u) return;  // another contact has kicked it
-  dvec3 quanta = impulse_on(buffer_of(kick_rounds), i);
+  dvec3 quanta = impulse_on(buffer_of(kick_round), i);
   uint b = uint(rest_position[i].w);
   if (quanta == dvec3(0) || surface[b].inverse_mass == double(0)) return;
   uint at = velocity_of(in_half(from_half, vertex_count, i));
@@ -157,16 +169,16 @@ void kick(uint i) {
 }
 
 // The mean of the vertex's velocities before and after the kick [m/s].
-dvec3 mean_velocity_of(uint i) {
-  return LOAD3(start, start_velocity_of(i)) + (double(0.5) * inverse_mass_of(i) * quantum()) * impulse_on(buffer_of(kick_rounds), i);
+dvec3 mean_velocity_of(uint i, uint kick_round) {
+  return LOAD3(start, start_velocity_of(i)) + (double(0.5) * inverse_mass_of(i) * quantum()) * impulse_on(buffer_of(kick_round), i);
 }
 
 // The same of the contact's points against each other.
-dvec3 mean_velocity_at(uvec4 who, real4 weight) {
-  dvec3 first = mean_velocity_of(who.x);
+dvec3 mean_velocity_at(uvec4 who, real4 weight, uint kick_round) {
+  dvec3 first = mean_velocity_of(who.x, kick_round);
   if (who.y == no_vertex) return first;  // against a ground
-  return double(weight.y) * (mean_velocity_of(who.y) - first) + double(weight.z) * (mean_velocity_of(who.z) - first) +
-         double(weight.w) * (mean_velocity_of(who.w) - first);
+  return double(weight.y) * (mean_velocity_of(who.y, kick_round) - first) + double(weight.z) * (mean_velocity_of(who.z, kick_round) - first) +
+         double(weight.w) * (mean_velocity_of(who.w, kick_round) - first);
 }
 
 void add_energy(uint k, double energy) {
@@ -175,10 +187,10 @@ void add_energy(uint k, double energy) {
 }
 
 // An impulse gives as much energy as it would along the mean of the velocities before and after.
-void add_work(uint c) {
+void add_work(uint c, uint kick_round) {
   real4 impulse = impulse_row[c], normal_row = contact_row[contact_rows * c];
   if (!(impulse.x > real(0))) return;
-  dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u]);
+  dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u], kick_round);
   double along = double(impulse.x) * dot(dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z)), mean);
   double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
   add_energy(along + across > double(0) ? energy_given : energy_taken, abs(along + across));
@@ -186,10 +198,10 @@ void add_work(uint c) {
 }
 
 void solve_contacts(uint c, uint kick_round) {
-  if (kick_round < kick_rounds) {
+  if (!is_kick(kick_round)) {
     push(c, kick_round);
     return;
   }
-  add_work(c);
-  for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k]);
+  add_work(c, kick_round);
+  for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k], kick_round);
 }

@@ -77,7 +77,8 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
     CAPTURE(along);
     const ModelAndState start = ball_in_a_pocket({0, along, 0.3 * along});
     const auto device = make_cpu_device(1, 32);
-    Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}), {.response = {"impulse"}});
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
+                          {.response = {"impulse"}, .gap = 0.002});  // with the usual gap nothing is cut
     const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 0.9);
     const double without_flight = 23.7;  // [J], kinetic energy at the start with none
     CHECK(seen.report.reverted_vertices > 1000);

@@ -11,7 +11,7 @@ REAL_BEGIN
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
 // row 2: the goal of the velocity across the normal [m/s], and the friction
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
-//        mass that resists the contact [kg]. Its last number counts the rounds that went on the same way
+//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns]
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 
 // Lengths of a pair of bodies [m], and the time step [s].
@@ -70,9 +70,9 @@ FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3)
   return next;
 }
 
-// Returns how far sums go ahead of a contact's impulse, in changes of it by the latest round. `rounds` have gone the same way.
+// Returns how far sums go ahead of a contact's impulse after a round from 1 on, in changes of it by that round.
 // Source: Y. Nesterov, A method of solving a convex programming problem with convergence rate O(1/k^2) (1983).
-FN real momentum_after(real rounds) { return max(rounds - real(1), real(0)) / (rounds + real(2)); }
+FN real momentum_after(uint kick_round) { return real(kick_round - 1u) / real(kick_round + 2u); }
 
 REAL_END
 #endif
