@@ -47,7 +47,8 @@ double reach_beyond(uint b) {
 
 // How others may change its velocity, at least or at most along each axis [m/s].
 dvec3 least_push(uint b) {
-  return dvec3(from_ordered_bits(room[b].least_push[0]), from_ordered_bits(room[b].least_push[1]), from_ordered_bits(room[b].least_push[2]));
+  return dvec3(from_ordered_bits(room[b].least_push[0]), from_ordered_bits(room[b].least_push[1]),
+               from_ordered_bits(room[b].least_push[2]));
 }
 dvec3 most_push(uint b) {
   return dvec3(from_ordered_bits(room[b].most_push[0]), from_ordered_bits(room[b].most_push[1]),

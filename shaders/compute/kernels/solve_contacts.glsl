@@ -177,7 +177,8 @@ dvec3 mean_velocity_of(uint i, uint kick_round) {
 dvec3 mean_velocity_at(uvec4 who, real4 weight, uint kick_round) {
   dvec3 first = mean_velocity_of(who.x, kick_round);
   if (who.y == no_vertex) return first;  // against a ground
-  return double(weight.y) * (mean_velocity_of(who.y, kick_round) - first) + double(weight.z) * (mean_velocity_of(who.z, kick_round) - first) +
+  return double(weight.y) * (mean_velocity_of(who.y, kick_round) - first) +
+         double(weight.z) * (mean_velocity_of(who.z, kick_round) - first) +
          double(weight.w) * (mean_velocity_of(who.w, kick_round) - first);
 }
 
