@@ -92,6 +92,30 @@ TEST_CASE("contact by impulses goes on from a saved state to the bit", "[gl]") {
   }
 }
 
+TEST_CASE("impulses of contacts with two grounds and a body are restored, each with its ground", "[gl]") {
+  std::vector<BodySetup> setups = colliding_spheres();
+  for (BodySetup& setup : setups) setup.description.velocity = setup.description.spin = {0, 0, 0};
+  setups[0].description.position = {-1.03, 1.3, 0};
+  setups[1].description.position = {1.03, 1.35, 0.05};
+  std::vector<GroundDescription> wedge(2);
+  wedge[0].normal = {0.6, 0.8, 0};
+  wedge[1].normal = {-0.6, 0.8, 0};
+  const ModelAndState start = build_model(setups, {0, -9.81, 0}, wedge);
+  const TimePlan plan = plan_of({"verlet", 0.01, DampingLaw::constant});
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation first(*test.device, start.model, start.state, plan, {.response = {"impulse"}, .elasticity = 0});
+    first.advance(150);
+    REQUIRE(first.contact_impulses().size() > 4);
+    const std::string saved = first.save();
+    Simulation second(*test.device, start.model, start.state, plan, {.response = {"impulse"}, .elasticity = 0});
+    second.restore(saved);
+    CHECK(second.save() == saved);
+    for (Simulation* simulation : {&first, &second}) simulation->advance(20);
+    check_same(first, second);
+  }
+}
+
 void check_adaptive(Device& device, const Adaptive& adaptive, const char* response, double pressure) {
   constexpr double duration = 1;  // [s]
   const ModelAndState start = colliding(pressure);

@@ -225,8 +225,8 @@ class Impulse final : public Response {
       Held c{};
       from(c.vertex, c.weight, c.impulse);
       vertices.push_back(c.vertex);
-      rows.resize(rows.size() + 16);
-      std::ranges::copy(std::span(&c.weight.x, 4), rows.end() - 12);
+      rows.resize(rows.size() + contact_numbers);
+      std::ranges::copy(std::span(&c.weight.x, 4), rows.end() - (contact_numbers - 4));
       impulses.insert(impulses.end(), &c.impulse.x, &c.impulse.x + 4);
     }
     if (vertices.size() > contact_capacity)
