@@ -1,4 +1,4 @@
-// What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out.
+// What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out, and what differs by the order of threads.
 #pragma once
 #include <bit>
 #include <cmath>

@@ -28,7 +28,10 @@ uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triang
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
 
-bool has_changed(uint i, uint cut_round) { return cut_round == 0u || cut_before(i, cut_round) != cut_before(i, cut_round - 1u); }
+bool has_changed(uint i, uint cut_round) {
+  if (cut_round == 0u || ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
+  return cut_round <= plane_rounds && cut[cut_in(cut_round, vertex_count, i)] < cut_before(i, cut_round - 1u);
+}
 
 struct Case {
   uint vertex[6];

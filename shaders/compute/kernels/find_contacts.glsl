@@ -175,7 +175,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = dot(normal, surplus_now) * normal - surplus_now;
-  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction, rests(c));
+  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction, settled_speed(a), rests(c));
 }
 
 // A contact whose points are near each other now.
@@ -195,11 +195,13 @@ real comes_near_after(IN(Pair) p, IN(Feature) f) {
   return min((distance - p.gap) / closing, real(1));
 }
 
-// A normal that has turned too far says that the points would pass each other.
+// A normal that has turned further says that the points would pass each other.
+const real least_cosine = real(0.8);
+
 void consider_later(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, later, 6)) {
   real3 away = weighed(f, later), now = weighed(f, p.place);
   real distance = length(away);
-  if (dot(away, now) > real(0.8) * distance * length(now) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
+  if (dot(away, now) > least_cosine * distance * length(now) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
 }
 
 // What is near now, but not the nearest, may be so half a step later: surfaces slide.

@@ -33,7 +33,7 @@ void meet_ground(uint i, uint g) {
   if (!is_near(c, a)) return;
   real3 goal = real3(dot(normal, surplus_now) * normal - surplus_now);
   list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), least_velocity(c, a), goal,
-               real(mean_of_pair(s.friction, ground[g].friction)), rests(c));
+               real(mean_of_pair(s.friction, ground[g].friction)), settled_speed(a), rests(c));
 }
 
 void meet_grounds(uint i) {

@@ -37,7 +37,8 @@ PARAMETER(double, heaviest_vertex)
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
 
-// The last round follows one in which all contacts had settled. It notes no others, so that all threads agree on which it is.
+// The last round follows one in which all contacts had settled. While it runs, nobody notes a contact that has not, so all threads find the
+// same answer. In any other round the note only grows, which leaves the answer no.
 bool is_last(uint kick_round) {
   return kick_round + 1u >= fewest_kick_rounds &&
          (ATOMIC_LOAD(contact_list[0].unsettled_round) + 2u <= kick_round || kick_round + 1u == most_kick_rounds);
@@ -49,10 +50,8 @@ bool goes_on(uint kick_round) { return kick_round == 1u ? contact_list[0].presse
 
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
 
-double gap_of(uint i, uint j) { return gap_of_pair(surface[uint(rest_position[i].w)], surface[uint(rest_position[j].w)]); }
-
 // Returns row 3. Every vertex shares its mass among its contacts.
-real4 resistance_of(uvec4 who, real4 weight, double of_quantum) {
+real4 resistance_of(uvec4 who, real4 weight, real settled, double of_quantum) {
   double first = double(0), second = double(0), sum = double(0);
   for (int k = 0; k < 4; ++k) {
     if (who[k] == no_vertex) continue;
@@ -61,9 +60,8 @@ real4 resistance_of(uvec4 who, real4 weight, double of_quantum) {
     if (weight[k] < real(0)) second = of_quantum * inverse_mass;
     sum += double(abs(weight[k])) * double(contact_weight[who[k]]) * double(weight_unit()) * inverse_mass;
   }
-  if (sum == double(0)) return real4(real(first), real(second), 0, 0);
-  double gap = who.y == no_vertex ? gap_of(who.x, who.x) : gap_of(who.x, who.w);
-  return real4(real(first), real(second), real(double(1) / sum), real(settled_part() * gap / (control[0].time_step * sum)));
+  real mass = sum > double(0) ? real(double(1) / sum) : real(0);
+  return real4(real(first), real(second), mass, mass * settled);
 }
 
 // With the impulses of the rounds so far [m/s]. `of_quantum` is what a quantum changes it by.
@@ -123,8 +121,11 @@ void push(uint c, uint kick_round) {
   real4 normal_row = contact_row[contact_rows * c], weight = contact_row[contact_rows * c + 1u],
         goal_row = contact_row[contact_rows * c + 2u];
   double of_quantum = quantum();
-  if (kick_round == 0u) contact_row[contact_rows * c + 3u] = resistance_of(who, weight, of_quantum);
   real4 resistance = contact_row[contact_rows * c + 3u];
+  if (kick_round == 0u) {
+    resistance = resistance_of(who, weight, resistance.w, of_quantum);
+    contact_row[contact_rows * c + 3u] = resistance;
+  }
   if (resistance.z == real(0)) return;  // between immovable bodies
   real4 impulse = impulse_row[c], ahead = impulse;
   bool ends = is_last(kick_round);

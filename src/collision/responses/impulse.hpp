@@ -9,6 +9,7 @@ namespace pliant {
 
 /// Returns what contacts know of a body, but for its nearness, which takes all bodies.
 [[nodiscard]] physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description);
+/// Returns what they know of a ground.
 [[nodiscard]] physics::Ground ground_of(const Ground& ground, const CollisionDescription& description);
 
 [[nodiscard]] ResponseRow impulse_row();

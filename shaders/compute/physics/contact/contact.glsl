@@ -11,7 +11,8 @@ REAL_BEGIN
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
 // row 2: the goal of the velocity across the normal [m/s], and the friction
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
-//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns]
+//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
+//        until then its last number is the contact's settled_speed()
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 
 // Lengths of a pair of bodies [m], and the time step [s].
@@ -52,6 +53,9 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;
 }
+
+// A contact has settled if a round changes its velocity by less than this [m/s]. In a step that is a hundredth of its gap.
+FN real settled_speed(IN(Approach) a) { return real(0.01) * a.gap / a.time_step; }
 
 // Returns the impulse along the normal (x) and across it (yzw) [Ns] after another round. `velocity` is that of the points against each
 // other with the impulses so far [m/s], `mass` is what resists them [kg].

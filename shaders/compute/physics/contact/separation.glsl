@@ -66,9 +66,11 @@ FN real3 closest_on_face(INOUT(Simplex) s) {
   return closest;
 }
 
-// It lies on one of the three faces at the latest corner, unless the origin is inside.
+// It lies on one of the three faces at the latest corner, unless the origin is inside. Faces without an area have no point.
 FN real3 closest_on_tetrahedron(INOUT(Simplex) s) {
   Simplex best = s;
+  best.corner[0] = s.corner[3];
+  best.corners = 1;
   real3 closest = s.corner[3];
   for (int k = 0; k < 3; ++k) {
     Simplex face = s;
@@ -76,7 +78,7 @@ FN real3 closest_on_tetrahedron(INOUT(Simplex) s) {
     face.corner[1] = s.corner[k];
     face.corner[2] = s.corner[k == 2 ? 0 : k + 1];
     real3 on_face = closest_on_face(face);
-    if (k > 0 && dot(on_face, on_face) >= dot(closest, closest)) continue;
+    if (!(dot(on_face, on_face) <= dot(closest, closest))) continue;
     best = face;
     closest = on_face;
   }
@@ -94,7 +96,8 @@ FN real3 closest_to_origin(INOUT(Simplex) s) {
 FN real3 axis_across(IN(Simplex) s, IN(real3) closest) {
   if (s.corners != 3) return closest;
   real3 normal = cross(s.corner[1] - s.corner[0], s.corner[2] - s.corner[0]);
-  return dot(normal, closest) < real(0) ? -normal : normal;
+  if (!(dot(normal, normal) > real(0))) return closest;
+  return dot(normal, s.corner[0]) < real(0) ? -normal : normal;
 }
 
 // Looks for an axis. If there is one, the closest point to the origin in the hull of all differences of corners, at both ends, is one, too.

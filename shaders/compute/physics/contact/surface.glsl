@@ -42,7 +42,7 @@ struct ContactList {
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
   uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
-  uint presses;              // 1: a contact gave an impulse in the first round of a kick
+  uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick
   uint unsettled_round;      // the latest one of a kick in which a contact had not settled
   uint has_cuts;             // 1: motions were cut short in this step
 };
@@ -87,9 +87,6 @@ const uint contact_rows = 5u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step.
 const uint fewest_kick_rounds = 9u;
 const uint most_kick_rounds = 129u;
-// A contact has settled if a round changes its velocity by less than this part of its gap in a step. Lost gap comes back at twice that
-// speed, so that it outweighs what is left.
-FN double settled_part() { return double(0.01); }
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
 const uint kept_index_bits = 18u;
