@@ -102,35 +102,41 @@ double distance_from_origin(const ModelBody& body, std::span<const glm::dvec3> p
   return farthest;
 }
 
-// What contacts of two bodies know of lengths [m].
-struct Resolution {
-  double margin = 0;  // of proofs
-  double gap = 0;
+// What decides how well contacts of a body are resolved.
+struct Measures {
+  physics::Surface surface;
+  double longest_edge = 0, far = 0;  // `far` is its distance from the origin [m]
 };
 
-Resolution resolution_of(const Model& model, const ModelBody& body, const ModelBody& other, double far,
-                         const CollisionDescription& collision, int precision) {
-  const double epsilon = precision == 64 ? 0x1p-52 : 0x1p-23;
-  const double size = std::sqrt(3.0) * (longest_edge(model, body) + longest_edge(model, other));
-  return {.margin = physics::margin_of_rounding(epsilon, size, far + 4 * std::max(body.radius, other.radius)),
-          .gap = physics::gap_of_pair(surface_of(model, body, collision), surface_of(model, other, collision))};
+std::vector<Measures> measures_of(const Model& model, const State& state, const CollisionDescription& collision) {
+  const std::vector<glm::dvec3> positions = state.world_positions(model);
+  std::vector<Measures> measures;
+  for (const ModelBody& body : model.bodies)
+    measures.push_back({.surface = surface_of(model, body, collision),
+                        .longest_edge = longest_edge(model, body),
+                        .far = distance_from_origin(body, positions)});
+  return measures;
 }
 
 }  // namespace
 
 std::vector<std::string> told_rounding(const Model& model, const State& state, const CollisionDescription& collision,
                                        int precision) {
-  const std::vector<glm::dvec3> positions = state.world_positions(model);
+  const std::vector<Measures> measures = measures_of(model, state, collision);
+  const double epsilon = precision == 64 ? 0x1p-52 : 0x1p-23;
   std::vector<std::string> told;
-  for (const ModelBody& body : model.bodies) {
-    const double far = distance_from_origin(body, positions);
-    for (const ModelBody& other : model.bodies) {
-      if (body.is_static || &other == &body || body.triangle_count == 0 || other.triangle_count == 0) continue;
-      const Resolution found = resolution_of(model, body, other, far, collision, precision);
-      if (4 * found.margin <= found.gap) continue;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    for (std::size_t k = 0; k < model.bodies.size(); ++k) {
+      const ModelBody& other = model.bodies[k];
+      if (body.is_static || k == b || body.triangle_count == 0 || other.triangle_count == 0) continue;
+      const double size = std::sqrt(3.0) * (measures[b].longest_edge + measures[k].longest_edge);
+      const double margin = physics::margin_of_rounding(epsilon, size, measures[b].far + 4 * std::max(body.radius, other.radius));
+      const double gap = physics::gap_of_pair(measures[b].surface, measures[k].surface);
+      if (4 * margin <= gap) continue;
       told.push_back(fmt::format(
           "contacts of body \"{}\" with \"{}\" are lost in rounding: it takes {:.2g} m, and they keep a gap of {:.2g} m; {}",
-          body.name, other.name, found.margin, found.gap,
+          body.name, other.name, margin, gap,
           precision == 64 ? "move them nearer to the origin, or take longer edges" : "take --precision 64, or more equal edges"));
       break;
     }

@@ -204,18 +204,19 @@ void consider_later(IN(Pair) p, IN(Feature) f, IN_ARRAY(real3, later, 6)) {
   if (dot(away, now) > least_cosine * distance * length(now) && distance <= real(2) * p.gap) add_contact(p, f, away / distance);
 }
 
-// What is near now, but not the nearest, may be so half a step later: surfaces slide.
+// What is near now, but not the nearest, may be so later: surfaces slide.
+const real look_again_after = real(0.5);  // of the step
+
 void meet_vertex(IN(Pair) p, uint corner, real side) {
   Feature f = vertex_and_triangle(corner, side, p.place);
   real part = comes_near_after(p, f);
-  if (part < real(0)) return;
-  if (part == real(0)) {
-    if (!is_nearer_to_others(p, f, p.place, real(0))) {
-      consider(p, f);
-      return;
-    }
-    part = real(0.5);
+  bool is_near = part == real(0);
+  if (is_near && !is_nearer_to_others(p, f, p.place, real(0))) {
+    consider(p, f);
+    return;
   }
+  if (is_near) part = look_again_after;
+  if (part < real(0)) return;
   real3 later[6];
   for (uint k = 0u; k < 6u; ++k) later[k] = p.place[k] + part * p.way[k];
   f = vertex_and_triangle(corner, side, later);
@@ -238,14 +239,13 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   bool crosses;
   Feature f = two_edges(j, k, p.place, crosses);
   real part = comes_near_after(p, f);
-  if (part < real(0)) return;
-  if (part == real(0)) {
-    if (crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) {
-      consider(p, f);
-      return;
-    }
-    part = real(0.5);
+  bool is_near = part == real(0);
+  if (is_near && crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) {
+    consider(p, f);
+    return;
   }
+  if (is_near) part = look_again_after;
+  if (part < real(0)) return;
   real3 later[6];
   for (uint n = 0u; n < 6u; ++n) later[n] = p.place[n] + part * p.way[n];
   f = two_edges(j, k, later, crosses);

@@ -6,7 +6,7 @@
 #include "features.glsl"
 REAL_BEGIN
 
-// Corners 0 to 2 are the first triangle's. Points are relative to a place near by.
+// Corners 0 to 2 are the first triangle's. Points are relative to a place near by, and finite: other steps end the run.
 struct Motion {
   real3 start[6];
   real3 end[6];
