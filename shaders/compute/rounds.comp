@@ -3,10 +3,17 @@
 // many take part as there are items for.
 // What items_in_a_round() reads must not change in the first round, and what goes_on(n) answers must not change once round n has ended:
 // else a slow group would leave alone. On an H200 64 threads a group were faster than more: rounds wait for memory, not for arithmetic.
+//
+// A kernel with NEAR_ROUNDS serves up to near_items items in one group of more threads. begin_near() may then set sums_are_near, which says
+// that threads share nothing in the rounds but the group's own memory.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"
-layout(local_size_x = 64) in;
+#ifndef NEAR_ROUNDS
+#define GROUP_SIZE 64u
+#endif
+const uint far_threads = 64u;  // of a group, if there may be several
+layout(local_size_x = GROUP_SIZE) in;
 PARAMETER(uint, item_count)  // work groups
 
 const uint most_polls_of_a_round = 1u << 22;  // which take some seconds
@@ -26,15 +33,34 @@ void wait_for_others(uint groups, uint often) {
   barrier();
 }
 
+void end_round(uint groups, uint number) {
+#ifdef NEAR_ROUNDS
+  if (sums_are_near) {
+    end_near_round(number);
+    return;
+  }
+#endif
+  wait_for_others(groups, number + 1u);
+}
+
 void main() {
-  uint count = items_in_a_round();
+  uint count = items_in_a_round(), threads = far_threads;
   if (count == 0u) return;
-  uint groups = min((count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, item_count);
-  if (gl_WorkGroupID.x < groups) {
-    for (uint number = 0u; number < rounds_at_most(); ++number) {
-      for (uint item = gl_GlobalInvocationID.x; item < count; item += groups * gl_WorkGroupSize.x) KERNEL(item, number);
-      wait_for_others(groups, number + 1u);
-      if (!goes_on(number)) break;
-    }
+  uint groups = min((count + threads - 1u) / threads, item_count);
+#ifdef NEAR_ROUNDS
+  if (count <= near_items) {
+    threads = GROUP_SIZE;
+    groups = 1u;
+  }
+#endif
+  if (gl_WorkGroupID.x >= groups) return;
+#ifdef NEAR_ROUNDS
+  if (count <= near_items) begin_near(count);
+#endif
+  uint first = gl_LocalInvocationID.x < threads ? gl_WorkGroupID.x * threads + gl_LocalInvocationID.x : count;
+  for (uint number = 0u; number < rounds_at_most(); ++number) {
+    for (uint item = first; item < count; item += groups * threads) KERNEL(item, number);
+    end_round(groups, number);
+    if (!goes_on(number)) break;
   }
 }

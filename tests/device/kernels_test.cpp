@@ -1,4 +1,6 @@
 // Every kernel on the GPU against the same kernel on the CPU, pass by pass, from the same input.
+#include <fmt/format.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "dynamics/grip.hpp"
 #include "gl/context.hpp"
 #include "gl/shader_source.hpp"
+#include "mesh/generators.hpp"
 #include "physics/contact/exact_sum.glsl"
 #include "simulation/step_passes.hpp"
 #include "support/collision_scene.hpp"
@@ -230,6 +233,7 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
   for (const Written& written : written_arrays(cpu, gpu, cpu_pass, gpu_pass)) {
     const auto& [name, element, a, b] = written;
     CAPTURE(cpu_pass.name, name);
+    if (cpu_pass.name == "solve_contacts" && name == "impulse_sum") continue;  // a work group may keep it in its own memory
     if (check_impulses(cpu, gpu, written)) continue;
     if (element == "Control") {
       check_structs<physics::Control>(cpu, gpu, a, b, 1, 1e-13);
@@ -310,9 +314,12 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
     }
   }
   CHECK(cpu.bodies.control.download().front().contact_steps > 0);
-  std::uint32_t frame_changes = 0;
-  for (const physics::Tally& tally : cpu.bodies.tallies.download()) frame_changes += tally.frame_changes;
-  CHECK(frame_changes > 0);
+}
+
+std::uint32_t frame_changes(const Bench& bench) {
+  std::uint32_t changes = 0;
+  for (const physics::Tally& tally : bench.bodies.tallies.download()) changes += tally.frame_changes;
+  return changes;
 }
 
 TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]") {
@@ -349,6 +356,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
       collision.response = Named{std::string(response.name)};
       Bench cpu(make_cpu_device(2, 32), start, method, collision), gpu(make_gpu_device(0), start, method, collision);
       compare_steps(cpu, gpu, 12, seen);
+      CHECK(frame_changes(cpu) > 0);
       if (response.name == "reflect") CHECK(cpu.bodies.control.download().front().total_low[physics::reverted_vertices] > 0);
     }
   std::uint32_t rejected_for_error = 0, rejected_in_contact = 0;
@@ -357,6 +365,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
     const Method method{integrator, 0.04, DampingLaw::adaptive};
     Bench cpu(make_cpu_device(2, 32), start, method, tree, 1e-6), gpu(make_gpu_device(0), start, method, tree, 1e-6);
     compare_steps(cpu, gpu, 40, seen);
+    CHECK(frame_changes(cpu) > 0);
     const physics::Pace pace = cpu.pacer->pace();
     CHECK((pace.accepted > 0 && pace.verdict == physics::step_empty));
     rejected_in_contact += pace.rejected_in_contact;
@@ -367,6 +376,27 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   for (const gl::ShaderFile& file : gl::embedded_shaders())
     if (file.name.starts_with("compute/kernels/") && file.name.find("/parts/") == std::string_view::npos) ++kernel_count;
   CHECK(seen.size() == kernel_count);
+}
+
+// One work group serves up to 512 contacts with few enough vertices. These are 441, of too many vertices, and 529.
+TEST_CASE("many contacts at once get the impulses on the GPU that they get on the CPU", "[gl]") {
+  if (test::lacks_gl()) return;
+  const int cells = GENERATE(20, 22);
+  CAPTURE(cells);
+  BodySetup cube = sphere(0);
+  cube.mesh = generate_mesh(fmt::format("cube:{}", cells));
+  cube.description.velocity = {0.3, -1, 0};
+  const double lowest = std::ranges::min(cube.mesh.positions, {}, &glm::dvec3::y).y + cube.description.position.y;
+  GroundDescription ground;
+  ground.point = {0, lowest - 1e-3, 0};
+  const ModelAndState start = build_model(std::vector{cube}, {0, -1, 0}, {&ground, 1});
+  const Method method{"verlet", 1e-3, DampingLaw::none};
+  const CollisionDescription impulse{.response = {"impulse"}};
+  Bench cpu(make_cpu_device(2, 32), start, method, impulse), gpu(make_gpu_device(0), start, method, impulse);
+  std::set<std::string_view> seen;
+  compare_steps(cpu, gpu, 2, seen);
+  const auto bottom = static_cast<std::uint32_t>((cells + 1) * (cells + 1));
+  CHECK(cpu.bodies.control.download().front().contact_pairs_max == bottom);
 }
 
 TEST_CASE("a kernel that was built for one caller is not another caller's", "[gl]") {

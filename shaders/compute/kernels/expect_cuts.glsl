@@ -30,6 +30,7 @@ PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/common_way.glsl"
+#include "parts/quantum.glsl"
 #include "parts/impulse_sums.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
@@ -51,7 +52,7 @@ double part_above(uint g, dvec3 from, dvec3 gone, double gap) {
 // What contacts have done in this step.
 void add_contact_sums() {
   for (uint k = 0u; k < contact_sums; ++k) {
-    if (was_made()) contact_total[k] += (k < 3u ? quantum() : quantum_of_energy()) * whole_of(contact_sum[k]);
+    if (was_made()) contact_total[k] += (k < 3u ? double(quantum()) : quantum_of_energy()) * whole_of(contact_sum[k]);
     contact_sum[k] = uvec2(0u);
   }
 }
@@ -72,7 +73,7 @@ void expect_cuts(uint i) {
     add_contact_sums();
     contact_list[0].arrivals &= waited_in_vain;
   }
-  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(k, i);
+  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint b = uint(rest_position[i].w);
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));

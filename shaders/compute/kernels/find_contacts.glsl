@@ -174,8 +174,8 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.was = c.velocity - dot(normal, surplus_before);
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
-  real3 goal = dot(normal, surplus_now) * normal - surplus_now;
-  list_contact(who, f.weight, normal, least_velocity(c, a), goal, p.friction, settled_speed(a), rests(c));
+  real3 goal = across(normal, -surplus_now - velocity);
+  list_contact(who, f.weight, normal, least_velocity(c, a) - c.velocity, goal, p.friction, settled_speed(a), rests(c));
 }
 
 // A contact whose points are near each other now.

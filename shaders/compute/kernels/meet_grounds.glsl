@@ -31,9 +31,9 @@ void meet_ground(uint i, uint g) {
   c.was = c.velocity - real(dot(normal, LOAD3(surplus, surplus_of(0u, vertex_count, i))));
   c.was_cut = last_cut[i] != 0u;
   if (!is_near(c, a)) return;
-  real3 goal = real3(dot(normal, surplus_now) * normal - surplus_now);
-  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), least_velocity(c, a), goal,
-               real(mean_of_pair(s.friction, ground[g].friction)), settled_speed(a), rests(c));
+  real3 goal = across(real3(normal), real3(-surplus_now - velocity));
+  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), least_velocity(c, a) - c.velocity,
+               goal, real(mean_of_pair(s.friction, ground[g].friction)), settled_speed(a), rests(c));
 }
 
 void meet_grounds(uint i) {

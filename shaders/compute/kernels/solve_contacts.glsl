@@ -32,7 +32,8 @@ PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, least_speed)
 PARAMETER(double, heaviest_vertex)
 #include "parts/full_lists.glsl"
-#include "parts/impulse_sums.glsl"
+#include "parts/quantum.glsl"
+#include "parts/round_sums.glsl"
 
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
@@ -40,18 +41,18 @@ uint rounds_at_most() { return most_kick_rounds + 1u; }
 // The last round follows one in which all contacts had settled. While it runs, nobody notes a contact that has not, so all threads find the
 // same answer. In any other round the note only grows, which leaves the answer no.
 bool is_last(uint kick_round) {
-  return kick_round + 1u >= fewest_kick_rounds &&
-         (ATOMIC_LOAD(contact_list[0].unsettled_round) + 2u <= kick_round || kick_round + 1u == most_kick_rounds);
+  return kick_round + 1u >= fewest_kick_rounds && (unsettled_round() + 2u <= kick_round || kick_round + 1u == most_kick_rounds);
 }
 bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1u); }
 
 // If no contact presses in the first two rounds, none does in the others.
-bool goes_on(uint kick_round) { return kick_round == 1u ? contact_list[0].presses != 0u : !is_kick(kick_round); }
+bool goes_on(uint kick_round) { return kick_round == 1u ? presses() : !is_kick(kick_round); }
 
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
 
 // Returns row 3. Every vertex shares its mass among its contacts.
-real4 resistance_of(uvec4 who, real4 weight, real settled, double of_quantum) {
+real4 resistance_of(uvec4 who, real4 weight, real settled) {
+  double of_quantum = double(quantum());
   double first = double(0), second = double(0), sum = double(0);
   for (int k = 0; k < 4; ++k) {
     if (who[k] == no_vertex) continue;
@@ -64,104 +65,115 @@ real4 resistance_of(uvec4 who, real4 weight, real settled, double of_quantum) {
   return real4(real(first), real(second), mass, mass * settled);
 }
 
-// With the impulses of the rounds so far [m/s]. `of_quantum` is what a quantum changes it by.
-dvec3 velocity_of_vertex(uint i, real of_quantum, uint kick_round) {
-  return LOAD3(start, start_velocity_of(i)) + double(of_quantum) * impulse_on(buffer_of(kick_round), i);
+uvec4 sums_of(uvec4 place, uint buffer_index) {
+  return uvec4(sum_of_place(place.x, buffer_index), sum_of_place(place.y, buffer_index), sum_of_place(place.z, buffer_index),
+               sum_of_place(place.w, buffer_index));
 }
 
-// Of the contact's points against each other [m/s]. Differences are taken before they are rounded.
-real3 relative_velocity(uvec4 who, real4 weight, real4 resistance, uint kick_round) {
-  dvec3 first = velocity_of_vertex(who.x, weight.x > real(0) ? resistance.x : resistance.y, kick_round);
-  if (who.y == no_vertex) return real3(first);  // against a ground
-  real3 y = real3(velocity_of_vertex(who.y, weight.y > real(0) ? resistance.x : resistance.y, kick_round) - first);
-  real3 z = real3(velocity_of_vertex(who.z, weight.z > real(0) ? resistance.x : resistance.y, kick_round) - first);
-  real3 w = real3(velocity_of_vertex(who.w, weight.w > real(0) ? resistance.x : resistance.y, kick_round) - first);
-  return weight.y * y + weight.z * z + weight.w * w;
+// What the impulses of the rounds so far changed the velocity of the contact's points against each other by [m/s].
+real3 relative_change(uvec4 place, real4 weight, real4 resistance, uint buffer_index) {
+  if (place.y == no_vertex) return resistance.x * impulse_at(sum_of_place(place.x, buffer_index));  // against a ground
+  real3 x, y, z, w;
+  impulses_at(sums_of(place, buffer_index), x, y, z, w);
+  x *= weight.x > real(0) ? resistance.x : resistance.y;
+  y *= weight.y > real(0) ? resistance.x : resistance.y;
+  z *= weight.z > real(0) ? resistance.x : resistance.y;
+  w *= weight.w > real(0) ? resistance.x : resistance.y;
+  return weight.y * (y - x) + weight.z * (z - x) + weight.w * (w - x);
 }
 
-dvec3 nearest(dvec3 v) { return dvec3(nearest_whole(v.x), nearest_whole(v.y), nearest_whole(v.z)); }
-
-// Adds an impulse to a vertex's sum [quanta]. All low halves are added before the high ones.
-#define ADD_LOW_HALVES(before, to, quanta)                                                                         \
-  uvec3 before = uvec3(ADD_LOW_HALF(impulse_sum[to], (quanta).x), ADD_LOW_HALF(impulse_sum[(to) + 1u], (quanta).y), \
-                       ADD_LOW_HALF(impulse_sum[(to) + 2u], (quanta).z));
-#define ADD_HIGH_HALVES(before, to, quanta)                       \
-  {                                                               \
-    ADD_HIGH_HALF(impulse_sum[to], (quanta).x, (before).x)        \
-    ADD_HIGH_HALF(impulse_sum[(to) + 1u], (quanta).y, (before).y) \
-    ADD_HIGH_HALF(impulse_sum[(to) + 2u], (quanta).z, (before).z) \
-  }
-
-// Adds an impulse on the one vertex of a contact with a ground.
-void push_off(uint i, dvec3 quanta, uint sums) {
-  uint to = impulse_sum_of(sums, vertex_count, i);
-  ADD_LOW_HALVES(before, to, quanta)
-  ADD_HIGH_HALVES(before, to, quanta)
-}
-
-// Adds an impulse to four vertices. The first gets what the others leave, so that their sum is zero. There are no loops and no arrays:
-// compilers for GPUs would wait for each addition in turn.
-void push_apart(uvec4 who, real4 weight, dvec3 total, uint sums) {
-  dvec3 of_y = nearest(double(weight.y) * total), of_z = nearest(double(weight.z) * total), of_w = nearest(double(weight.w) * total);
-  dvec3 of_x = -(of_y + of_z + of_w);
-  uint to_x = impulse_sum_of(sums, vertex_count, who.x), to_y = impulse_sum_of(sums, vertex_count, who.y),
-       to_z = impulse_sum_of(sums, vertex_count, who.z), to_w = impulse_sum_of(sums, vertex_count, who.w);
-  ADD_LOW_HALVES(before_x, to_x, of_x)
-  ADD_LOW_HALVES(before_y, to_y, of_y)
-  ADD_LOW_HALVES(before_z, to_z, of_z)
-  ADD_LOW_HALVES(before_w, to_w, of_w)
-  ADD_HIGH_HALVES(before_x, to_x, of_x)
-  ADD_HIGH_HALVES(before_y, to_y, of_y)
-  ADD_HIGH_HALVES(before_z, to_z, of_z)
-  ADD_HIGH_HALVES(before_w, to_w, of_w)
-}
-
-void push(uint c, uint kick_round) {
-  uvec4 who = contact_vertex[c];
-  real4 normal_row = contact_row[contact_rows * c], weight = contact_row[contact_rows * c + 1u],
-        goal_row = contact_row[contact_rows * c + 2u];
-  double of_quantum = quantum();
-  real4 resistance = contact_row[contact_rows * c + 3u];
-  if (kick_round == 0u) {
-    resistance = resistance_of(who, weight, resistance.w, of_quantum);
-    contact_row[contact_rows * c + 3u] = resistance;
-  }
-  if (resistance.z == real(0)) return;  // between immovable bodies
-  real4 impulse = impulse_row[c], ahead = impulse;
-  bool ends = is_last(kick_round);
-  if (kick_round > 0u) {
-    real4 had = contact_row[contact_rows * c + 4u], before = impulse;
-    impulse = next_impulse(had, normal_row, goal_row, relative_velocity(who, weight, resistance, kick_round), resistance.z);
-    bool turns = dot(had - impulse, impulse - before) > real(0);  // the sums went too far ahead
-    ahead = impulse;
-    if (!ends && !turns) ahead += momentum_after(kick_round) * (impulse - before);
-    if (!ends && length(impulse - had) > resistance.w) ATOMIC_STORE(contact_list[0].unsettled_round, kick_round);
-  }
-  contact_row[contact_rows * c + 4u] = ahead;
-  impulse_row[c] = impulse;
-  if (ends && impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
-  clear_impulse(buffer_of(kick_round + 2u), who.x);
-  if (who.y != no_vertex) {
-    clear_impulse(buffer_of(kick_round + 2u), who.y);
-    clear_impulse(buffer_of(kick_round + 2u), who.z);
-    clear_impulse(buffer_of(kick_round + 2u), who.w);
-  }
-  if (ahead == real4(0)) return;
-  if (kick_round <= 1u) ATOMIC_STORE(contact_list[0].presses, 1u);
-  dvec3 total = (dvec3(real3(ahead.x * real3(normal_row))) + dvec3(real3(ahead.y, ahead.z, ahead.w))) * (double(1) / of_quantum);
-  if (who.y == no_vertex)
-    push_off(who.x, nearest(total), buffer_of(kick_round + 1u));
+// Adds an impulse to the vertices of a contact [quanta].
+void push_vertices(uvec4 place, real4 weight, real3 impulse, uint buffer_index) {
+  if (place.y == no_vertex)
+    push_off(sum_of_place(place.x, buffer_index), impulse);
   else
-    push_apart(who, weight, total, buffer_of(kick_round + 1u));
+    push_apart(sums_of(place, buffer_index), weight.y * impulse, weight.z * impulse, weight.w * impulse);
 }
+
+// In a group's own memory all of its threads do this.
+void clear_sums(uvec4 place, uint buffer_index) {
+  NEAR_ELSE(return;)
+  clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.x));
+  if (place.y == no_vertex) return;
+  clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.y));
+  clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.z));
+  clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.w));
+}
+
+// A contact in the rounds: its rows and its impulse, as physics/contact/contact.glsl says.
+struct Held {
+  uvec4 place;
+  real4 normal_row;
+  real4 weight;
+  real4 goal_row;
+  real4 resistance;
+  real4 impulse;
+  real4 ahead;
+  real per_quantum;
+};
+PRIVATE(Held, held)
+
+void fetch(uint c, uint kick_round) {
+  uvec4 who = contact_vertex[c];
+  held.place = uvec4(place_of(who.x), place_of(who.y), place_of(who.z), place_of(who.w));
+  held.normal_row = contact_row[contact_rows * c];
+  held.weight = contact_row[contact_rows * c + 1u];
+  held.goal_row = contact_row[contact_rows * c + 2u];
+  held.resistance = contact_row[contact_rows * c + 3u];
+  held.impulse = impulse_row[c];
+  held.per_quantum = real(1) / real(quantum());
+  held.ahead = held.impulse;
+  if (kick_round > 0u) {
+    held.ahead = contact_row[contact_rows * c + 4u];
+    return;
+  }
+  held.resistance = resistance_of(who, held.weight, held.resistance.w);
+  contact_row[contact_rows * c + 3u] = held.resistance;
+}
+
+void store(uint c) {
+  contact_row[contact_rows * c + 4u] = held.ahead;
+  impulse_row[c] = held.impulse;
+}
+
+void answer(uint kick_round, bool ends) {
+  real4 had = held.ahead, before = held.impulse;
+  real3 change = relative_change(held.place, held.weight, held.resistance, buffer_of(kick_round));
+  held.impulse = next_impulse(had, held.normal_row, held.goal_row, change, held.resistance.z);
+  held.ahead = held.impulse;
+  if (ends) return;
+  bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
+  if (!turns) held.ahead += momentum_after(kick_round) * (held.impulse - before);
+  if (length(held.impulse - had) > held.resistance.w) note_unsettled(kick_round);
+}
+
+// Where one group serves all contacts, a thread keeps its contact from the first round to the last.
+void push(uint c, uint kick_round) {
+  bool starts = kick_round == 0u, ends = is_last(kick_round);
+  NEAR_ELSE(if (starts) fetch(c, kick_round);)
+  fetch(c, kick_round);
+  if (held.resistance.z == real(0)) return;  // between immovable bodies
+  if (!starts) answer(kick_round, ends);
+  NEAR_ELSE(if (ends) store(c);)
+  store(c);
+  if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
+  clear_sums(held.place, buffer_of(kick_round + 2u));
+  if (held.ahead == real4(0)) return;
+  if (kick_round <= 1u) note_pressing();
+  real3 along = held.ahead.x * real3(held.normal_row), across = real3(held.ahead.y, held.ahead.z, held.ahead.w);
+  push_vertices(held.place, held.weight, held.per_quantum * (along + across), buffer_of(kick_round + 1u));
+}
+
+// The impulse on a vertex by all rounds [quanta].
+dvec3 impulse_on(uint i, uint kick_round) { return exact_impulse_at(sum_of_place(place_of(i), buffer_of(kick_round))); }
 
 void kick(uint i, uint kick_round) {
   if (i == no_vertex || atomicExchange(contact_weight[i], 0u) == 0u) return;  // another contact has kicked it
-  dvec3 quanta = impulse_on(buffer_of(kick_round), i);
+  dvec3 quanta = impulse_on(i, kick_round);
   uint b = uint(rest_position[i].w);
   if (quanta == dvec3(0) || surface[b].inverse_mass == double(0)) return;
   uint at = velocity_of(in_half(from_half, vertex_count, i));
-  dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * quantum()) * rotate_back(pose[b], quanta);
+  dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * double(quantum())) * rotate_back(pose[b], quanta);
   STORE3(motion, at, velocity)
   ATOMIC_STORE(status[b].deformed, 1u);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
@@ -171,7 +183,7 @@ void kick(uint i, uint kick_round) {
 
 // The mean of the vertex's velocities before and after the kick [m/s].
 dvec3 mean_velocity_of(uint i, uint kick_round) {
-  return LOAD3(start, start_velocity_of(i)) + (double(0.5) * inverse_mass_of(i) * quantum()) * impulse_on(buffer_of(kick_round), i);
+  return LOAD3(start, start_velocity_of(i)) + (double(0.5) * inverse_mass_of(i) * double(quantum())) * impulse_on(i, kick_round);
 }
 
 // The same of the contact's points against each other.
@@ -204,6 +216,7 @@ void solve_contacts(uint c, uint kick_round) {
     push(c, kick_round);
     return;
   }
+  tell_notes();
   add_work(c, kick_round);
   for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k], kick_round);
 }

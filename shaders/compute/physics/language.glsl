@@ -40,6 +40,7 @@
   #define SHARED_WRITE_AS(array_name, T, name) WRITE_AS(array_name, T, name)
   #define CONSTANTS(name, count) const array::name::element* const name = arguments.constants<array::name::element>(#name);
   #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);
+  #define PRIVATE(T, name) T name{};
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
   #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
 #else
@@ -56,6 +57,7 @@
   #define OUT(T) out T
   #define INOUT(T) inout T
   #define IN_ARRAY(T, name, n) in T name[n]
+  #define PRIVATE(T, name) T name;      // each thread has its own
   #define EXACT precise                 // every operation rounds by itself, in the order written
   #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
@@ -78,7 +80,7 @@
 
 SHARED_BEGIN
 #ifdef __cplusplus
-using glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec2, glm::dvec3;
+using glm::ivec3, glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec2, glm::dvec3;
 using glm::abs, glm::cross, glm::dot, glm::inversesqrt, glm::length, glm::max, glm::min;
 using std::abs, std::sqrt;
 // glm's branches on every sign

@@ -88,7 +88,11 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override { return build(name, thread_caller); }
-  KernelId round_kernel(std::string_view name) override { return build(name, round_caller); }
+  KernelId round_kernel(std::string_view name) override {
+    GLint bytes = 0;
+    glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
+    return build(name, round_caller, {{"SHARED_BYTES", fmt::format("{}u", bytes)}});
+  }
   KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
     PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
@@ -158,9 +162,9 @@ class GpuDevice final : public Device {
     std::array<BufferId, max_arrays> storage{}, constants{};
   };
 
-  KernelId build(std::string_view name, const Caller& caller) {
-    return build(std::string(name), caller,
-                 {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+  KernelId build(std::string_view name, const Caller& caller, std::vector<gl::Define> defines = {}) {
+    defines.insert(defines.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+    return build(std::string(name), caller, defines);
   }
 
   // Returns the kernel that was built before for the same caller, or builds it.

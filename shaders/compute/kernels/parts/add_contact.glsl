@@ -7,8 +7,8 @@ WRITE(contact_weight)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, keeps_impulses)  // 1: take_up_impulses runs
 
-// Lists a contact of up to four vertices. `goal` is that of the velocity across the normal [m/s]. A contact that `resumes` begins with
-// its impulse of the last step.
+// Lists a contact of up to four vertices. `least` is the change of velocity that it asks for along the normal, and `goal` the one that
+// friction aims at across it [m/s]. A contact that `resumes` begins with its impulse of the last step.
 void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real3) goal, real friction, real settled,
                   bool resumes) {
   uint at = atomicAdd(contact_list[0].contact_count, 1u);

@@ -7,9 +7,9 @@
 REAL_BEGIN
 
 // Rows in `contact`:
-// row 0: the normal, from the second body to the first, and the least velocity along it [m/s]
+// row 0: the normal, from the second body to the first, and the least change of velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
-// row 2: the goal of the velocity across the normal [m/s], and the friction
+// row 2: the goal of the change of velocity across the normal [m/s], and the friction
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
 //        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
 //        until then its last number is the contact's settled_speed()
@@ -57,20 +57,23 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
 // A contact has settled if a round changes its velocity by less than this [m/s]. In a step that is a hundredth of its gap.
 FN real settled_speed(IN(Approach) a) { return real(0.01) * a.gap / a.time_step; }
 
-// Returns the impulse along the normal (x) and across it (yzw) [Ns] after another round. `velocity` is that of the points against each
-// other with the impulses so far [m/s], `mass` is what resists them [kg].
-FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3) velocity, real mass) {
+// The part of a vector across the normal.
+FN real3 across(IN(real3) normal, IN(real3) v) { return v - dot(normal, v) * normal; }
+
+// Returns the impulse along the normal (x) and across it (yzw) [Ns] after another round. `change` is what impulses so far changed the
+// velocity of the points against each other by [m/s], `mass` is what resists them [kg].
+FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3) change, real mass) {
   real3 normal = real3(normal_row);
-  real along = dot(normal, velocity);
+  real along = dot(normal, change);
   real4 next;
   next.x = max(real(0), impulse.x + (normal_row.w - along) * mass);
-  real3 across = real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (velocity - along * normal));
-  across -= dot(across, normal) * normal;
-  real size = length(across), most = goal_row.w * next.x;
-  if (size > most) across *= most / size;
-  next.y = across.x;
-  next.z = across.y;
-  next.w = across.z;
+  real3 friction =
+      across(normal, real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (change - along * normal)));
+  real size = length(friction), most = goal_row.w * next.x;
+  if (size > most) friction *= most / size;
+  next.y = friction.x;
+  next.z = friction.y;
+  next.w = friction.z;
   return next;
 }
 

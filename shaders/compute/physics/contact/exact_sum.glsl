@@ -12,16 +12,25 @@ FN double nearest_whole(double number) {
   return whole;
 }
 
-// A sum is two's complement in two halves. It is exact up to 2^53, and rounded beyond.
+// A whole number is two's complement in two halves, the low one first.
+FN uvec2 sum_of(uvec2 a, uvec2 b) {
+  uint low = a.x + b.x;
+  return uvec2(low, a.y + b.y + (low < a.x ? 1u : 0u));
+}
+
+FN uvec2 negative_of(uvec2 a) { return sum_of(uvec2(~a.x, ~a.y), uvec2(1u, 0u)); }
+
+// A double holds it exactly up to 2^53, and rounds it beyond.
 #ifdef __cplusplus
 FN double whole_of(IN(uvec2) halves) { return static_cast<double>(std::bit_cast<std::int64_t>(halves)); }
+FN uvec2 halves_of(double whole) { return std::bit_cast<uvec2>(static_cast<std::int64_t>(whole)); }
 
-FN void add_exactly(uvec2& sum, double whole) {
+FN void add_halves(uvec2& sum, uvec2 halves) {
   using Sum [[gnu::may_alias]] = std::int64_t;
-  std::atomic_ref(reinterpret_cast<Sum&>(sum)).fetch_add(static_cast<std::int64_t>(whole), std::memory_order_relaxed);
+  std::atomic_ref(reinterpret_cast<Sum&>(sum)).fetch_add(std::bit_cast<std::int64_t>(halves), std::memory_order_relaxed);
 }
-#define ADD_LOW_HALF(sum, whole) (add_exactly(sum, whole), 0u)
-#define ADD_HIGH_HALF(sum, whole, before) static_cast<void>(before);
+#define ADD_LOW_HALF(sum, halves) (add_halves(sum, halves), 0u)
+#define ADD_HIGH_HALF(sum, halves, before) static_cast<void>(before);
 #else
 double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967296.0) + double(halves.x); }
 
@@ -30,18 +39,39 @@ uvec2 halves_of(double whole) {
   return uvec2(uint(whole - high * double(4294967296.0)), uint(int(high)));
 }
 
-#define ADD_LOW_HALF(sum, whole) atomicAdd((sum).x, halves_of(whole).x)
-#define ADD_HIGH_HALF(sum, whole, before) \
-  atomicAdd((sum).y, halves_of(whole).y + ((before) + halves_of(whole).x < (before) ? 1u : 0u));
+#define ADD_LOW_HALF(sum, halves) atomicAdd((sum).x, (halves).x)
+#define ADD_HIGH_HALF(sum, halves, before) atomicAdd((sum).y, (halves).y + ((before) + (halves).x < (before) ? 1u : 0u));
 #endif
 
 // Adds a whole number to a sum that other threads add to. An addition whose result is used takes 0.7 us on an H200. Who adds several
 // numbers therefore adds all low halves first, which returns what was there, and then the high halves.
-#define ADD_EXACTLY(sum, whole)                 \
-  {                                             \
-    uint before_it = ADD_LOW_HALF(sum, whole);  \
-    ADD_HIGH_HALF(sum, whole, before_it)        \
+#define ADD_EXACTLY(sum, whole)                       \
+  {                                                   \
+    uvec2 halves_of_it = halves_of(whole);            \
+    uint before_it = ADD_LOW_HALF(sum, halves_of_it); \
+    ADD_HIGH_HALF(sum, halves_of_it, before_it)       \
   }
 
 SHARED_END
+
+// The same in the precision of forces, because many GPUs have few units for doubles. halves_of_real() rounds to a whole number.
+REAL_BEGIN
+#ifdef __cplusplus
+FN real real_of(IN(uvec2) halves) { return static_cast<real>(std::bit_cast<std::int64_t>(halves)); }
+FN uvec2 halves_of_real(real number) {
+  return std::bit_cast<uvec2>(static_cast<std::int64_t>(std::floor(number + real(0.5))));
+}
+#else
+// The low half counts with a sign, so that small numbers keep their digits.
+real real_of(uvec2 halves) {
+  int low = int(halves.x);
+  return real(int(halves.y) + (low < 0 ? 1 : 0)) * real(4294967296.0) + real(low);
+}
+uvec2 halves_of_real(real number) {
+  real high = floor(number * (real(1) / real(4294967296.0)) + real(0.5));
+  int low = int(floor((number - high * real(4294967296.0)) + real(0.5)));
+  return uvec2(uint(low), uint(int(high) - (low < 0 ? 1 : 0)));
+}
+#endif
+REAL_END
 #endif
