@@ -1,5 +1,5 @@
-// One thread finds the contacts between the features of two triangles. Each vertex and edge belongs to one triangle, so that no two pairs
-// find the same contact. All threads share the list of pairs in strides.
+// One thread, or a few of them, find the contacts between the features of two triangles. Each vertex and edge belongs to one triangle, so
+// that no two pairs find the same contact. All threads share the list of pairs in strides.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -18,7 +18,8 @@ READ(surplus)
 READ(last_cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, triangle_pair_capacity)
-PARAMETER(uint, pairs_at_once)
+PARAMETER(uint, threads_at_once)
+PARAMETER(uint, most_threads_of_a_pair)
 
 #include "parts/add_contact.glsl"
 
@@ -301,21 +302,31 @@ uint near_features(uvec2 triangles, uint wanted) {
   return near & wanted;
 }
 
-void meet(uvec2 triangles) {
-  uint wanted = owned_features(triangles);
+// Meets those features whose number leaves the rest `first`, if it is divided by `threads`.
+void meet(uvec2 triangles, uint first, uint threads) {
+  uint mine = 0u;
+  for (uint feature = first; feature < 15u; feature += threads) mine |= 1u << feature;
+  uint wanted = owned_features(triangles) & mine;
   if (wanted == 0u) return;
   wanted = near_features(triangles, wanted);
   if (wanted == 0u) return;
   Pair p = pair_of(triangles);
-  for (uint feature = 0u; feature < 15u; ++feature)
+  for (uint feature = first; feature < 15u; feature += threads)
     if ((wanted >> feature & 1u) != 0u) meet_feature(p, feature);
+}
+
+// Lists of pairs that leave threads over get 4 or 16 for each pair: on a GPU a pass takes as long as its slowest thread.
+uint threads_of_a_pair(uint count) {
+  uint threads = most_threads_of_a_pair;
+  while (threads > 1u && count > threads_at_once / threads) threads /= 4u;
+  return threads;
 }
 
 void find_contacts(uint item) {
   if (control[0].time_step == double(0)) return;
-  uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity);
-  for (uint k = item; k < count; k += pairs_at_once) {
+  uint count = min(contact_list[0].triangle_pair_count, triangle_pair_capacity), threads = threads_of_a_pair(count);
+  for (uint k = item / threads; k < count; k += threads_at_once / threads) {
     uvec2 pair = triangle_pair[k];
-    if ((pair.y & ways_meet) != 0u) meet(uvec2(pair.x, pair.y & ~ways_meet));
+    if ((pair.y & ways_meet) != 0u) meet(uvec2(pair.x, pair.y & ~ways_meet), item % threads, threads);
   }
 }

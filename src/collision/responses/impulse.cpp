@@ -159,12 +159,14 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
     if (has_pairs_) {
+      const bool is_gpu = arrays.device().info().kind == DeviceKind::gpu;
       passes.push_back(body_pairs_.pairing_pass());
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));
       passes.push_back(make_pass(arrays, "find_contacts",
                                  {{"triangle_pair_capacity", triangle_pair_capacity},
                                   {"contact_capacity", contact_capacity},
-                                  {"pairs_at_once", items_at_once_}},
+                                  {"threads_at_once", items_at_once_},
+                                  {"most_threads_of_a_pair", is_gpu ? 16u : 1u}},
                                  items_at_once_));
     }
     if (ground_count_ > 0)
