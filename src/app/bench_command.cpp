@@ -94,8 +94,25 @@ int measure_stability(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_stability);
 }
 
+std::optional<bench::ContactStudy> study_of(BenchStudy only) {
+  switch (only) {
+    case BenchStudy::all:
+      break;
+    case BenchStudy::apart:
+      return bench::ContactStudy::apart;
+    case BenchStudy::impacts:
+      return bench::ContactStudy::impacts;
+    case BenchStudy::rest:
+      return bench::ContactStudy::rest;
+    case BenchStudy::cost:
+      return bench::ContactStudy::cost;
+  }
+  return {};
+}
+
 int measure_contact(const BenchOptions& options) {
-  const bench::ContactOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
+  const bench::ContactOptions asked{
+      .devices = selection_of(options), .only = study_of(options.only), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_contact);
 }
 

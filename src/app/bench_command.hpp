@@ -13,6 +13,9 @@ enum class BenchDevices { automatic, cpu, gpu, all };
 
 enum class BenchSuite { forces, steps, precision, stability, contact, draw };
 
+/// What the suite contact is made of (bench/contact/contact.hpp).
+enum class BenchStudy { all, apart, impacts, rest, cost };
+
 struct BenchOptions {
   BenchSuite suite = BenchSuite::forces;
   BenchDevices devices = BenchDevices::automatic;
@@ -21,6 +24,7 @@ struct BenchOptions {
   std::filesystem::path json;                     // empty: no file
   bool quick = false;                             // figures of the right size in a few seconds
   bool all_variants = false;                      // forces: every way of summing that a device knows
+  BenchStudy only = BenchStudy::all;              // contact: one study alone
   std::filesystem::path scenes = "scenes";        // steps, precision, contact, draw: folder of scenes
   std::array<std::uint32_t, 2> size{1920, 1080};  // draw: size of the picture [pixels]
 };

@@ -237,6 +237,12 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* contact = add_device_suite(*bench, options, app::BenchSuite::contact, "contact",
                                        "Contact by impulses: whether bodies stay apart, what impacts give, and what they cost");
   contact->add_option("--scenes", options.scenes, "Folder of scenes, for meshes beside it (default scenes)");
+  add_choice<app::BenchStudy>(*contact, "--only", options.only,
+                              {{"apart", app::BenchStudy::apart},
+                               {"impacts", app::BenchStudy::impacts},
+                               {"rest", app::BenchStudy::rest},
+                               {"cost", app::BenchStudy::cost}},
+                              "One study alone");
   add_draw_suite(*bench, options);
 }
 

@@ -414,11 +414,12 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
 
 ContactResult bench_contact(const ContactOptions& options, const Progress& progress) {
   std::vector<Task> tasks;
-  add_apart(tasks, options);
-  add_extremes(tasks, options);
-  add_rest(tasks, options);
-  add_impacts(tasks, options);
-  add_costs(tasks, options);
+  const auto is_asked = [&](ContactStudy study) { return !options.only || *options.only == study; };
+  if (is_asked(ContactStudy::apart)) add_apart(tasks, options);
+  if (is_asked(ContactStudy::apart)) add_extremes(tasks, options);
+  if (is_asked(ContactStudy::rest)) add_rest(tasks, options);
+  if (is_asked(ContactStudy::impacts)) add_impacts(tasks, options);
+  if (is_asked(ContactStudy::cost)) add_costs(tasks, options);
   const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);
   double total = 0, done = 0;
   for (const Task& task : tasks) total += task.cost;

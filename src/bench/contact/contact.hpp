@@ -15,8 +15,12 @@
 
 namespace pliant::bench {
 
+/// What the suite is made of, in the order of the list above.
+enum class ContactStudy { apart, impacts, rest, cost };
+
 struct ContactOptions {
   Selection devices;
+  std::optional<ContactStudy> only = {};    // all of them without it
   std::filesystem::path scenes = "scenes";  // bunny and teapot lie beside this folder, in meshes
   bool quick = false;                       // a hundredth of the steps
 };

@@ -114,8 +114,28 @@ std::string to_table(const ContactResult& result) {
   return table;
 }
 
+namespace {
+
+const char* name_of(ContactStudy study) {
+  switch (study) {
+    case ContactStudy::apart:
+      return "apart";
+    case ContactStudy::impacts:
+      return "impacts";
+    case ContactStudy::rest:
+      return "rest";
+    case ContactStudy::cost:
+      break;
+  }
+  return "cost";
+}
+
+}  // namespace
+
 std::string to_json(const Machine& machine, const ContactOptions& options, const ContactResult& result) {
-  Json file = suite_json("contact", options_json(options.devices, options.quick), result.interrupted, machine);
+  Json asked = options_json(options.devices, options.quick);
+  if (options.only) asked.add("only", name_of(*options.only));
+  Json file = suite_json("contact", asked, result.interrupted, machine);
   file.add("rows", list_of(result.rows, [](const ContactRow& row) {
              return std::visit([](const auto& known) { return row_json(known); }, row);
            }));

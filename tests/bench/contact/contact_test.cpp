@@ -82,6 +82,17 @@ TEST_CASE("the suite contact finds bodies apart, momentum kept, and no energy ma
                                    Catch::Contains("0 pairs of triangles not apart"));
 }
 
+TEST_CASE("the suite contact makes one study alone if it is told to") {
+  const ContactResult result = bench_contact({.devices = {.cpu = true, .threads = 2}, .only = ContactStudy::cost, .quick = true},
+                                             [](double, std::string_view) { return true; });
+  REQUIRE(result.rows.size() == 3);
+  for (const ContactRow& any : result.rows) {
+    const auto* row = std::get_if<CostRow>(&any);
+    REQUIRE(row != nullptr);
+    CHECK((row->contacts > 0 && row->microseconds > 0));
+  }
+}
+
 TEST_CASE("the suite contact ends early if it is told to, without rows of what was not done") {
   const ContactResult result =
       bench_contact({.devices = {.cpu = true, .threads = 2}, .quick = true}, [](double, std::string_view) { return false; });
