@@ -344,6 +344,7 @@ void add_impacts(std::vector<Task>& tasks, const ContactOptions& options) {
 // --- cost
 
 constexpr std::uint64_t timed_parts = 64;
+constexpr double warming_time = 0.3;  // [s]; a GPU's clocks rise under load
 
 double seconds_a_part(Simulation& simulation, Device& device) {
   std::vector<double> seconds;
@@ -371,6 +372,7 @@ CostRow measure_cost(Device& device, int level, double edges_a_step) {
     return 1e6 * seconds;
   };
   std::uint64_t none = 0;
+  for (Stopwatch warming; warming.seconds() < warming_time;) warming.time([&] { run("none", none); });
   CostRow row{
       .device = device.info().kind, .precision = device.precision(), .vertices = meeting.start.model.bodies[0].vertex_count};
   row.microseconds_without = run("none", none);
