@@ -4,8 +4,8 @@
 // What items_in_a_round() reads must not change in the first round, and what goes_on(n) answers must not change once round n has ended:
 // else a slow group would leave alone. On an H200 64 threads a group were faster than more: rounds wait for memory, not for arithmetic.
 //
-// A kernel with NEAR_ROUNDS serves up to near_items items in one group of more threads. begin_near() may then set sums_are_near, which says
-// that threads share nothing in the rounds but the group's own memory.
+// A kernel with NEAR_ROUNDS serves up to near_items items in one group of more threads. begin_near() may then set sums_are_near. It says
+// that threads share nothing but the group's own memory, in all rounds but the last.
 #version 450
 #include "physics/language.glsl"
 #include "@kernel"

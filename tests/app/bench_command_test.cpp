@@ -5,6 +5,7 @@
 
 #include "core/read_text.hpp"
 #include "gl/context.hpp"
+#include "support/has.hpp"
 #include "support/json.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
@@ -46,6 +47,15 @@ void check_fails(const std::string& arguments, int exit_code, const char* part) 
   const ProgramResult result = run_program("bench " + arguments);
   CHECK(result.exit_code == exit_code);
   CHECK_THAT(result.output, Catch::Contains(part));
+}
+
+TEST_CASE("bench contact makes one study alone if it is asked to, and says which") {
+  const ScratchFolder folder;
+  const auto json = checked_results("contact --only cost --device cpu --threads 1", folder.path / "contact.json");
+  CHECK(json["options"]["only"] == "cost");
+  for (const auto& row : json["rows"]) CHECK(row["kind"] == "cost");
+  check_fails("contact --only price", 2, "price not in {apart,impacts,rest,cost}");
+  if (!test::lacks_gl()) check_fails("contact --only impacts --device gpu", 2, "measured on the CPU alone");
 }
 
 TEST_CASE("bench forces writes every key of its rows, into a folder that it makes") {

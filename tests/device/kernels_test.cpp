@@ -130,10 +130,14 @@ void check_structs(Bench& cpu, Bench& gpu, BufferId a, BufferId b, std::size_t c
   for (std::size_t k = 0; k < count; ++k) CHECK(largest_difference(numbers_of(y[k]), numbers_of(x[k])) < tolerance);
 }
 
+std::uint32_t contact_count(const Bench& bench) {
+  return bench.bodies.arrays.get<physics::ContactList>("contact_list").download().front().contact_count;
+}
+
 // Contacts with their numbers, by their vertices, because lists are in no fixed order.
 std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts_of(Bench& bench) {
   const Arrays& arrays = bench.bodies.arrays;
-  const std::uint32_t count = arrays.get<physics::ContactList>("contact_list").download().front().contact_count;
+  const std::uint32_t count = contact_count(bench);
   const auto vertices = arrays.get<glm::uvec4>("contact_vertex").download(0, count);
   const auto rows = bench.read<float>(arrays.buffer("contact")), impulses = bench.read<float>(arrays.buffer("contact_impulse"));
   std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts;
@@ -233,7 +237,7 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
   for (const Written& written : written_arrays(cpu, gpu, cpu_pass, gpu_pass)) {
     const auto& [name, element, a, b] = written;
     CAPTURE(cpu_pass.name, name);
-    if (cpu_pass.name == "solve_contacts" && name == "impulse_sum") continue;  // a work group may keep it in its own memory
+    if (cpu_pass.name == "solve_contacts" && name == "impulse_sum" && contact_count(cpu) <= 512) continue;  // of one work group
     if (check_impulses(cpu, gpu, written)) continue;
     if (element == "Control") {
       check_structs<physics::Control>(cpu, gpu, a, b, 1, 1e-13);
@@ -378,7 +382,8 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   CHECK(seen.size() == kernel_count);
 }
 
-// One work group serves up to 512 contacts with few enough vertices. These are 441, of too many vertices, and 529.
+// One work group serves up to 512 contacts alone. These are 441 and 529. A group with 32 KB of memory has no room for 441
+// vertices.
 TEST_CASE("many contacts at once get the impulses on the GPU that they get on the CPU", "[gl]") {
   if (test::lacks_gl()) return;
   const int cells = GENERATE(20, 22);

@@ -302,7 +302,7 @@ uint near_features(uvec2 triangles, uint wanted) {
   return near & wanted;
 }
 
-// Meets those features whose number leaves the rest `first`, if it is divided by `threads`.
+// Meets the features `first`, `first` + `threads` and so on.
 void meet(uvec2 triangles, uint first, uint threads) {
   uint mine = 0u;
   for (uint feature = first; feature < 15u; feature += threads) mine |= 1u << feature;
@@ -311,7 +311,7 @@ void meet(uvec2 triangles, uint first, uint threads) {
   wanted = near_features(triangles, wanted);
   if (wanted == 0u) return;
   Pair p = pair_of(triangles);
-  for (uint feature = first; feature < 15u; feature += threads)
+  for (uint feature = 0u; feature < 15u; ++feature)
     if ((wanted >> feature & 1u) != 0u) meet_feature(p, feature);
 }
 

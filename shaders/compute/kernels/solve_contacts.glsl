@@ -92,7 +92,7 @@ void push_vertices(uvec4 place, real4 weight, real3 impulse, uint buffer_index) 
 
 // In a group's own memory all of its threads do this.
 void clear_sums(uvec4 place, uint buffer_index) {
-  NEAR_ELSE(return;)
+  if (sums_are_near) return;
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.x));
   if (place.y == no_vertex) return;
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.y));
@@ -150,12 +150,10 @@ void answer(uint kick_round, bool ends) {
 // Where one group serves all contacts, a thread keeps its contact from the first round to the last.
 void push(uint c, uint kick_round) {
   bool starts = kick_round == 0u, ends = is_last(kick_round);
-  NEAR_ELSE(if (starts) fetch(c, kick_round);)
-  fetch(c, kick_round);
+  if (starts || !sums_are_near) fetch(c, kick_round);
   if (held.resistance.z == real(0)) return;  // between immovable bodies
   if (!starts) answer(kick_round, ends);
-  NEAR_ELSE(if (ends) store(c);)
-  store(c);
+  if (ends || !sums_are_near) store(c);
   if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_sums(held.place, buffer_of(kick_round + 2u));
   if (held.ahead == real4(0)) return;

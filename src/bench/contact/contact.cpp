@@ -20,6 +20,7 @@
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/rest.hpp"
 #include "bench/contact/witness.hpp"
+#include "core/error.hpp"
 #include "core/stopwatch.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/stability.hpp"
@@ -422,6 +423,8 @@ ContactResult bench_contact(const ContactOptions& options, const Progress& progr
   if (is_asked(ContactStudy::rest)) add_rest(tasks, options);
   if (is_asked(ContactStudy::impacts)) add_impacts(tasks, options);
   if (is_asked(ContactStudy::cost)) add_costs(tasks, options);
+  if (tasks.empty())
+    throw Error(ErrorKind::command_line, "--only", "impacts are measured on the CPU alone", "use --device cpu or all");
   const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);
   double total = 0, done = 0;
   for (const Task& task : tasks) total += task.cost;

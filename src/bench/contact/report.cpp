@@ -125,9 +125,9 @@ const char* name_of(ContactStudy study) {
     case ContactStudy::rest:
       return "rest";
     case ContactStudy::cost:
-      break;
+      return "cost";
   }
-  return "cost";
+  return "";
 }
 
 }  // namespace

@@ -159,6 +159,7 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
     if (has_pairs_) {
+      // A GPU waits for its slowest thread. One in software gains nothing, but so tests see what others do.
       const bool is_gpu = arrays.device().info().kind == DeviceKind::gpu;
       passes.push_back(body_pairs_.pairing_pass());
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));

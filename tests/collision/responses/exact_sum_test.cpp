@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,6 +33,23 @@ TEST_CASE("whole numbers in halves add, turn and become doubles as integers of 6
       CAPTURE(b);
       CHECK(physics::sum_of(in_halves(a), in_halves(b)) == in_halves(a + b));
     }
+  }
+}
+
+// In fp32, which shaders have. Numbers stand on both sides of where a low half turns its sign.
+TEST_CASE("whole numbers in halves become floats and come from them, rounded as floats are") {
+  for (const std::int64_t number : telling_numbers()) {
+    CAPTURE(number);
+    const auto exact = static_cast<double>(number);
+    CHECK(std::abs(static_cast<double>(physics32::real_of(in_halves(number))) - exact) <= 0x1p-23 * std::abs(exact));
+  }
+  for (const float number :
+       {0.0f, 1.0f, -1.0f, 5.25f, -5.25f, 0x1p31f, -0x1p31f, 0x1.fffffep30f, -0x1.fffffep30f, 0x1p32f, -0x1p32f, 0x1.8p32f,
+        -0x1.8p32f, 0x1.fffffep31f, 0x1.fffffep32f, -0x1.fffffep32f, 0x1.234568p52f, -0x1.234568p60f}) {
+    CAPTURE(number);
+    const auto whole = static_cast<std::int64_t>(std::round(number));
+    CHECK(physics32::halves_of_real(number) == in_halves(whole));
+    CHECK(physics32::real_of(physics32::halves_of_real(number)) == static_cast<float>(whole));
   }
 }
 

@@ -1,5 +1,5 @@
-// The memory of one work group, which keeps sums of impulses and notes if the group can serve all contacts alone (rounds.comp). There a
-// vertex has a place, which is found by its number.
+// The memory of one work group. It keeps sums of impulses and notes while the group serves all contacts alone (rounds.comp). There a vertex
+// has a place, which is found by its number.
 #define NEAR_ROUNDS
 #define GROUP_SIZE 512u
 const uint near_items = GROUP_SIZE;  // contacts, one a thread
@@ -44,7 +44,7 @@ void clear_near(uint buffer_index) {
   }
 }
 
-// Whether a contact may get more than 2^51 quanta, for which there is no room here. A vertex at the largest speed has up to 2^47.
+// Whether a contact asks for so much that sums might grow beyond their room. A vertex at the largest speed has up to 2^47 quanta.
 bool asks_much(uint c) {
   real4 goal = contact_row[contact_rows * c + 2u], impulse = impulse_row[c];
   real change = abs(contact_row[contact_rows * c].w) + length(real3(goal));
@@ -78,8 +78,9 @@ void end_near_round(uint kick_round) {
   barrier();
 }
 
-// Three sums of a place are high 2^21 + low. In this form 512 contacts add to them without a carry.
+// Three sums of a place are high 2^21 + low. The low parts of 512 contacts need no carry. A high part has room for 2^52 quanta.
 const real limb = real(2097152);
+const real most_high = real(1073741824);  // of one contact. Beyond, its impulse is cut down, on both bodies alike
 
 real3 near_impulse(uint at) {
   ivec3 high = ivec3(near_high[at], near_high[at + 1u], near_high[at + 2u]);
@@ -99,7 +100,7 @@ struct NearQuanta {
 NearQuanta near_quanta_of(real3 impulse) {
   real3 high = floor(impulse * (real(1) / limb) + real3(0.5));
   NearQuanta quanta;
-  quanta.high = ivec3(high);
+  quanta.high = ivec3(clamp(high, -most_high, most_high));
   quanta.low = ivec3(floor((impulse - limb * high) + real3(0.5)));
   return quanta;
 }

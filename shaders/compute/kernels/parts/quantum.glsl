@@ -1,5 +1,5 @@
 // The quantum of impulses is a power of two [Ns]: what the heaviest vertex has at the largest expected velocity is 2^46 of them or up to
-// twice as many. So floats and their reciprocals hold it.
+// twice as many. Floats hold it and its reciprocal, as 1e-20 Ns is the least that counts as such an impulse.
 float largest_speed() { return max(uintBitsToFloat(contact_list[0].fastest), float(least_speed)); }
 float quantum() {
   float most = max(largest_speed() * float(heaviest_vertex), 1e-20f);

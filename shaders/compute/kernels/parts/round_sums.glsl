@@ -3,6 +3,7 @@
 #include "impulse_sums.glsl"
 
 #ifdef __cplusplus
+static constexpr bool sums_are_near = false;
 #define NEAR_ELSE(statement)
 #else
 #include "near_sums.glsl"
@@ -26,6 +27,7 @@ real3 impulse_at(uint at) {
   NEAR_ELSE(return near_impulse(at);)
   return far_impulse(at);
 }
+// Of four places in one branch, so that a GPU waits for all of them at once.
 void impulses_at(uvec4 at, OUT(real3) x, OUT(real3) y, OUT(real3) z, OUT(real3) w) {
   NEAR_ELSE(x = near_impulse(at.x); y = near_impulse(at.y); z = near_impulse(at.z); w = near_impulse(at.w);)
   {

@@ -1,4 +1,4 @@
-// Sums of whole numbers in 64 bits, from many threads. Such sums have no order, so they come out the same on every device.
+// Sums of whole numbers in 64 bits, from many threads. Such sums have no order, so threads do not matter.
 #ifndef EXACT_SUM_GLSL
 #define EXACT_SUM_GLSL
 #include "../language.glsl"
@@ -54,24 +54,22 @@ uvec2 halves_of(double whole) {
 
 SHARED_END
 
-// The same in the precision of forces, because many GPUs have few units for doubles. halves_of_real() rounds to a whole number.
+// The same in the precision of forces, because many GPUs have few units for doubles.
 REAL_BEGIN
 #ifdef __cplusplus
-FN real real_of(IN(uvec2) halves) { return static_cast<real>(std::bit_cast<std::int64_t>(halves)); }
-FN uvec2 halves_of_real(real number) {
-  return std::bit_cast<uvec2>(static_cast<std::int64_t>(std::floor(number + real(0.5))));
-}
-#else
+using std::floor;
+#endif
 // The low half counts with a sign, so that small numbers keep their digits.
-real real_of(uvec2 halves) {
+FN real real_of(IN(uvec2) halves) {
   int low = int(halves.x);
   return real(int(halves.y) + (low < 0 ? 1 : 0)) * real(4294967296.0) + real(low);
 }
-uvec2 halves_of_real(real number) {
-  real high = floor(number * (real(1) / real(4294967296.0)) + real(0.5));
-  int low = int(floor((number - high * real(4294967296.0)) + real(0.5)));
-  return uvec2(uint(low), uint(int(high) - (low < 0 ? 1 : 0)));
+
+// Of a whole number near this one. Expects one below 2^62.
+FN uvec2 halves_of_real(real number) {
+  real size = abs(number), high = floor(size * (real(1) / real(4294967296.0)));
+  uvec2 halves = uvec2(uint((size - high * real(4294967296.0)) + real(0.5)), uint(high));
+  return number < real(0) ? negative_of(halves) : halves;
 }
-#endif
 REAL_END
 #endif
