@@ -195,9 +195,10 @@ void show_end(const RunStatus& status) {
   fmt::print("contacts in {} {}, at most {} {} at once\n", report.contact_steps, report.substeps > 0 ? "parts of steps" : "steps",
              report.contact_pairs_max,
              find_response(run.scene.collision.response).gives_impulses ? "impulses" : "triangle pairs");
-  if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0)
-    fmt::print("contacts took {:.4g} J, of which friction {:.4g} J, and gave {:.4g} J\n", contacts.energy_taken,
-               contacts.friction_work, contacts.energy_given);
+  if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0 || contacts.energy_given > 0)
+    fmt::print("contacts took {:.4g} J{}, and gave {:.4g} J\n", contacts.energy_taken,
+               contacts.friction_work > 0 ? fmt::format(", of which friction {:.4g} J", contacts.friction_work) : "",
+               contacts.energy_given);
   if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }

@@ -103,7 +103,8 @@ glm::dvec3 way_out(std::span<const glm::dvec3> first, std::span<const glm::dvec3
 }  // namespace
 
 double usual_gap(const Model& model, const ModelBody& body) {
-  return CollisionDescription().gap * (body.triangle_count > 0 ? mean_edge(model, body) : body.radius);
+  const double in_edges = std::max(CollisionDescription().gap, body.surface.gap.value_or(0));
+  return in_edges * (body.triangle_count > 0 ? mean_edge(model, body) : body.radius);
 }
 
 Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> bodies) {

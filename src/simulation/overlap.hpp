@@ -15,7 +15,7 @@ struct Overlap {
   glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by the larger of their usual gaps [m]
 };
 
-/// Returns the distance that contacts by impulses keep to the body [m], unless the scene says otherwise.
+/// Returns the distance that contacts by impulses keep to the body [m], unless other bodies or the whole scene ask for more.
 [[nodiscard]] double usual_gap(const Model& model, const ModelBody& body);
 
 /// Returns the two of these bodies that lie deepest in each other, as far as it can tell. There have to be two or more.

@@ -47,14 +47,14 @@ std::string described(std::span<const Ground* const> grounds, const ModelBody& b
 std::string way_out_of(std::span<const Ground* const> grounds, const Model& model, const ModelBody& body,
                        std::span<const glm::dvec3> positions) {
   const Ground& ground = *grounds.front();
-  const glm::dvec3 way = (depth_in(ground, body, positions) + usual_gap(model, body)) * ground.normal;
+  const double gap = usual_gap(model, body);
+  const glm::dvec3 way = (depth_in(ground, body, positions) + gap) * ground.normal;
   std::vector<glm::dvec3> moved(positions.begin(), positions.end());
   for (glm::dvec3& position : moved) position += way;
   if (grounds.size() > 1 || !grounds_under(model, body, moved).empty())
     return "move the body to where it is out of every ground, or the grounds further apart, or give the body a smaller scale";
-  return fmt::format(
-      "move the body by [{:.6g}, {:.6g}, {:.6g}], which leaves a twentieth of an edge between them, or move the ground", way.x,
-      way.y, way.z);
+  return fmt::format("move the body by [{:.6g}, {:.6g}, {:.6g}], which leaves {:.3g} m between them, or move the ground", way.x,
+                     way.y, way.z, gap);
 }
 
 void expect_out_of_grounds(const Model& model, const State& state, const std::string& place) {

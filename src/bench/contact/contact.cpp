@@ -374,8 +374,10 @@ CostRow measure_cost(Device& device, int level, double edges_a_step) {
   };
   std::uint64_t none = 0;
   for (Stopwatch warming; warming.seconds() < warming_time;) warming.time([&] { run("none", none); });
-  CostRow row{
-      .device = device.info().kind, .precision = device.precision(), .vertices = meeting.start.model.bodies[0].vertex_count};
+  CostRow row{.device = device.info().kind,
+              .precision = device.precision(),
+              .vertices = meeting.start.model.bodies[0].vertex_count,
+              .edges_a_step = edges_a_step};
   row.microseconds_without = run("none", none);
   row.microseconds = run("impulse", row.contacts);
   return row;

@@ -85,6 +85,7 @@ struct CostRow {
   DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   std::uint32_t vertices = 0;       // of a body
+  double edges_a_step = 0;          // how fast they come near each other
   std::uint64_t contacts = 0;       // the most impulses in a part of a step
   double microseconds = 0;          // of a part of a step
   double microseconds_without = 0;  // of the same method's step with response = "none"
