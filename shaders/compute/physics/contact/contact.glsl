@@ -67,7 +67,9 @@ FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3)
   real along = dot(normal, change);
   real4 next;
   next.x = max(real(0), impulse.x + (normal_row.w - along) * mass);
-  real3 friction = across(normal, real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - change));
+  // Projected twice: after once, fp32 leaves roundings along the normal.
+  real3 friction =
+      across(normal, real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (change - along * normal)));
   real size = length(friction), most = goal_row.w * next.x;
   if (size > most) friction *= most / size;
   next.y = friction.x;
