@@ -1,4 +1,5 @@
-// What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out, and what differs by the order of threads.
+// What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out, and so is what differs
+// by the order of threads.
 #pragma once
 #include <bit>
 #include <cmath>
