@@ -32,7 +32,7 @@ constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
 constexpr Range fraction{0, 1, "a number from 0 to 1"};
 constexpr Range edge_part{0.01, 0.1, "a number from 0.01 to 0.1"};
 constexpr Range view_angle{1, 179, "a number from 1 to 179"};
-constexpr Range depth{1, 64, "a whole number from 1 to 64"};
+constexpr Range tree_depth{1, 64, "a whole number from 1 to 64"};
 constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
 constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};
 constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
@@ -203,7 +203,7 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
 void read_table(TableReader& table, TreeDescription& tree) {
   bool is_at_centre = true;
   table.read("split", is_at_centre, splits);
-  table.read("max_depth", tree.max_depth, depth);
+  table.read("max_depth", tree.max_depth, tree_depth);
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }
 
