@@ -125,7 +125,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_step(run);
   warn_of_no_step(run, options);
   if (run.simulation->collider().response_row().keeps_apart) {
-    expect_apart(*run.simulation, run.start.model, run.scene.file.string());
+    expect_apart(*run.simulation, run.start.model, run.scene.collision, run.scene.file.string());
     warn_of_near_starts(run);
     warn_of_masses(run);
     warn_of_rounding(run);

@@ -45,11 +45,22 @@ bool is_driven_from_rest(const Model& model) {
       forces(), [&](const Force& force) { return !force.is_zero_at_rest && std::ranges::any_of(model.bodies, force.acts_on); });
 }
 
+// Returns the energy that energy_growth() compares with [J].
+double energy_had(const RunProgress& progress, const Model& model) {
+  const double had = progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity;
+  return is_driven_from_rest(model) ? std::max(had, progress.most_in_motion) : had;
+}
+
 std::string told_growth_of(const RunProgress& progress, const Model& model) {
-  const double growth = progress.largest_growth;
-  return (is_driven_from_rest(model) ? fmt::format("the energy has grown by {:.3g} of the most in motion", growth - 1)
-                                     : fmt::format("the energy has grown {:.3g}-fold", growth)) +
-         fmt::format(" at {:.6g} s", progress.time_of_growth);
+  const double growth = progress.largest_growth - 1;
+  std::string told;
+  if (energy_had(progress, model) < smallest_energy(model))
+    told = fmt::format("the energy has grown from nothing by {:.3g} J", growth * smallest_energy(model));
+  else if (is_driven_from_rest(model))
+    told = fmt::format("the energy has grown by {:.3g} of the most in motion", growth);
+  else
+    told = fmt::format("the energy has grown {:.3g}-fold", 1 + growth);
+  return told + fmt::format(" at {:.6g} s", progress.time_of_growth);
 }
 
 std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
@@ -72,13 +83,14 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 // None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
 // where it began has had it. If a force sets bodies at rest in motion, this compares with the most energy in motion.
 double energy_growth(const RunProgress& progress, const Model& model) {
-  double had = progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity;
-  if (is_driven_from_rest(model)) had = std::max(had, progress.most_in_motion);
-  return 1 + (progress.latest.energy() - progress.first.energy()) / std::max(had, smallest_energy(model));
+  const double had = std::max(energy_had(progress, model), smallest_energy(model));
+  return 1 + (progress.latest.energy() - progress.first.energy()) / had;
 }
 
 bool has_blown_up(const RunStatus& status) {
-  return status.report.substeps > 0 && energy_growth(status.progress, status.run.start.model) >= ruinous_growth;
+  const Model& model = status.run.start.model;
+  return status.report.substeps > 0 && energy_had(status.progress, model) >= smallest_energy(model) &&
+         energy_growth(status.progress, model) >= ruinous_growth;
 }
 
 std::optional<std::string> instability_of(const RunStatus& status) {
@@ -95,7 +107,7 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   return {};
 }
 
-std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices) {
+std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices, int precision) {
   std::vector<std::string> told;
   if (report.held_parts > 0)
     told.push_back(fmt::format("no body moved in {} parts of steps, because contacts were too many, or could not be proven apart",
@@ -104,8 +116,8 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
-                    "move too far in a step, or are pressed too hard; try a shorter time step, or stiffer bodies",
-                    report.reverted_vertices));
+                    "move too far in a step, or are pressed too hard; try a shorter time step, or stiffer bodies{}",
+                    report.reverted_vertices, precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
   return told;
 }
 
@@ -113,7 +125,7 @@ std::vector<std::string> contact_troubles_of(const RunStatus& status) {
   if (!status.run.simulation->collider().response_row().gives_impulses) return {};
   std::uint64_t moving_vertices = 0;
   for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
-  return contact_troubles_of(status.report, moving_vertices);
+  return contact_troubles_of(status.report, moving_vertices, status.run.device->precision());
 }
 
 Summary summary_of(const RunStatus& status) {

@@ -23,8 +23,8 @@ struct RunStatus {
 /// start and what gravity has given or taken at most.
 [[nodiscard]] double energy_growth(const RunProgress& progress, const Model& model);
 
-/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts.
-/// Holds for the latest row of the history.
+/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts. A
+/// run that began without energy goes on. Holds for the latest row of the history.
 [[nodiscard]] bool has_blown_up(const RunStatus& status);
 
 /// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its
@@ -33,7 +33,8 @@ struct RunStatus {
 
 /// Says how often contact by impulses held bodies or cut motions of vertices short, a text each, if that was often.
 /// `moving_vertices` are those of all bodies that are not static. docs/output.md says how often is often.
-[[nodiscard]] std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices);
+[[nodiscard]] std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices,
+                                                           int precision);
 [[nodiscard]] std::vector<std::string> contact_troubles_of(const RunStatus& status);
 
 /// Returns the summary. Unless there was a breakdown, it searches for the triangles that intersect at the end.

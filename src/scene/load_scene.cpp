@@ -285,7 +285,9 @@ void read_table(TableReader& table, BodyDescription& body) {
 
 /// Returns the name in a body's table, or "body0", "body1", ... by its index.
 void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
-  if (!node.is_array()) fail(node, "body", fmt::format("is {}", type_name(node)), "begin each body with [[body]]");
+  if (!node.is_array())
+    fail(node, "body", fmt::format("is {}", type_name(node)),
+         is_override(node) ? "name a body and a key, as in --set body.NAME.velocity=[1,0,0]" : "begin each body with [[body]]");
   for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
     const toml::node& table = (*node.as_array())[i];
     BodyDescription body;
@@ -313,7 +315,9 @@ void read_table(TableReader& table, GroundDescription& ground) {
 }
 
 void read_grounds(const toml::node& node, std::vector<GroundDescription>& grounds) {
-  if (!node.is_array()) fail(node, "ground", fmt::format("is {}", type_name(node)), "begin each ground with [[ground]]");
+  if (!node.is_array())
+    fail(node, "ground", fmt::format("is {}", type_name(node)),
+         is_override(node) ? "write all grounds, as in --set 'ground=[{height=1}]'" : "begin each ground with [[ground]]");
   for (const toml::node& table : *node.as_array()) {
     grounds.emplace_back().where = origin_of(table, "ground");
     TableReader::section(table, "ground", grounds.back());

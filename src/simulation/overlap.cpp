@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "collision/responses/impulse.hpp"
 #include "model/inside.hpp"
-#include "model/mean_edge.hpp"
 
 namespace pliant {
 namespace {
@@ -102,12 +102,13 @@ glm::dvec3 way_out(std::span<const glm::dvec3> first, std::span<const glm::dvec3
 
 }  // namespace
 
-double usual_gap(const Model& model, const ModelBody& body) {
-  const double in_edges = std::max(CollisionDescription().gap, body.surface.gap.value_or(0));
-  return in_edges * (body.triangle_count > 0 ? mean_edge(model, body) : body.radius);
+double usual_gap(const Model& model, const ModelBody& body, const CollisionDescription& collision) {
+  const physics::Surface surface = surface_of(model, body, collision);
+  return physics::gap_of_pair(surface, surface);
 }
 
-Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> bodies) {
+Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> bodies,
+                     const CollisionDescription& collision) {
   Overlap found{.first = bodies[0], .second = bodies[1], .depth = -1};
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
@@ -118,7 +119,7 @@ Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, 
     }
   const ModelBody &first = model.bodies[found.first], &second = model.bodies[found.second];
   found.way_out = way_out(vertices_of(first, positions), vertices_of(second, positions),
-                          std::max(usual_gap(model, first), usual_gap(model, second)));
+                          std::max(usual_gap(model, first, collision), usual_gap(model, second, collision)));
   return found;
 }
 

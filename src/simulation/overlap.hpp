@@ -5,6 +5,7 @@
 #include <span>
 
 #include "model/model.hpp"
+#include "scene/scene_description.hpp"
 
 namespace pliant {
 
@@ -15,12 +16,12 @@ struct Overlap {
   glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by the larger of their usual gaps [m]
 };
 
-/// Returns the distance that contacts by impulses keep to the body [m], unless other bodies or the whole scene ask for more.
-[[nodiscard]] double usual_gap(const Model& model, const ModelBody& body);
+/// Returns the distance that contacts by impulses keep between two such bodies [m].
+[[nodiscard]] double usual_gap(const Model& model, const ModelBody& body, const CollisionDescription& collision);
 
 /// Returns the two of these bodies that lie deepest in each other, as far as it can tell. There have to be two or more.
 /// `positions` are those of the model's vertices in the world [m].
 [[nodiscard]] Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions,
-                                   std::span<const std::uint32_t> bodies);
+                                   std::span<const std::uint32_t> bodies, const CollisionDescription& collision);
 
 }  // namespace pliant

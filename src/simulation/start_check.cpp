@@ -45,9 +45,9 @@ std::string described(std::span<const Ground* const> grounds, const ModelBody& b
 
 // A move out of one ground can lead into another. No move is named then.
 std::string way_out_of(std::span<const Ground* const> grounds, const Model& model, const ModelBody& body,
-                       std::span<const glm::dvec3> positions) {
+                       std::span<const glm::dvec3> positions, const CollisionDescription& collision) {
   const Ground& ground = *grounds.front();
-  const double gap = usual_gap(model, body);
+  const double gap = physics::gap_above(ground_of(ground, collision), surface_of(model, body, collision));
   const glm::dvec3 way = (depth_in(ground, body, positions) + gap) * ground.normal;
   std::vector<glm::dvec3> moved(positions.begin(), positions.end());
   for (glm::dvec3& position : moved) position += way;
@@ -57,14 +57,15 @@ std::string way_out_of(std::span<const Ground* const> grounds, const Model& mode
                      way.y, way.z, gap);
 }
 
-void expect_out_of_grounds(const Model& model, const State& state, const std::string& place) {
+void expect_out_of_grounds(const Model& model, const State& state, const CollisionDescription& collision,
+                           const std::string& place) {
   const std::vector<glm::dvec3> positions = state.world_positions(model);
   for (const ModelBody& body : model.bodies) {
     const std::vector<const Ground*> grounds = grounds_under(model, body, positions);
     if (grounds.empty()) continue;
     const Origin& where = grounds.front()->where;
     throw Error(where.place.empty() ? Origin{Origin::From::file, place} : where, described(grounds, body, positions),
-                way_out_of(grounds, model, body, positions));
+                way_out_of(grounds, model, body, positions, collision));
   }
 }
 
@@ -155,12 +156,12 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
   return fmt::format("these bodies intersect at the start ({} triangle pairs): {}", overlap.pairs, names);
 }
 
-void expect_apart(Simulation& simulation, const Model& model, const std::string& place) {
+void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
-  expect_out_of_grounds(model, simulation.state(), place);
+  expect_out_of_grounds(model, simulation.state(), collision, place);
   const Intersections found = simulation.intersections();
   if (found.pairs == 0) return;
-  const Overlap overlap = find_overlap(model, simulation.state().world_positions(model), found.bodies);
+  const Overlap overlap = find_overlap(model, simulation.state().world_positions(model), found.bodies, collision);
   throw Error(ErrorKind::input, place, described(model, overlap), way_apart(model, overlap));
 }
 

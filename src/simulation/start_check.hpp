@@ -17,6 +17,6 @@ namespace pliant {
 
 /// Throws Error (input) that blames `place` if bodies intersect, or stand in a ground, though the scene's response keeps them
 /// apart. It names two bodies, how deep they are in each other, and a way out.
-void expect_apart(Simulation& simulation, const Model& model, const std::string& place);
+void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
 
 }  // namespace pliant

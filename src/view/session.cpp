@@ -61,7 +61,7 @@ Session::Session(Device& device, LoadedScene scene, std::size_t most_history_byt
       history_(most_history_bytes) {
   expect_carried(scene_->description, plan_, device.precision());
   restart();
-  expect_apart(*simulation_, model(), scene_->description.file.string());
+  expect_apart(*simulation_, model(), scene_->description.collision, scene_->description.file.string());
 }
 
 double Session::time() const { return plan_.tolerance ? base_time_ + report_.time : time_of_step(step()); }
@@ -154,7 +154,7 @@ void Session::change(const Settings& wanted) {
   expect_carried(changed->description, plan, device_->precision());
   const bool starts_anew = report_.breakdown.has_value();
   auto simulation = make_simulation(*device_, *changed, starts_anew ? changed->start.state : simulation_->state(), plan);
-  expect_apart(*simulation, changed->start.model, changed->description.file.string());
+  expect_apart(*simulation, changed->start.model, changed->description.collision, changed->description.file.string());
   const double at_time = starts_anew ? 0 : time();
   plan_ = plan;
   begin_with(std::move(simulation), starts_anew ? 0 : step(), at_time);

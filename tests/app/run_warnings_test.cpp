@@ -93,6 +93,18 @@ TEST_CASE("energy that grew on the way and was damped away again is told, with i
                                          energies.largest / energies.first, energies.time_of_largest)));
 }
 
+TEST_CASE("energy that a scene at rest gets from contacts is told in joules, and does not end the run") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "near.toml";
+  std::ofstream(scene) << "[simulation]\nintegrator = \"verlet\"\ndamping_law = \"none\"\n[[body]]\nmesh = \"icosphere:1\"\n"
+                          "[[body]]\nmesh = \"icosphere:1\"\nposition = [2.0001, 0, 0]\n";
+  const ProgramResult result =
+      run_program("run " + scene.string() + " --device cpu --precision 64 --steps 200 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Catch::Contains("nearer than the gap") &&
+                                Catch::Matches("(?:.|\n)*the energy has grown from nothing by [0-9.e-]+ J at(?:.|\n)*"));
+}
+
 // Runs a body with pressure, at rest at the start.
 ProgramResult run_balloon(const ScratchFolder& folder, const std::string& more) {
   const auto path = folder.path / "balloon.toml";

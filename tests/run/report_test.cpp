@@ -8,9 +8,9 @@ namespace {
 
 TEST_CASE("parts of steps in which no body moved are told, with their number") {
   StepReport report;
-  CHECK(contact_troubles_of(report, 1000).empty());
+  CHECK(contact_troubles_of(report, 1000, 64).empty());
   report.held_parts = 17;
-  const std::vector<std::string> told = contact_troubles_of(report, 1000);
+  const std::vector<std::string> told = contact_troubles_of(report, 1000, 64);
   REQUIRE(told.size() == 1);
   CHECK_THAT(told[0], Catch::Contains("no body moved in 17 parts of steps"));
 }
@@ -20,7 +20,7 @@ TEST_CASE("motions that were cut short are told from 1 % of those in contact on,
     StepReport report;
     report.reverted_vertices = cuts;
     report.contact_steps = contact_steps;
-    return !contact_troubles_of(report, vertices).empty();
+    return !contact_troubles_of(report, vertices, 64).empty();
   };
   CHECK(is_told(100, 1, 100));
   CHECK_FALSE(is_told(99, 1, 100));
@@ -28,6 +28,13 @@ TEST_CASE("motions that were cut short are told from 1 % of those in contact on,
   CHECK(is_told(10'000, 1'000, 1'000));
   CHECK_FALSE(is_told(9'999, 1'000, 1'000));
   CHECK_FALSE(is_told(0, 0, 100));
+}
+
+TEST_CASE("only who has doubles left to take is told to take them for motions that were cut short") {
+  StepReport report;
+  report.reverted_vertices = 100;
+  CHECK_THAT(contact_troubles_of(report, 100, 32).at(0), Catch::Contains("--precision 64"));
+  CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), !Catch::Contains("--precision"));
 }
 
 }  // namespace

@@ -295,6 +295,8 @@ TEST_CASE("overrides replace all grounds together, and reach no key of one") {
   for (const char* key : {"ground.height=1", "ground.0.height=1"})
     for (const std::string& text : {grounds, smallest})
       check_override_error(text, key, {"grounds have no names", "--set 'ground=[{height=1}]'"});
+  check_override_error(grounds, "ground=5", {"is a whole number", "--set 'ground=[{height=1}]'"});
+  check_override_error(grounds, "body=5", {"is a whole number", "--set body.NAME.velocity"});
 }
 
 TEST_CASE("the drawn floor is the first ground that is level and faces up") {

@@ -35,7 +35,7 @@ class Play {
         plan_(plan_time(scene_, start_.model)),
         device_(make_cpu_device(2, precision)),
         simulation_(*device_, start_.model, start_.state, plan_, scene_.collision) {
-    expect_apart(simulation_, start_.model, name);
+    expect_apart(simulation_, start_.model, scene_.collision, name);
     look();
   }
 

@@ -34,11 +34,11 @@ TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bo
   const ModelAndState start = cubes({{0.5, {0.6, 0.02, 0}}});  // its corners are 0.15 m deep
   const std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
   const std::uint32_t both[] = {0, 1};
-  const Overlap overlap = find_overlap(start.model, positions, both);
+  const Overlap overlap = find_overlap(start.model, positions, both, {});
   CHECK(overlap.first == 0);
   CHECK(overlap.second == 1);
   CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
-  CHECK(overlap.way_out.x == Approx(0.15 + usual_gap(start.model, start.model.bodies[0])).epsilon(1e-6));
+  CHECK(overlap.way_out.x == Approx(0.15 + usual_gap(start.model, start.model.bodies[0], {})).epsilon(1e-6));
   CHECK(not_apart(start.model, positions) > 0);
   CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
 }
@@ -46,7 +46,7 @@ TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bo
 TEST_CASE("of several bodies the two that are deepest in each other are named") {
   const ModelAndState start = cubes({{0.5, {0.7, 0.02, 0}}, {0.5, {-0.6, 0.02, 0}}, {0.5, {0, 0.73, 0}}});
   const std::uint32_t all[] = {0, 1, 2, 3};
-  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all);
+  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all, {});
   CHECK(overlap.first == 0);
   CHECK(overlap.second == 2);
   CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
@@ -58,7 +58,7 @@ TEST_CASE("bodies of which one is longer have a way out, too") {
   for (std::uint32_t i = start.model.bodies[1].first_vertex; i < positions.size(); ++i)
     positions[i].z *= 2;  // longer than the other
   const std::uint32_t both[] = {0, 1};
-  const Overlap overlap = find_overlap(start.model, positions, both);
+  const Overlap overlap = find_overlap(start.model, positions, both, {});
   CHECK(not_apart(start.model, positions) > 0);
   CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
 }

@@ -28,12 +28,12 @@ class Start {
   Error error() {
     const auto device = make_cpu_device(1, 32);
     Simulation simulation(*device, start_.model, start_.state, plan_time(scene_, start_.model), scene_.collision);
-    return error_of([&] { expect_apart(simulation, start_.model, "scene.toml"); });
+    return error_of([&] { expect_apart(simulation, start_.model, scene_.collision, "scene.toml"); });
   }
 
   std::vector<std::string> told() const { return told_near_starts(start_.model, start_.state, scene_.collision); }
   // That bodies of one mesh keep [m].
-  double gap() const { return usual_gap(start_.model, start_.model.bodies[0]); }
+  double gap() const { return usual_gap(start_.model, start_.model.bodies[0], scene_.collision); }
 
  private:
   SceneDescription scene_;
@@ -45,6 +45,13 @@ TEST_CASE("a body in a ground is told the way out of that ground, whose line is 
   CHECK(below.kind() == ErrorKind::input);
   check_says(below, {"scene.toml:3: ground: body \"ball\" stands 0.5 m deep", "move the body by [0, -0.51", "move the ground"});
   check_says(Start("[[ground]]\nheight = -1\n" + ball).error(), {"scene.toml:1: ground: body \"ball\" touches this ground"});
+}
+
+TEST_CASE("the way out of a ground leaves the gap that the scene asks for") {
+  const std::string wide = "[collision]\ngap = 0.1\n[[ground]]\nheight = -0.5\n" + ball;
+  const std::string told = fmt::format("which leaves {:.3g} m between them", Start(wide).gap());
+  check_says(Start(wide).error(), {told.c_str()});
+  CHECK(Start(wide).gap() == Approx(2 * Start(ball).gap()));
 }
 
 TEST_CASE("a body that no single move brings out of grounds is promised none") {

@@ -328,16 +328,16 @@ TEST_CASE("bodies that begin in each other or in the ground are an error that na
   ModelAndState start = meeting_spheres(1, 0.1, 0.01);
   start.state.poses[0].origin[0] = start.state.poses[1].origin[0] - 0.5;
   Simulation overlapping(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), by_impulses);
-  const Error error = error_of([&] { expect_apart(overlapping, start.model, "scene.toml"); });
+  const Error error = error_of([&] { expect_apart(overlapping, start.model, by_impulses, "scene.toml"); });
   CHECK(error.kind() == ErrorKind::input);
   check_says(error, {"scene.toml", "bodies \"left\" and \"right\" intersect", "m deep", "move them apart, such as \"right\" by [",
                      "response = \"reflect\""});
   const ModelAndState sunk = on_ground("icosphere:1", 0.75, 0, 0.5);
   Simulation buried(*device, sunk.model, sunk.state, plan_of(Method{"verlet", 0.01}), by_impulses);
-  check_says(error_of([&] { expect_apart(buried, sunk.model, "scene.toml"); }),
+  check_says(error_of([&] { expect_apart(buried, sunk.model, by_impulses, "scene.toml"); }),
              {"scene.toml: body \"body\"", "deep in this ground", "move the body by [0, ", "or move the ground"});
   Simulation reflecting(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}), {.response = {"reflect"}});
-  CHECK_NOTHROW(expect_apart(reflecting, start.model, "scene.toml"));
+  CHECK_NOTHROW(expect_apart(reflecting, start.model, {.response = {"reflect"}}, "scene.toml"));
 }
 
 // What contacts gave a body in the latest part of a step [Ns].
