@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "bench/common/timing.hpp"
+#include "bench/contact/cost.hpp"
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/rest.hpp"
 #include "bench/contact/witness.hpp"
@@ -343,45 +344,6 @@ void add_impacts(std::vector<Task>& tasks, const ContactOptions& options) {
 }
 
 // --- cost
-
-constexpr std::uint64_t timed_parts = 64;
-constexpr double warming_time = 0.3;  // [s]; a GPU's clocks rise under load
-
-double seconds_a_part(Simulation& simulation, Device& device) {
-  std::vector<double> seconds;
-  for (int round = 0; round < 4; ++round) {
-    Stopwatch stopwatch;
-    stopwatch.time([&] {
-      for (std::uint64_t part = 0; part < timed_parts / 4; ++part) simulation.advance_part();
-      device.finish();
-    });
-    seconds.push_back(stopwatch.seconds() / (timed_parts / 4));
-  }
-  return median(std::move(seconds));
-}
-
-// Lets spheres meet, and times what follows while they press each other.
-CostRow measure_cost(Device& device, int level, double edges_a_step) {
-  const Partner sphere{.mesh = generate_mesh(fmt::format("icosphere:{}", level))};
-  const Meeting meeting = meeting_of(sphere, sphere, {.edges_a_step = edges_a_step, .omega_step = 0.3});
-  const auto run = [&](const char* response, std::uint64_t& contacts) {
-    Simulation simulation(device, meeting.start.model, meeting.start.state, plan_of("verlet", meeting.time_step), by(response));
-    simulation.advance(static_cast<std::uint64_t>(0.5 / edges_a_step) + 4);
-    device.finish();
-    const double seconds = seconds_a_part(simulation, device);
-    contacts = simulation.report().contact_pairs_max;
-    return 1e6 * seconds;
-  };
-  std::uint64_t none = 0;
-  for (Stopwatch warming; warming.seconds() < warming_time;) warming.time([&] { run("none", none); });
-  CostRow row{.device = device.info().kind,
-              .precision = device.precision(),
-              .vertices = meeting.start.model.bodies[0].vertex_count,
-              .edges_a_step = edges_a_step};
-  row.microseconds_without = run("none", none);
-  row.microseconds = run("impulse", row.contacts);
-  return row;
-}
 
 void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
   for (const Place& place : places(options.devices))

@@ -80,15 +80,16 @@ struct RestRow {
   double drift = 0;                // the farthest that a vertex came from its first place [edges]
 };
 
-/// Steps while two spheres press each other, beside the same steps without contact.
+/// Steps while two spheres press each other the most, beside steps without contact.
 struct CostRow {
   DeviceKind device = DeviceKind::cpu;
   int precision = 32;
-  std::uint32_t vertices = 0;       // of a body
+  std::uint64_t vertices = 0;       // of a body
   double edges_a_step = 0;          // how fast they come near each other
   std::uint64_t contacts = 0;       // the most impulses in a part of a step
-  double microseconds = 0;          // of a part of a step
-  double microseconds_without = 0;  // of the same method's step with response = "none"
+  double microseconds = 0;          // of a part of a step with three quarters of these or more
+  double microseconds_apart = 0;    // of a step while they are far from each other
+  double microseconds_without = 0;  // of the same with response = "none"
 };
 
 using ContactRow = std::variant<ApartRow, ImpactRow, RestRow, CostRow>;

@@ -23,7 +23,7 @@ TriangleMesh normalized(TriangleMesh mesh) {
 }
 
 // Meshes with symmetries meet in ties that rounding would decide, so both are turned.
-BodySetup setup_of(const Partner& partner, double side /* -1: left */, double off_centre) {
+BodySetup setup_of(const Partner& partner, double side /* -1: left */, double off_centre, double stretch) {
   BodySetup setup;
   setup.mesh = normalized(partner.mesh);
   BodyDescription& body = setup.description;
@@ -33,6 +33,7 @@ BodySetup setup_of(const Partner& partner, double side /* -1: left */, double of
   body.total_stiffness = partner.stiffness;
   body.damping = 0;
   body.rotation = {10 * side, 20, 0};
+  body.stretch.x = stretch;
   body.position = {0, off_centre * side, off_centre * side / 3};
   return setup;
 }
@@ -55,7 +56,7 @@ ModelAndState alone(const BodySetup& setup) { return build_model({&setup, 1}, gl
 
 Meeting meeting_of(const Partner& left, const Partner& right, const Encounter& how) {
   const double off_centre = how.off_centre * std::min(left.radius, right.radius);
-  std::array<BodySetup, 2> setups = {setup_of(left, -1, off_centre), setup_of(right, 1, off_centre)};
+  std::array<BodySetup, 2> setups = {setup_of(left, -1, off_centre, how.stretch), setup_of(right, 1, off_centre, how.stretch)};
   Meeting meeting{.start = {}, .time_step = 1e300, .edge = 1e300, .speed = 0};
   for (const BodySetup& setup : setups) {
     const ModelAndState built = alone(setup);

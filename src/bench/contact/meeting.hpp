@@ -22,6 +22,7 @@ struct Encounter {
   double distance = 0.5;      // of their boxes at the start, at least; more for fast bodies, which begin a step apart
   double off_centre = 0.15;   // how far either is beside the line they meet on, in radii of the smaller one
   double far_away = 0;        // how far the place they meet at is from the origin, along each axis [m]
+  double stretch = 1;         // of both along their own x axes
   bool left_comes = false;    // alone, and the right one rests; otherwise they have no momentum together
 };
 

@@ -89,7 +89,7 @@ TEST_CASE("the suite contact makes one study alone if it is told to") {
   for (const ContactRow& any : result.rows) {
     const auto* row = std::get_if<CostRow>(&any);
     REQUIRE(row != nullptr);
-    CHECK((row->contacts > 0 && row->microseconds > 0));
+    CHECK((row->contacts > 0 && row->microseconds > 0 && row->microseconds_apart > 0 && row->microseconds_without > 0));
   }
 }
 
