@@ -31,9 +31,6 @@ struct Pair {
   real3 place[6];     // relative to the first corner [m]
   real3 way[6];       // expected in the step, relative to that of the first corner [m]
   real gap;
-  real slowest;
-  real elasticity;
-  real friction;
 };
 
 struct Feature {
@@ -55,11 +52,7 @@ Pair pair_of(uvec2 triangles) {
     p.place[k] = real3(LOAD3(start, start_position_of(p.vertex[k])) - origin);
     p.way[k] = real3(h * (LOAD3(expected, force_of(p.vertex[k])) - base));
   }
-  Surface a = surface[uint(rest_position[p.vertex[0]].w)], b = surface[uint(rest_position[p.vertex[3]].w)];
-  p.gap = real(gap_of_pair(a, b));
-  p.slowest = real(min(a.longest_pressed, b.longest_pressed));
-  p.elasticity = real(mean_of_pair(a.elasticity, b.elasticity));
-  p.friction = real(mean_of_pair(a.friction, b.friction));
+  p.gap = real(gap_of_pair(surface[uint(rest_position[p.vertex[0]].w)], surface[uint(rest_position[p.vertex[3]].w)]));
   return p;
 }
 
@@ -163,11 +156,12 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
       weighed_differences(LOAD3(surplus, surplus_of(0u, vertex_count, who.x)), LOAD3(surplus, surplus_of(0u, vertex_count, who.y)),
                           LOAD3(surplus, surplus_of(0u, vertex_count, who.z)), LOAD3(surplus, surplus_of(0u, vertex_count, who.w)),
                           f.weight);
+  Surface first = surface[uint(rest_position[p.vertex[0]].w)], second = surface[uint(rest_position[p.vertex[3]].w)];
   Approach a;
   a.gap = p.gap;
   a.time_step = real(control[0].time_step);
-  a.slowest = p.slowest;
-  a.elasticity = p.elasticity;
+  a.slowest = real(min(first.longest_pressed, second.longest_pressed));
+  a.elasticity = real(mean_of_pair(first.elasticity, second.elasticity));
   Course c;
   c.distance = dot(normal, weighed(f, p.place));
   c.velocity = dot(normal, velocity);
@@ -176,7 +170,8 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(normal, -surplus_now - velocity);
-  list_contact(who, f.weight, normal, least_velocity(c, a) - c.velocity, goal, p.friction, settled_speed(a), rests(c));
+  list_contact(who, f.weight, normal, least_velocity(c, a) - c.velocity, goal, real(mean_of_pair(first.friction, second.friction)),
+               settled_speed(a), rests(c));
 }
 
 // A contact whose points are near each other now.

@@ -155,9 +155,11 @@ class Impulse final : public Response {
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
-    if (keeps_impulses())
+    if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
+      passes.back().beside_next = has_pairs_;  // pairs of bodies know no contacts
+    }
     if (has_pairs_) {
       // A GPU waits for its slowest thread. One in software gains nothing, but so tests see what others do.
       const bool is_gpu = arrays.device().info().kind == DeviceKind::gpu;
@@ -169,6 +171,7 @@ class Impulse final : public Response {
                                   {"threads_at_once", items_at_once_},
                                   {"most_threads_of_a_pair", is_gpu ? 16u : 1u}},
                                  items_at_once_));
+      passes.back().beside_next = ground_count_ > 0;  // both only add to the list of contacts
     }
     if (ground_count_ > 0)
       passes.push_back(make_pass(arrays, "meet_grounds",

@@ -36,12 +36,13 @@ TEST_CASE("whole numbers in halves add, turn and become doubles as integers of 6
   }
 }
 
-// In fp32, which shaders have. Numbers stand on both sides of where a low half turns its sign.
+// In fp32, which shaders have. They convert by halves. Numbers stand on both sides of where a low half turns its sign.
 TEST_CASE("whole numbers in halves become floats and come from them, rounded as floats are") {
   for (const std::int64_t number : telling_numbers()) {
     CAPTURE(number);
     const auto exact = static_cast<double>(number);
-    CHECK(std::abs(static_cast<double>(physics32::real_of(in_halves(number))) - exact) <= 0x1p-23 * std::abs(exact));
+    for (const float rounded : {physics32::real_of(in_halves(number)), physics32::real_by_halves(in_halves(number))})
+      CHECK(std::abs(static_cast<double>(rounded) - exact) <= 0x1p-23 * std::abs(exact));
   }
   for (const float number :
        {0.0f, 1.0f, -1.0f, 5.25f, -5.25f, 0x1p31f, -0x1p31f, 0x1.fffffep30f, -0x1.fffffep30f, 0x1p32f, -0x1p32f, 0x1.8p32f,
@@ -49,7 +50,9 @@ TEST_CASE("whole numbers in halves become floats and come from them, rounded as 
     CAPTURE(number);
     const auto whole = static_cast<std::int64_t>(std::round(number));
     CHECK(physics32::halves_of_real(number) == in_halves(whole));
-    CHECK(physics32::real_of(physics32::halves_of_real(number)) == static_cast<float>(whole));
+    CHECK(physics32::halves_by_halves(number) == in_halves(whole));
+    CHECK(physics32::real_of(in_halves(whole)) == static_cast<float>(whole));
+    CHECK(physics32::real_by_halves(in_halves(whole)) == static_cast<float>(whole));
   }
 }
 

@@ -60,16 +60,27 @@ REAL_BEGIN
 using std::floor;
 #endif
 // The low half counts with a sign, so that small numbers keep their digits.
-FN real real_of(IN(uvec2) halves) {
+FN real real_by_halves(IN(uvec2) halves) {
   int low = int(halves.x);
   return real(int(halves.y) + (low < 0 ? 1 : 0)) * real(4294967296.0) + real(low);
 }
 
 // Of a whole number near this one. Expects one below 2^62.
-FN uvec2 halves_of_real(real number) {
+FN uvec2 halves_by_halves(real number) {
   real size = abs(number), high = floor(size * (real(1) / real(4294967296.0)));
   uvec2 halves = uvec2(uint((size - high * real(4294967296.0)) + real(0.5)), uint(high));
   return number < real(0) ? negative_of(halves) : halves;
 }
+
+// Processors convert all 64 bits at once.
+#ifdef __cplusplus
+FN real real_of(IN(uvec2) halves) { return static_cast<real>(std::bit_cast<std::int64_t>(halves)); }
+FN uvec2 halves_of_real(real number) {
+  return std::bit_cast<uvec2>(static_cast<std::int64_t>(number + std::copysign(real(0.5), number)));
+}
+#else
+real real_of(uvec2 halves) { return real_by_halves(halves); }
+uvec2 halves_of_real(real number) { return halves_by_halves(number); }
+#endif
 REAL_END
 #endif
