@@ -11,7 +11,7 @@ static_assert(static_cast<std::uint32_t>(TriangleTest::certified) == physics::ce
 static_assert(static_cast<std::uint32_t>(TriangleTest::moller) == physics::moller_test);
 
 // tree_search.cpp says why threads must not be too few.
-constexpr std::uint32_t least_threads = 4096, most_threads = 16384;
+constexpr std::uint32_t least_test_threads = 4096, most_test_threads = 16384;
 
 std::uint32_t largest_triangle_count(const Model& model) {
   std::uint32_t largest = 0;
@@ -32,7 +32,7 @@ Touching::Touching(DeviceBodies& bodies, const Model& model, TriangleTest test, 
 }
 
 Pass Touching::testing_pass(std::uint32_t half) const {
-  const std::uint32_t pairs = std::clamp(parallel_items_, least_threads, most_threads) / physics::threads_per_leaf_pair;
+  const std::uint32_t pairs = std::clamp(parallel_items_, least_test_threads, most_test_threads) / physics::threads_per_leaf_pair;
   return make_pass(bodies_.arrays, "test_pairs",
                    {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", triangle_test_},

@@ -9,7 +9,7 @@ namespace {
 // Only the device knows the lengths of lists, so a fixed number of threads shares them in strides. That costs less than an
 // indirect dispatch, which needs a barrier in front of it: on NVIDIA 2 us against 3.3. Threads must not be too few, because
 // Mesa's llvmpipe silently stops what has gone through loops 65,535 times.
-constexpr std::uint32_t least_threads = 4096;
+constexpr std::uint32_t least_search_threads = 4096;
 
 std::vector<glm::uvec2> trees_of(const Forest& forest) {
   std::vector<glm::uvec2> trees;
@@ -45,7 +45,7 @@ std::vector<glm::uvec4> cut_nodes(const Forest& forest, unsigned start_depth) {
 }  // namespace
 
 std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs) {
-  return std::clamp<std::uint32_t>(std::max(parallel_items, least_threads) / threads_per_pair, 1, most_pairs);
+  return std::clamp<std::uint32_t>(std::max(parallel_items, least_search_threads) / threads_per_pair, 1, most_pairs);
 }
 
 TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t parallel_items, std::uint32_t most_near_pairs)
