@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "device/cpu/spring_sums.hpp"
 #include "mesh/generators.hpp"
 #include "model/deform.hpp"
@@ -9,9 +11,12 @@
 namespace pliant {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double most_pairs_tried = 1e7;       // sum of N (N - 1) over all bodies: 0.1 s a step on a CPU
 constexpr double shortest_calibration = 0.02;  // of a step [s]; on a GPU shorter steps have other rates
-constexpr int coarsest = 3, finest = 7;        // spheres of 642 to 163,842 vertices
+constexpr std::chrono::seconds longest_trial{1};
+constexpr int coarsest = 3, finest = 7;  // spheres of 642 to 163,842 vertices
 
 double pair_count(const Model& model) {
   double pairs = 0;
@@ -26,17 +31,21 @@ State deformed(const ModelAndState& start) {
   return state;
 }
 
-// Times a second step, unless that would take long, because the first also pays for what is done once.
+// Times a second step, unless that would take long, because the first also pays for what is done once. A step that falls into
+// many parts is left after a second, and the rest of it is taken to be like the part that was made.
 double seconds_of_step(Device& device, const ModelAndState& start, TimePlan plan, const CollisionDescription& collision) {
   plan.tolerance.reset();
   Simulation trial(device, start.model, deformed(start), plan, collision);
   const auto timed_step = [&] {
+    const double before = trial.report().time;
     Stopwatch watch;
     watch.time([&] {
-      trial.advance(1);
+      const auto end = Clock::now() + longest_trial;
+      trial.advance(1, [end] { return Clock::now() > end; });
       device.finish();
     });
-    return watch.seconds();
+    const double made = trial.report().time - before;
+    return made > 0 ? watch.seconds() * plan.time_step / made : watch.seconds();
   };
   const double first = timed_step();
   return first < 1 ? timed_step() : first;

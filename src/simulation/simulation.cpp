@@ -89,13 +89,14 @@ void Simulation::queue(std::uint64_t steps) {
   }
 }
 
-void Simulation::advance(std::uint64_t steps) {
+void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
   if (parts() == nullptr) return queue(steps);
   const std::uint64_t target = parts()->download().front().steps + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     queue(left);
     left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
+    if (stops && stops()) return;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -80,8 +81,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves.
-  void advance(std::uint64_t steps);
+  /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
+  /// into parts, it asks `stops` between them. A yes ends it in the midst of a step, where another call goes on.
+  void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
   /// With a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits and

@@ -73,7 +73,7 @@ std::string described(const Model& model, const Overlap& overlap) {
   const std::string names =
       fmt::format("bodies \"{}\" and \"{}\" intersect", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
   return overlap.depth > 0 ? fmt::format("{}, at least {:.3g} m deep", names, overlap.depth)
-                           : fmt::format("{}, less deep than an edge is long", names);
+                           : fmt::format("{}, with no vertex of one inside the other", names);
 }
 
 std::string way_apart(const Model& model, const Overlap& overlap) {

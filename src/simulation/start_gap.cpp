@@ -12,9 +12,11 @@
 #include <glm/vector_relational.hpp>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "collision/responses/impulse.hpp"
 #include "core/counted.hpp"
+#include "model/inside.hpp"
 #include "physics/contact/features.glsl"
 
 namespace pliant {
@@ -56,20 +58,35 @@ class NearStarts {
   std::vector<std::string> told() {
     find_near_grounds();
     find_near_bodies();
-    if (rest_ > 0) told_.push_back(counted(rest_, "more pair begins", "more pairs begin") + " nearer than the gap");
+    if (rest_ > 0)
+      told_.push_back(counted(rest_, "more pair begins", "more pairs begin") + " nearer than the gap, or inside each other");
     return std::move(told_);
   }
 
  private:
-  void tell(const std::string& who, double distance, double gap) {
-    if (told_.size() == most_told) {
+  void tell(std::string text) {
+    if (told_.size() == most_told)
       ++rest_;
-      return;
-    }
-    told_.push_back(
+    else
+      told_.push_back(std::move(text));
+  }
+
+  void tell_near(const std::string& who, double distance, double gap) {
+    tell(
         fmt::format("{} {:.3g} m apart, nearer than the gap of {:.3g} m that contacts keep: the first step pushes them "
                     "apart, which adds energy; move them further apart",
                     who, distance, gap));
+  }
+
+  void tell_enclosed(const ModelBody& inner, const ModelBody& outer) {
+    tell(fmt::format("body \"{}\" begins inside body \"{}\", and contacts keep it there; move it out if it should not be",
+                     inner.name, outer.name));
+  }
+
+  // Whether the first box's body has the second box's body inside. They do not intersect, so one vertex tells.
+  bool encloses(const StartBox& outer, const StartBox& inner) const {
+    return glm::all(glm::lessThan(outer.lower, inner.lower)) && glm::all(glm::lessThan(inner.upper, outer.upper)) &&
+           is_enclosed(positions_[model_.bodies[inner.index].first_vertex], model_, model_.bodies[outer.index], positions_);
   }
 
   void find_near_grounds() {
@@ -85,7 +102,7 @@ class NearStarts {
       distance = std::min(distance, glm::dot(ground.normal, p) - ground.offset);
     const double gap = physics::gap_above(ground_of(ground, collision_), surfaces_[index]);
     if (distance < near_enough * gap)
-      tell(fmt::format("body \"{}\" and the ground of {} begin", body.name, ground.where.place), distance, gap);
+      tell_near(fmt::format("body \"{}\" and the ground of {} begin", body.name, ground.where.place), distance, gap);
   }
 
   void find_near_bodies() {
@@ -105,6 +122,8 @@ class NearStarts {
   void compare(const StartBox& a, const StartBox& b) {
     const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
     if (first.is_static && second.is_static) return;
+    if (encloses(a, b)) tell_enclosed(second, first);
+    if (encloses(b, a)) tell_enclosed(first, second);
     const double gap = physics::gap_of_pair(surfaces_[a.index], surfaces_[b.index]);
     std::vector<StartBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
     boxes.insert(boxes.end(), others.begin(), others.end());
@@ -114,9 +133,9 @@ class NearStarts {
         nearest = std::min(nearest, distance_of(s.index, t.index));
     });
     if (nearest < near_enough * gap)
-      tell(fmt::format("bodies \"{}\" and \"{}\" begin", model_.bodies[std::min(a.index, b.index)].name,
-                       model_.bodies[std::max(a.index, b.index)].name),
-           nearest, gap);
+      tell_near(fmt::format("bodies \"{}\" and \"{}\" begin", model_.bodies[std::min(a.index, b.index)].name,
+                            model_.bodies[std::max(a.index, b.index)].name),
+                nearest, gap);
   }
 
   // Boxes of the body's triangles that are no further from the other body's box than that.

@@ -145,12 +145,24 @@ Origin origin_of_length(const SceneDescription& scene) {
   return where.from == Origin::From::nowhere ? Origin{Origin::From::file, scene.file.string()} : where;
 }
 
-std::uint64_t count_steps(const SceneDescription& scene, double time_step) {
-  const double count = std::round(scene.simulation.duration / time_step);  // with a tolerance: at least so many
-  if (!(count <= physics::most_steps()))
-    throw Error(origin_of_length(scene), "the run takes more than 3e8 steps",
-                "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
-  return static_cast<std::uint64_t>(count);
+// The body that asks for the shortest steps, by its stiffest spring or its damping.
+const ModelBody& most_demanding(const Model& model, DampingLaw law) {
+  return *std::ranges::max_element(model.bodies, {}, [law](const ModelBody& body) {
+    return std::max(std::sqrt(stiffest_frequency_squared(body)), largest_damping_rate(body, law));
+  });
+}
+
+// Expects a plan with its bound. With a tolerance there are at least so many steps.
+std::uint64_t count_steps(const SceneDescription& scene, const Model& model, const TimePlan& plan, double time_step) {
+  const double count = std::round(scene.simulation.duration / time_step);
+  if (count <= physics::most_steps()) return static_cast<std::uint64_t>(count);
+  if (!scene.simulation.time_step && time_step < 1 / plan.frame_rate)
+    throw Error(origin_of_length(scene),
+                fmt::format("the run takes more than 3e8 steps, because body \"{}\" bounds them by {:.3g} s",
+                            most_demanding(model, plan.damping_law).name, plan.step_bound),
+                "lower its stiffness or damping, raise its mass, or shorten the duration");
+  throw Error(origin_of_length(scene), "the run takes more than 3e8 steps",
+              "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");
 }
 
 }  // namespace
@@ -202,12 +214,12 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   const double longest_drag = shortest_bound(plan, model, [](auto&... what) { return drag_bound(what...); });
   if (plan.tolerance) {
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
-    count_steps(scene, std::min(plan.step_bound, 1 / plan.frame_rate));
+    count_steps(scene, model, plan, std::min(plan.step_bound, 1 / plan.frame_rate));
   } else {
     plan.time_step = simulation.time_step.value_or(
         automatic_step(std::min(plan.integrator->strained_bound * plan.step_bound, longest_drag), plan.frame_rate));
     expect_drag_resolved(plan, longest_drag, simulation);
-    plan.steps = steps ? *steps : count_steps(scene, plan.time_step);
+    plan.steps = steps ? *steps : count_steps(scene, model, plan, plan.time_step);
   }
   return plan;
 }

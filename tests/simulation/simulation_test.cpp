@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 
 #include "collision/contacts/oracle.hpp"
 #include "support/collision_scene.hpp"
@@ -328,6 +329,32 @@ TEST_CASE("in each part of a step a body's tree is refitted or counted as skippe
   CHECK(report.refits_skipped % 2 == 0);  // of two bodies either both are another's partner or none is
   CHECK(report.refits_skipped < 2 * parts);
   CHECK(report.nodes_refitted == nodes_of_a_search(simulation.collider()) * (parts - report.refits_skipped / 2));
+}
+
+TEST_CASE("a step can be left between its parts, and goes on to the same bits, after saving too") {
+  auto setups = colliding_spheres();
+  for (BodySetup& setup : setups) {
+    setup.description.position *= 3;
+    setup.description.velocity *= 20;
+  }
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const auto device = make_cpu_device(1, 32);
+  const auto made = [&] {
+    return std::make_unique<Simulation>(*device, start.model, start.state, plan_of(usual), CollisionDescription{});
+  };
+  const auto whole = made(), left = made(), resumed = made();
+  whole->advance(20);
+  while (left->report().substeps == 0) left->advance(1, [] { return true; });
+  const StepReport between = left->report();
+  REQUIRE(between.steps < 20);
+  REQUIRE(between.time != Approx(static_cast<double>(between.steps) * plan_of(usual).time_step).epsilon(1e-6));
+  resumed->restore(left->save());
+  for (Simulation* each : {left.get(), resumed.get()}) {
+    each->advance(20 - each->report().steps);
+    CHECK(each->report().steps == 20);
+    CHECK(each->report().substeps == whole->report().substeps);
+    CHECK(each->state().motion == whole->state().motion);
+  }
 }
 
 TEST_CASE("a force evaluation counts every ordered pair of a body's vertices") {

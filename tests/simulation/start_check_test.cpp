@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <fstream>
 
 #include "device/cpu/cpu_device.hpp"
 #include "model/load_bodies.hpp"
@@ -12,6 +13,7 @@
 #include "simulation/start_gap.hpp"
 #include "simulation/time_plan.hpp"
 #include "support/expect_error.hpp"
+#include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
@@ -80,6 +82,22 @@ TEST_CASE("bodies that begin nearer than their gap are named, and those that kee
   CHECK(Start(beside(1)).told().empty());
   CHECK(Start("[collision]\ngap = 0.02\n" + beside(0.5)).told().empty());
   CHECK(Start("[collision]\ngap = 0.1\n" + beside(1)).told().size() == 1);
+}
+
+TEST_CASE("a body that begins inside a closed one is named, and one in a bowl or beside it is not") {
+  const std::string small = "[[body]]\nname = \"small\"\nmesh = \"icosphere:1\"\nscale = 0.25\n";
+  const std::vector<std::string> told = Start(small + ball).told();
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Catch::Contains("body \"small\" begins inside body \"ball\"") && Catch::Contains("move it out"));
+  CHECK(Start(ball + small).told() == told);
+  CHECK(Start(ball + small + "position = [0.8, 0.8, 0.8]\n").told().empty());  // in the ball's box
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path / "bowl.obj")
+      << "v -4 -1 -4\nv 4 -1 -4\nv 4 -1 4\nv -4 -1 4\nv -4 4 -4\nv 4 4 -4\nv 4 4 4\nv -4 4 4\n"
+         "f 1 2 3\nf 1 3 4\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+  const std::string bowl =
+      "[[body]]\nname = \"bowl\"\nkind = \"static\"\nmesh = \"" + (folder.path / "bowl.obj").string() + "\"\n";
+  CHECK(Start(bowl + small).told().empty());
 }
 
 TEST_CASE("a body that begins nearer to a ground than the gap is named, with the ground's line") {

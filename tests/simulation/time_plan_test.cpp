@@ -332,6 +332,20 @@ TEST_CASE("the first step of a tolerance is no longer than a frame, and the run 
   check_says(error_of([&] { return plan_time(scene, model); }), {"3e8 steps", "frame_rate"});
 }
 
+TEST_CASE("the body that needs so many steps is named, unless the scene says how long a step is") {
+  std::vector<BodySetup> setups = {sphere(0), sphere(0), sphere(0)};
+  const char* names[] = {"soft", "light", "heavy"};
+  for (std::size_t k = 0; k < setups.size(); ++k) setups[k].description.name = names[k];
+  setups[1].description.vertex_mass = 1e-20;
+  setups[2].description.vertex_mass = 100;
+  const Model model = build_model(setups, glm::dvec3(0.0)).model;
+  SceneDescription scene = scene_with("cv8", DampingLaw::none);
+  const Error error = error_of([&] { return plan_time(scene, model); });
+  check_says(error, {"3e8 steps", "body \"light\" bounds them", "raise its mass"});
+  scene.simulation.time_step = 1e-12;
+  CHECK(std::string(error_of([&] { return plan_time(scene, model); }).what()).find("light") == std::string::npos);
+}
+
 TEST_CASE("a number of steps and a tolerance exclude each other") {
   SceneDescription scene = scene_with("dop853", DampingLaw::none);
   scene.simulation.tolerance = 1e-6;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -76,11 +77,22 @@ double median_microseconds(const std::vector<Window>& windows, std::size_t fewes
   return median(std::move(microseconds));
 }
 
+// A driver may replace kernels while they run, which takes seconds. So this waits for windows that take the same.
+void warm_up(Spheres& spheres) {
+  Stopwatch warming;
+  double before = 0, latest = 0;
+  do {
+    before = latest;
+    warming.time([&] { latest = spheres.watch().seconds; });
+  } while (warming.seconds() < warming_time ||
+           (std::abs(latest - before) > 0.1 * before && warming.seconds() < 10 * warming_time));
+}
+
 // Of steps in which spheres are far apart.
 double microseconds_in_flight(Device& device, int level, double edges_a_step, const char* response) {
   Spheres spheres(device, level, edges_a_step, far_apart, response);
+  warm_up(spheres);
   std::vector<Window> windows;
-  for (Stopwatch warming; warming.seconds() < warming_time;) warming.time([&] { spheres.watch(); });
   for (int k = 0; k < 9; ++k) windows.push_back(spheres.watch());
   return median_microseconds(windows, 0);
 }
