@@ -52,7 +52,7 @@ struct Pass {
   std::string_view name;  // the kernel's
   KernelCall call;
   std::uint32_t item_count = 0;
-  bool beside_next = false;  // the next pass need not wait for this one: neither writes what the other uses
+  bool beside_next = false;  // the next pass need not wait for this one: neither writes what the other uses, but by atomics
 };
 
 /// One way of summing springs that a device knows: its name says how.

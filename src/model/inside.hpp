@@ -8,7 +8,7 @@ namespace pliant {
 /// inside. `positions` are those of the model's vertices in the world [m]. Takes the time of a loop over the body's triangles.
 [[nodiscard]] bool is_inside(const glm::dvec3& point, const Model& model, const ModelBody& body,
                              std::span<const glm::dvec3> positions);
-/// Returns whether they fill all directions, but for a hundredth. A bowl does not.
+/// Returns whether the body's triangles fill all directions, but for a hundredth. A bowl does not.
 [[nodiscard]] bool is_enclosed(const glm::dvec3& point, const Model& model, const ModelBody& body,
                                std::span<const glm::dvec3> positions);
 

@@ -25,6 +25,8 @@ constexpr double told_growth = 1.05;
 
 // Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts.
 constexpr double ruinous_growth = 1e3;
+// The same where there was no energy to compare with, in units of smallest_energy().
+constexpr double ruinous_growth_of_none = 1e15;
 
 // A run warns of cuts if there are so many, and this part of all motions of vertices in parts of steps with a contact. Ordinary
 // contacts cut less than 2e-4 of them.
@@ -89,8 +91,9 @@ double energy_growth(const RunProgress& progress, const Model& model) {
 
 bool has_blown_up(const RunStatus& status) {
   const Model& model = status.run.start.model;
-  return status.report.substeps > 0 && energy_had(status.progress, model) >= smallest_energy(model) &&
-         energy_growth(status.progress, model) >= ruinous_growth;
+  const bool has_measure = energy_had(status.progress, model) >= smallest_energy(model);
+  return status.report.substeps > 0 &&
+         energy_growth(status.progress, model) >= (has_measure ? ruinous_growth : ruinous_growth_of_none);
 }
 
 std::optional<std::string> instability_of(const RunStatus& status) {

@@ -23,8 +23,9 @@ struct RunStatus {
 /// start and what gravity has given or taken at most.
 [[nodiscard]] double energy_growth(const RunProgress& progress, const Model& model);
 
-/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts. A
-/// run that began without energy goes on. Holds for the latest row of the history.
+/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts. If
+/// it had no energy to compare with, a thousand times the energy_scale of its forces counts. Holds for the latest row of the
+/// history.
 [[nodiscard]] bool has_blown_up(const RunStatus& status);
 
 /// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its

@@ -115,7 +115,7 @@ class Run {
   void advance_by(std::uint64_t steps) {
     const double before = progress_.times.stepping.seconds();
     step([&] {
-      run_.simulation->advance(steps, is_interrupted);
+      run_.simulation->advance(steps);
       return run_.simulation->report();
     });
     const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;

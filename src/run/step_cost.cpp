@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <tuple>
+#include <utility>
 
 #include "device/cpu/spring_sums.hpp"
 #include "mesh/generators.hpp"
@@ -44,11 +46,11 @@ double seconds_of_step(Device& device, const ModelAndState& start, TimePlan plan
       trial.advance(1, [end] { return Clock::now() > end; });
       device.finish();
     });
-    const double made = trial.report().time - before;
-    return made > 0 ? watch.seconds() * plan.time_step / made : watch.seconds();
+    return std::pair(watch.seconds(), (trial.report().time - before) / plan.time_step);
   };
-  const double first = timed_step();
-  return first < 1 ? timed_step() : first;
+  auto [seconds, part] = timed_step();
+  if (seconds < 1 || part < 0.5) std::tie(seconds, part) = timed_step();
+  return part > 0 ? seconds / part : seconds;
 }
 
 ModelAndState sphere(int level) {

@@ -287,7 +287,7 @@ void read_table(TableReader& table, BodyDescription& body) {
 void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   if (!node.is_array())
     fail(node, "body", fmt::format("is {}", type_name(node)),
-         is_override(node) ? "name a body and a key, as in --set body.NAME.velocity=[1,0,0]" : "begin each body with [[body]]");
+         is_override(node) ? "name a body and a key, as in --set 'body.NAME.velocity=[1,0,0]'" : "begin each body with [[body]]");
   for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
     const toml::node& table = (*node.as_array())[i];
     BodyDescription body;

@@ -102,9 +102,8 @@ glm::dvec3 way_out(std::span<const glm::dvec3> first, std::span<const glm::dvec3
 
 }  // namespace
 
-double usual_gap(const Model& model, const ModelBody& body, const CollisionDescription& collision) {
-  const physics::Surface surface = surface_of(model, body, collision);
-  return physics::gap_of_pair(surface, surface);
+double gap_between(const Model& model, const ModelBody& a, const ModelBody& b, const CollisionDescription& collision) {
+  return physics::gap_of_pair(surface_of(model, a, collision), surface_of(model, b, collision));
 }
 
 Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> bodies,
@@ -118,8 +117,8 @@ Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, 
       if (depth > found.depth) found = {.first = bodies[i], .second = bodies[j], .depth = depth};
     }
   const ModelBody &first = model.bodies[found.first], &second = model.bodies[found.second];
-  found.way_out = way_out(vertices_of(first, positions), vertices_of(second, positions),
-                          std::max(usual_gap(model, first, collision), usual_gap(model, second, collision)));
+  found.way_out =
+      way_out(vertices_of(first, positions), vertices_of(second, positions), gap_between(model, first, second, collision));
   return found;
 }
 

@@ -13,11 +13,12 @@ namespace pliant {
 struct Overlap {
   std::uint32_t first = 0, second = 0;
   double depth = 0;         // from a vertex of one to the surface of the other that it is inside, at least [m]; 0: none is inside
-  glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by the larger of their usual gaps [m]
+  glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by their gap [m]
 };
 
-/// Returns the distance that contacts by impulses keep between two such bodies [m].
-[[nodiscard]] double usual_gap(const Model& model, const ModelBody& body, const CollisionDescription& collision);
+/// Returns the distance that contacts by impulses keep between two bodies [m].
+[[nodiscard]] double gap_between(const Model& model, const ModelBody& a, const ModelBody& b,
+                                 const CollisionDescription& collision);
 
 /// Returns the two of these bodies that lie deepest in each other, as far as it can tell. There have to be two or more.
 /// `positions` are those of the model's vertices in the world [m].

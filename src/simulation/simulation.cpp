@@ -96,7 +96,7 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     queue(left);
     left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
-    if (stops && stops()) return;
+    if (left > 0 && stops && stops()) return;
   }
 }
 

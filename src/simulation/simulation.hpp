@@ -82,7 +82,7 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, it asks `stops` between them. A yes ends it in the midst of a step, where another call goes on.
+  /// into parts, it asks `stops` now and then. A yes ends it in the midst of a step, where another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }

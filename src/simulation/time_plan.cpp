@@ -145,10 +145,10 @@ Origin origin_of_length(const SceneDescription& scene) {
   return where.from == Origin::From::nowhere ? Origin{Origin::From::file, scene.file.string()} : where;
 }
 
-// The body that asks for the shortest steps, by its stiffest spring or its damping.
-const ModelBody& most_demanding(const Model& model, DampingLaw law) {
-  return *std::ranges::max_element(model.bodies, {}, [law](const ModelBody& body) {
-    return std::max(std::sqrt(stiffest_frequency_squared(body)), largest_damping_rate(body, law));
+// The body with the shortest bound on steps.
+const ModelBody& most_demanding(const TimePlan& plan, const Model& model) {
+  return *std::ranges::min_element(model.bodies, {}, [&](const ModelBody& body) {
+    return std::min(step_bound(*plan.integrator, body, plan.damping_law), drag_bound(*plan.integrator, body, plan.damping_law));
   });
 }
 
@@ -158,8 +158,8 @@ std::uint64_t count_steps(const SceneDescription& scene, const Model& model, con
   if (count <= physics::most_steps()) return static_cast<std::uint64_t>(count);
   if (!scene.simulation.time_step && time_step < 1 / plan.frame_rate)
     throw Error(origin_of_length(scene),
-                fmt::format("the run takes more than 3e8 steps, because body \"{}\" bounds them by {:.3g} s",
-                            most_demanding(model, plan.damping_law).name, plan.step_bound),
+                fmt::format("the run takes more than 3e8 steps, because body \"{}\" needs them as short as {:.3g} s",
+                            most_demanding(plan, model).name, time_step),
                 "lower its stiffness or damping, raise its mass, or shorten the duration");
   throw Error(origin_of_length(scene), "the run takes more than 3e8 steps",
               "shorten the duration, or lengthen the time step (with a tolerance: lower output.frame_rate)");

@@ -296,7 +296,7 @@ TEST_CASE("overrides replace all grounds together, and reach no key of one") {
     for (const std::string& text : {grounds, smallest})
       check_override_error(text, key, {"grounds have no names", "--set 'ground=[{height=1}]'"});
   check_override_error(grounds, "ground=5", {"is a whole number", "--set 'ground=[{height=1}]'"});
-  check_override_error(grounds, "body=5", {"is a whole number", "--set body.NAME.velocity"});
+  check_override_error(grounds, "body=5", {"is a whole number", "--set 'body.NAME.velocity"});
 }
 
 TEST_CASE("the drawn floor is the first ground that is level and faces up") {

@@ -38,7 +38,8 @@ TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bo
   CHECK(overlap.first == 0);
   CHECK(overlap.second == 1);
   CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
-  CHECK(overlap.way_out.x == Approx(0.15 + usual_gap(start.model, start.model.bodies[0], {})).epsilon(1e-6));
+  CHECK(overlap.way_out.x ==
+        Approx(0.15 + gap_between(start.model, start.model.bodies[0], start.model.bodies[1], {})).epsilon(1e-6));
   CHECK(not_apart(start.model, positions) > 0);
   CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
 }

@@ -35,7 +35,7 @@ class Start {
 
   std::vector<std::string> told() const { return told_near_starts(start_.model, start_.state, scene_.collision); }
   // That bodies of one mesh keep [m].
-  double gap() const { return usual_gap(start_.model, start_.model.bodies[0], scene_.collision); }
+  double gap() const { return gap_between(start_.model, start_.model.bodies[0], start_.model.bodies[0], scene_.collision); }
 
  private:
   SceneDescription scene_;

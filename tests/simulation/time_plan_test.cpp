@@ -341,7 +341,7 @@ TEST_CASE("the body that needs so many steps is named, unless the scene says how
   const Model model = build_model(setups, glm::dvec3(0.0)).model;
   SceneDescription scene = scene_with("cv8", DampingLaw::none);
   const Error error = error_of([&] { return plan_time(scene, model); });
-  check_says(error, {"3e8 steps", "body \"light\" bounds them", "raise its mass"});
+  check_says(error, {"3e8 steps", "body \"light\" needs them", "raise its mass"});
   scene.simulation.time_step = 1e-12;
   CHECK(std::string(error_of([&] { return plan_time(scene, model); }).what()).find("light") == std::string::npos);
 }

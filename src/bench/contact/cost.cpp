@@ -27,7 +27,7 @@ constexpr double stretched = 1.01;    // along an axis, so that no force is left
 // So many parts of steps, in a row.
 struct Window {
   double seconds = 0;        // a part
-  std::size_t contacts = 0;  // impulses in the last part
+  std::size_t contacts = 0;  // impulses in its last part
 };
 
 class Spheres {
@@ -50,7 +50,7 @@ class Spheres {
             .contacts = simulation_.contact_impulses().size()};
   }
 
-  // The spheres' way through each other, or until they part again.
+  // From the start until they part again, but no more than so many windows.
   std::vector<Window> watch_all() {
     std::vector<Window> windows;
     do windows.push_back(watch());
@@ -108,7 +108,7 @@ CostRow measure_cost(Device& device, int level, double edges_a_step) {
   row.microseconds_apart = microseconds_in_flight(device, level, edges_a_step, "impulse");
   const std::vector<Window> windows = Spheres(device, level, edges_a_step, 0.5, "impulse").watch_all();
   row.contacts = Spheres::most_contacts(windows);
-  row.microseconds = median_microseconds(windows, std::max<std::size_t>(3 * row.contacts / 4, 1));
+  row.microseconds = median_microseconds(windows, 3 * row.contacts / 4);
   return row;
 }
 

@@ -158,7 +158,7 @@ class Impulse final : public Response {
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
-      passes.back().beside_next = has_pairs_;  // pairs of bodies know no contacts
+      passes.back().beside_next = has_pairs_;  // pairs of bodies know no contacts, and only count in `control`
     }
     if (has_pairs_) {
       // A GPU waits for its slowest thread. One in software gains nothing, but so tests see what others do.
