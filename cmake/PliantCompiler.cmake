@@ -28,8 +28,8 @@ function(pliant_precompile_headers target)
 endfunction()
 
 # Compiles the files of a folder as one, in about half the time: they share headers and what templates become. An argument such as
-# "scene|run" joins folders. So names outside of classes differ among files that are joined, also those in anonymous namespaces. Files
-# that have options or a precision of their own stay alone.
+# "scene|run" joins folders of src/ or tests/, with what is below them. So names outside of classes differ among files that are joined,
+# also those in anonymous namespaces. Files that have options or a precision of their own stay alone.
 option(PLIANT_UNITE_FOLDERS "Compile the files of a folder together: half the time for all of it, more for a change of one file" OFF)
 function(pliant_unite_folders target)
   if(NOT PLIANT_UNITE_FOLDERS)
