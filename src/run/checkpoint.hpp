@@ -25,6 +25,7 @@ struct RunTimes {
 /// What a run knows besides its simulation.
 struct RunProgress {
   std::uint64_t recorded_steps = 0;  // steps at the latest row of the history
+  double recorded_time = 0;          // of that row [s]; a step that was left between its parts has more than its steps say
   std::uint64_t next_frame = 1;      // with a tolerance: the frame that steps lead to
   std::uint64_t frames_written = 0;  // number of frames
   Measurement first, latest;         // of the start, and of the latest row

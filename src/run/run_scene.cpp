@@ -61,7 +61,7 @@ class Run {
     report_ = run_.simulation->report();
     if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // replaces another run's at once
     if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
-    if (report_.steps == 0)
+    if (report_.time == 0)
       begin();
     else
       state_ = run_.simulation->state();
@@ -115,7 +115,7 @@ class Run {
   void advance_by(std::uint64_t steps) {
     const double before = progress_.times.stepping.seconds();
     step([&] {
-      run_.simulation->advance(steps);
+      run_.simulation->advance(steps, is_interrupted);
       return run_.simulation->report();
     });
     const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
@@ -131,25 +131,25 @@ class Run {
   void step(const Advance& advance) {
     report_ = progress_.times.stepping.time(advance);
     if (!options_.quiet) show_progress(status());
-    if (checkpoints_.is_due() && report_.steps > 0) keep_checkpoint(progress_, history_.text());
+    if (checkpoints_.is_due() && report_.time > 0) keep_checkpoint(progress_, history_.text());
   }
 
-  // If the run has failed, the checkpoint before is worth more. At step 0 the history has no row yet.
+  // If the run has failed, the checkpoint before is worth more. A run begins anew from time 0.
   void keep_checkpoint(RunProgress progress, const std::string& history) {
     if (has_failed()) return;
     progress.times = progress_.times;
     progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
   }
 
-  // An interrupt may have put the latest row between two frames, or left it without its energy. So the checkpoint is from before
-  // that row, and a resumed run makes the row again.
+  // An interrupt may have put the latest row between two frames, even between two parts of a step, or left it without its energy.
+  // So the checkpoint is from before that row, and a resumed run makes the row again.
   void keep_interrupted() {
     if (checkpoints_.is_wanted() && is_interrupted())
       keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
   }
 
   void record_unless_recorded() {
-    if (report_.steps != progress_.recorded_steps) record();
+    if (report_.steps != progress_.recorded_steps || report_.time != progress_.recorded_time) record();
   }
 
   void record() {
@@ -157,9 +157,10 @@ class Run {
     state_ = run_.simulation->state();
     Measurement& now = progress_.latest;
     now = progress_.times.measuring.time([&] { return measured(); });
-    if (report_.steps == 0) progress_.first = now;
+    if (report_.time == 0) progress_.first = now;
     note_energy();
     progress_.recorded_steps = report_.steps;
+    progress_.recorded_time = report_.time;
     has_blown_up_ = has_blown_up(status());
     warn_of_forces();
     history_.append({.step = report_.steps,

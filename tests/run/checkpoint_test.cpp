@@ -139,6 +139,36 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   check_same_run(whole, part);
 }
 
+TEST_CASE("a run that is interrupted between the parts of a step goes on there, and ends as one that is not") {
+  const ScratchFolder folder;
+  const std::string scene = (folder.path / "scene.toml").string(), checkpoint = (folder.path / "run.checkpoint").string();
+  const double step = 0.02;  // all but the first fall into a hundred parts, and take a third of a second
+  std::ofstream(scene)
+      << "[simulation]\ntime_step = 0.02\nduration = 0.08\nintegrator = \"verlet\"\n[output]\nframe_rate = 10\n"
+      << "[[body]]\nname = \"left\"\nmesh = \"icosphere:3\"\nposition = [-2.2, 0, 0]\nvelocity = [50, 0, 0]\n"
+      << "[[body]]\nname = \"right\"\nmesh = \"icosphere:3\"\nposition = [2.2, 0.3, 0]\nvelocity = [-50, 0, 0]\n";
+  const auto whole = folder.path / "whole", part = folder.path / "part";
+  REQUIRE(run_program("run " + scene + " --device cpu --quiet --out " + whole.string()).exit_code == 0);
+  double steps = 0, time = 0;
+  for (int tries = 0; tries < 20 && !(time > step * steps); ++tries) {  // some interrupts come just between two steps
+    ProgramInTerminal program({"run", scene, "--device", "cpu", "--out", part.string(), "--checkpoint", checkpoint});
+    REQUIRE(program.has_shown_progress(1));  // after the first step
+    CHECK(program.end_by(SIGINT).exit_code == 130);
+    const ReadJson account = account_in(part);
+    steps = account["steps"].get<double>();
+    time = account["simulated_seconds"].get<double>();
+  }
+  CAPTURE(steps, time);
+  CHECK(steps >= 1);
+  CHECK(time > step * steps);
+  CHECK(time < step * (steps + 1));
+  const ProgramResult resumed = run_program("run --resume " + checkpoint);
+  CAPTURE(resumed.output);
+  REQUIRE(resumed.exit_code == 0);
+  CHECK(account_in(whole) == account_in(part));
+  for (const char* name : {"history.csv", "final_state.csv"}) CHECK(read_text(whole / name) == read_text(part / name));
+}
+
 TEST_CASE("a run that goes non-finite leaves the checkpoint from before, from which it does so again") {
   const ScratchFolder folder;
   const std::string checkpoint = (folder.path / "run.checkpoint").string(),
