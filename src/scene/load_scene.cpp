@@ -134,14 +134,20 @@ class TableReader {
     if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
   }
 
-  void allow_one_of(const char* first, const char* second) const {
-    const toml::node* node = peek(second);
-    if (peek(first) != nullptr && node != nullptr)
-      fail(*node, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
+  /// If both are there, an override replaces the other one of the file.
+  void allow_one_of(const char* first, const char* second) {
+    const toml::node *one = peek(first), *other = peek(second);
+    if (one == nullptr || other == nullptr) return;
+    if (is_override(*one) == is_override(*other))
+      fail(*other, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
+    replaced_.emplace_back(is_override(*one) ? second : first);
+    known_.emplace_back(replaced_.back());
   }
 
   /// Returns null if the key is absent. Does not make the key a known one.
-  const toml::node* peek(const char* key) const { return table_.get(key); }
+  const toml::node* peek(const char* key) const {
+    return std::ranges::find(replaced_, key) == replaced_.end() ? table_.get(key) : nullptr;
+  }
 
   const toml::node* find(const char* key) {
     known_.emplace_back(key);
@@ -166,8 +172,8 @@ class TableReader {
   }
 
   const toml::table& table_;
-  std::string path_;  // such as "collision.tree"
-  std::vector<std::string> known_;
+  std::string path_;                           // such as "collision.tree"
+  std::vector<std::string> known_, replaced_;  // keys
 };
 
 // ---- The scene's keys ----
@@ -187,10 +193,10 @@ const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts"
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("integrator", simulation.integrator);
+  table.allow_one_of("time_step", "tolerance");
   const toml::node* time_step = table.find("time_step");
   if (time_step != nullptr && time_step->value<std::string>() != "auto")
     convert(*time_step, "simulation.time_step", simulation.time_step, positive_or_auto);
-  table.allow_one_of("time_step", "tolerance");
   table.read("tolerance", simulation.tolerance, error_tolerance);
   simulation.tolerance_where = table.where("tolerance");
   table.read("duration", simulation.duration, not_negative);

@@ -59,7 +59,8 @@ class NearStarts {
     find_near_grounds();
     find_near_bodies();
     if (rest_ > 0)
-      told_.push_back(counted(rest_, "more pair begins", "more pairs begin") + " nearer than the gap, or inside each other");
+      told_.push_back(counted(rest_, "more warning", "more warnings") +
+                      " of bodies that begin nearer than the gap, or inside another");
     return std::move(told_);
   }
 
@@ -164,7 +165,7 @@ class NearStarts {
   std::vector<glm::dvec3> positions_;
   std::vector<physics::Surface> surfaces_;
   std::vector<std::string> told_;
-  std::size_t rest_ = 0;  // pairs beyond those told
+  std::size_t rest_ = 0;  // texts beyond those told
 };
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST_CASE("of many bodies that begin too near eight pairs are named, and the res
     row += fmt::format("[[body]]\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n", k * (2 + 0.5 * Start(ball).gap()));
   const std::vector<std::string> told = Start(row).told();
   REQUIRE(told.size() == 9);
-  CHECK_THAT(told[8], Catch::StartsWith("3 more pairs begin"));
+  CHECK_THAT(told[8], Catch::StartsWith("3 more warnings of bodies that begin"));
 }
 
 }  // namespace
