@@ -179,7 +179,7 @@ double undamped_amplification(const Integrator& integrator, double omega_step) {
 double stiffest_frequency_squared(const ModelBody& body) {
   double sum = 0;
   for (const Force& force : forces())
-    if (force.acts_on(body)) sum += force.frequency_squared(body);
+    if (feels(body, force)) sum += force.frequency_squared(body);
   return sum;
 }
 

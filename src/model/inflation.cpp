@@ -17,9 +17,11 @@ namespace {
 void expect_encloses(const BodySetup& setup) {
   const MeshReport report = report_mesh(setup.mesh);
   if (!report.closed)
-    throw body_error(setup.description,
-                     fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
-                     "close the mesh, weld vertices that stand in one place (such as weld = 1e-6), or leave the pressure out");
+    throw body_error(
+        setup.description,
+        fmt::format("pressure needs a closed mesh, but {} edges have only one triangle", report.boundary_edge_count),
+        fmt::format("close the mesh, {}or leave the pressure out",
+                    setup.description.weld > 0 ? "" : "weld vertices that stand in one place (such as weld = 1e-6), "));
   if (report.inconsistent_edge_count > 0)
     throw body_error(setup.description,
                      fmt::format("pressure needs triangles that wind alike, but at {} edges not as many run forward as backward",

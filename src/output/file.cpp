@@ -46,10 +46,31 @@ std::filesystem::path new_file_beside(const std::filesystem::path& place) {
   return name;
 }
 
+// While a pipe is held so, opening it for writing does not wait. Throws Error (command_line) if nobody reads the pipe: writing
+// would wait for ever.
+class PipeWithReader {
+ public:
+  explicit PipeWithReader(const std::filesystem::path& path) {
+    std::error_code failure;
+    if (!std::filesystem::is_fifo(path, failure)) return;
+    file_ = open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file_ < 0 && errno == ENXIO)
+      throw Error(ErrorKind::command_line, path.string(), "is a pipe that nobody reads", "read it, or name another place");
+  }
+  ~PipeWithReader() {
+    if (file_ >= 0) ::close(file_);
+  }
+  PipeWithReader(const PipeWithReader&) = delete;
+  PipeWithReader& operator=(const PipeWithReader&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
 // Waits until the disk holds the file, and returns false if writing failed. Devices and some file systems can't wait: the
 // result for them is true.
 bool is_on_disk(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return true;
   const int result = fsync(file);
   const bool failed = result != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT);
@@ -81,6 +102,7 @@ void expect_plain_or_none(const std::filesystem::path& path) {
 
 OutputFile::OutputFile(const std::filesystem::path& path, Begin begin) : path_(path) {
   make_folder_of(path);
+  const PipeWithReader pipe(path);
   stream_.open(path, begin == Begin::at_end ? std::ios::binary | std::ios::app : std::ios::binary);
   require(stream_.good(), "can't be written");
 }

@@ -89,6 +89,8 @@ class CheckpointKeeper {
   CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
+  /// Whether the latest write() succeeded.
+  [[nodiscard]] bool holds_latest() const { return has_one_ && problem_.empty(); }
   [[nodiscard]] bool is_due() const { return is_wanted() && Clock::now() - latest_ >= interval_; }
   /// Writes a checkpoint. If it can't, it warns once for each reason. The run goes on, and the checkpoint before it stays.
   void write(const Checkpoint& checkpoint);

@@ -37,14 +37,13 @@ double smallest_energy(const Model& model) {
   double scale = std::numeric_limits<double>::min();
   for (const ModelBody& body : model.bodies)
     for (const Force& force : forces())
-      if (force.acts_on(body)) scale = std::max(scale, 1e-12 * force.energy_scale(body));
+      if (feels(body, force)) scale = std::max(scale, 1e-12 * force.energy_scale(body));
   return scale;
 }
 
 // A body that forces set in motion from rest starts with no energy to compare with.
 bool is_driven_from_rest(const Model& model) {
-  return std::ranges::any_of(
-      forces(), [&](const Force& force) { return !force.is_zero_at_rest && std::ranges::any_of(model.bodies, force.acts_on); });
+  return std::ranges::any_of(forces(), [&](const Force& force) { return !force.is_zero_at_rest && any_feels(model, force); });
 }
 
 // Returns the energy that energy_growth() compares with [J].

@@ -268,6 +268,8 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
+    if (!options_.quiet && is_interrupted() && checkpoints_.holds_latest())
+      fmt::print("checkpoint: {0} (go on with: pliant run --resume {0})\n", options_.checkpoint.string());
     for (const std::string& trouble : contact_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
     if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;

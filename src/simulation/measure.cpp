@@ -23,7 +23,7 @@ Measurement measure(const Model& model, const State& state, const glm::dvec3& gr
     sum.angular_momentum += glm::cross(positions[i], momentum);
   }
   for (const Force& force : forces()) {
-    if (!std::ranges::any_of(model.bodies, force.acts_on)) continue;
+    if (!any_feels(model, force)) continue;
     const double energy = force.energy({model, state, pool, stopped});
     sum.elastic += energy;
     sum.elastic_size += std::abs(energy);

@@ -345,7 +345,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   ModelAndState start = build_model(setups, {0, -1, 0});
   for (const Force& force : forces()) {
     CAPTURE(force.name);
-    REQUIRE(force.acts_on(start.model.bodies.back()));
+    REQUIRE(feels(start.model.bodies.back(), force));
   }
   setups.push_back(plate);
   GroundDescription ground;

@@ -1,9 +1,11 @@
 // Files that appear as a whole.
 #include "output/file.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
@@ -135,6 +137,26 @@ TEST_CASE("a plain file, or none, is told from pipes, devices and folders, behin
     CHECK_NOTHROW(expect_plain_or_none(path));
   for (const auto& path : {pipe, folder.path, std::filesystem::path("/dev/null"), link_to(pipe), link_to(folder.path)})
     check_says(error_of([&] { expect_plain_or_none(path); }), {path.c_str(), "is no plain file"});
+}
+
+TEST_CASE("a pipe that nobody reads is an error at once, and one with a reader is written to") {
+  const test::ScratchFolder folder;
+  const auto pipe = folder.path / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  check_says(error_of([&] { OutputFile file(pipe); }), {pipe.c_str(), "is a pipe that nobody reads"});
+  WholeFile whole(pipe);
+  whole.write("all");
+  check_says(error_of([&] { whole.close_on_disk(); }), {pipe.c_str(), "is a pipe that nobody reads"});
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  OutputFile file(pipe);
+  file.write("text");
+  file.close();
+  whole.close_on_disk();
+  std::array<char, 16> got{};
+  CHECK(read(reader, got.data(), got.size()) == 7);
+  CHECK(std::string(got.data()) == "textall");
+  close(reader);
 }
 
 TEST_CASE("a whole file whose place was taken meanwhile is an error, and leaves nothing beside it") {

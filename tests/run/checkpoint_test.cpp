@@ -123,7 +123,9 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
       {"run", scene, "--device", "cpu", "--frames", "ply", "--out", part.string(), "--checkpoint", checkpoint});
   REQUIRE(program.has_shown_progress(9));
   const std::string at_start = read_text(checkpoint);  // five minutes have not passed
-  CHECK(program.end_by(SIGINT).exit_code == 130);
+  const ProgramResult interrupted = program.end_by(SIGINT);
+  CHECK(interrupted.exit_code == 130);
+  CHECK_THAT(interrupted.output, Catch::Contains("go on with: pliant run --resume " + checkpoint));
   const auto steps = account_in(part)["steps"];
   CHECK(steps > 0);
   CHECK(steps < account_in(whole)["steps"]);

@@ -13,16 +13,20 @@ std::vector<Force>& rows() {
   return all;
 }
 
-bool acts_on_any(const Force& force, const Model& model) { return std::ranges::any_of(model.bodies, force.acts_on); }
-
 void count_as_deformed(DeviceBodies& bodies, const Force& force, const Model& model) {
   std::vector<physics::Status> statuses = bodies.statuses.download();
   for (std::size_t b = 0; b < statuses.size(); ++b)
-    if (!force.is_zero_at_rest && force.acts_on(model.bodies[b])) statuses[b].deformed = 1;
+    if (!force.is_zero_at_rest && feels(model.bodies[b], force)) statuses[b].deformed = 1;
   bodies.statuses.upload(statuses);
 }
 
 }  // namespace
+
+bool feels(const ModelBody& body, const Force& force) { return !body.is_static && force.acts_on(body); }
+
+bool any_feels(const Model& model, const Force& force) {
+  return std::ranges::any_of(model.bodies, [&](const ModelBody& body) { return feels(body, force); });
+}
 
 std::span<const Force> forces() { return rows(); }
 
@@ -30,7 +34,7 @@ void add_force(const Force& force) { rows().push_back(force); }
 
 AddedForces::AddedForces(DeviceBodies& bodies, const Model& model) {
   for (const Force& force : forces()) {
-    if (force.make == nullptr || !acts_on_any(force, model)) continue;
+    if (force.make == nullptr || !any_feels(model, force)) continue;
     forces_.push_back(force.make(bodies, model));
     count_as_deformed(bodies, force, model);
   }

@@ -35,8 +35,8 @@ struct EnergyQuestion {
 /// A force within a body. The forces on a body's vertices add up to no force and no torque. Internal damping counts on that.
 struct Force {
   std::string_view name;
-  bool is_zero_at_rest;  // a body in its rest shape feels nothing
-  bool (*acts_on)(const ModelBody& body);
+  bool is_zero_at_rest;                    // a body in its rest shape feels nothing
+  bool (*acts_on)(const ModelBody& body);  // is asked by feels()
   /// Returns the energy of all bodies together [J]. It has the same bits on any number of threads.
   double (*energy)(const EnergyQuestion& question);
   /// Returns an energy that is large for the body [J]: 1e-12 of it counts as rounding.
@@ -49,6 +49,11 @@ struct Force {
   /// gets the same text again at a later state, so that a run tells it once. Null if the force has nothing to tell.
   std::vector<std::string> (*warnings)(const Model& model, const State& state);
 };
+
+/// Returns whether the force acts on the body. Static bodies feel none.
+[[nodiscard]] bool feels(const ModelBody& body, const Force& force);
+/// Returns whether any body does.
+[[nodiscard]] bool any_feels(const Model& model, const Force& force);
 
 /// Returns all forces, the springs first.
 [[nodiscard]] std::span<const Force> forces();

@@ -86,7 +86,7 @@ class AddedPressure final : public AddedForce {
   std::uint32_t part_count_;
 };
 
-std::unique_ptr<AddedForce> make(DeviceBodies& bodies, const Model& model) {
+std::unique_ptr<AddedForce> make_pressure(DeviceBodies& bodies, const Model& model) {
   return std::make_unique<AddedPressure>(bodies, shells_of(model));
 }
 
@@ -173,7 +173,7 @@ Force pressure() {
           .energy = pressure_energy,
           .energy_scale = pressure_energy_scale,
           .frequency_squared = pressure_frequency_squared,
-          .make = make,
+          .make = make_pressure,
           .warnings = warnings};
 }
 

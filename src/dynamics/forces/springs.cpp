@@ -73,7 +73,6 @@ double spring_energy(const EnergyQuestion& question) {
   return sum;
 }
 
-bool acts_on(const ModelBody& body) { return !body.is_static; }
 double spring_energy_scale(const ModelBody& body) { return 0.5 * body.stiffness * body.radius * body.radius; }
 double spring_frequency_squared(const ModelBody& body) { return body.vertex_count * body.stiffness / body.vertex_mass; }
 
@@ -82,7 +81,7 @@ double spring_frequency_squared(const ModelBody& body) { return body.vertex_coun
 Force springs() {
   return {.name = "springs",
           .is_zero_at_rest = true,
-          .acts_on = acts_on,
+          .acts_on = [](const ModelBody&) { return true; },
           .energy = spring_energy,
           .energy_scale = spring_energy_scale,
           .frequency_squared = spring_frequency_squared,

@@ -37,7 +37,7 @@ std::vector<Example> examples() {
     if (all.size() == before)
       FAIL("the force \"" << force.name << "\" has no example: add one to force_examples() in tests/support/own_rows.cpp");
   }
-  for (const Example& example : all) REQUIRE(example.row->acts_on(example.start.model.bodies.front()));
+  for (const Example& example : all) REQUIRE(feels(example.start.model.bodies.front(), *example.row));
   return all;
 }
 
@@ -82,6 +82,15 @@ double largest_distance(const std::vector<glm::dvec3>& a, const std::vector<glm:
 double energy_of(const Force& force, const Model& model, const State& state) {
   ThreadPool pool(1);
   return force.energy({model, state, pool, nullptr});
+}
+
+TEST_CASE("a static body feels no force") {
+  for (const Example& example : examples()) {
+    ModelBody body = example.start.model.bodies.front();
+    CHECK(feels(body, *example.row));
+    body.is_static = true;
+    CHECK_FALSE(feels(body, *example.row));
+  }
 }
 
 TEST_CASE("forces within a body sum up to no force and no torque") {
