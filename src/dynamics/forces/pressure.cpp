@@ -16,7 +16,7 @@
 namespace pliant {
 namespace {
 
-bool has_pressure(const ModelBody& body) { return body.inflation.pressure > 0; }
+bool has_pressure(const ModelBody& body) { return !body.is_static && body.inflation.pressure > 0; }
 
 /// The arrays of all bodies with pressure.
 struct Shells {
@@ -153,7 +153,7 @@ std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at)
   return {};
 }
 
-std::vector<std::string> warnings(const Model& model, const State& state) {
+std::vector<std::string> pressure_warnings(const Model& model, const State& state) {
   const std::vector<glm::dvec3> positions = positions_of(model, state);
   std::vector<std::string> all;
   for (const ModelBody& body : model.bodies) {
@@ -174,7 +174,7 @@ Force pressure() {
           .energy_scale = pressure_energy_scale,
           .frequency_squared = pressure_frequency_squared,
           .make = make_pressure,
-          .warnings = warnings};
+          .warnings = pressure_warnings};
 }
 
 }  // namespace pliant
