@@ -46,8 +46,8 @@ std::filesystem::path new_file_beside(const std::filesystem::path& place) {
   return name;
 }
 
-// While a pipe is held so, opening it for writing does not wait. Throws Error (command_line) if nobody reads the pipe: writing
-// would wait for ever.
+// Holds a pipe open, so that its reader sees no end before the file is opened. Throws Error (command_line) if nobody reads it,
+// because opening it would wait for ever.
 class PipeWithReader {
  public:
   explicit PipeWithReader(const std::filesystem::path& path) {

@@ -236,7 +236,7 @@ CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<Fi
   expect_place_for_checkpoint(file_);
 }
 
-void CheckpointKeeper::write(const Checkpoint& checkpoint) {
+bool CheckpointKeeper::write(const Checkpoint& checkpoint) {
   try {
     write_checkpoint(file_, to_bytes(checkpoint));
     has_one_ = true;
@@ -248,6 +248,7 @@ void CheckpointKeeper::write(const Checkpoint& checkpoint) {
     problem_ = error.what();
   }
   latest_ = Clock::now();
+  return problem_.empty();
 }
 
 }  // namespace pliant

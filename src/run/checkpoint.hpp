@@ -25,7 +25,7 @@ struct RunTimes {
 /// What a run knows besides its simulation.
 struct RunProgress {
   std::uint64_t recorded_steps = 0;  // steps at the latest row of the history
-  double recorded_time = 0;          // of that row [s]; a step that was left between its parts has more than its steps say
+  double recorded_time = 0;          // of that row [s]: within a step, if the run was ended between its parts
   std::uint64_t next_frame = 1;      // with a tolerance: the frame that steps lead to
   std::uint64_t frames_written = 0;  // number of frames
   Measurement first, latest;         // of the start, and of the latest row
@@ -89,11 +89,10 @@ class CheckpointKeeper {
   CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock);
 
   [[nodiscard]] bool is_wanted() const { return !file_.empty(); }
-  /// Whether the latest write() succeeded.
-  [[nodiscard]] bool holds_latest() const { return has_one_ && problem_.empty(); }
   [[nodiscard]] bool is_due() const { return is_wanted() && Clock::now() - latest_ >= interval_; }
-  /// Writes a checkpoint. If it can't, it warns once for each reason. The run goes on, and the checkpoint before it stays.
-  void write(const Checkpoint& checkpoint);
+  /// Writes a checkpoint, and returns whether it could. If not, it warns once for each reason. The run goes on, and the
+  /// checkpoint before it stays.
+  bool write(const Checkpoint& checkpoint);
 
  private:
   using Clock = std::chrono::steady_clock;

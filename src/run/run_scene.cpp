@@ -51,7 +51,7 @@ class Run {
                            .first = static_cast<int>(progress_.frames_written)}),
         history_(from ? HistoryFile(folder_ / history_name, std::move(from->checkpoint.history))
                       : HistoryFile(folder_ / history_name)),
-        before_row_{progress_, history_.text().size()} {
+        before_row_{progress_, history_.text().size(), prepared.warnings.size()} {
     progress_.times.loading.add(prepared.load_time);
     progress_.times.building.add(prepared.build_time);
   }
@@ -59,7 +59,7 @@ class Run {
   int execute() try {
     if (options_.timings) run_.simulation->time_passes();
     report_ = run_.simulation->report();
-    if (checkpoints_.is_wanted()) keep_checkpoint(progress_, history_.text());  // replaces another run's at once
+    if (checkpoints_.is_wanted()) keep_checkpoint(now());  // replaces another run's at once
     if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
     if (report_.time == 0)
       begin();
@@ -79,6 +79,13 @@ class Run {
   }
 
  private:
+  // What a checkpoint holds of a run beside its simulation.
+  struct Place {
+    RunProgress progress;
+    std::size_t history_length, warning_count;
+  };
+  Place now() const { return {progress_, history_.text().size(), run_.warnings.size()}; }
+
   RunStatus status() { return {options_, run_, progress_, report_}; }
   bool has_failed() const { return report_.breakdown || has_blown_up_; }
   bool stopped() const { return is_interrupted() || has_failed(); }
@@ -131,21 +138,22 @@ class Run {
   void step(const Advance& advance) {
     report_ = progress_.times.stepping.time(advance);
     if (!options_.quiet) show_progress(status());
-    if (checkpoints_.is_due() && report_.time > 0) keep_checkpoint(progress_, history_.text());
+    if (checkpoints_.is_due() && report_.time > 0) keep_checkpoint(now());
   }
 
   // If the run has failed, the checkpoint before is worth more. A run begins anew from time 0.
-  void keep_checkpoint(RunProgress progress, const std::string& history) {
-    if (has_failed()) return;
-    progress.times = progress_.times;
-    progress_.times.saving.time([&] { checkpoints_.write(checkpoint_of(options_, run_, progress, history)); });
+  bool keep_checkpoint(const Place& at) {
+    if (has_failed()) return false;
+    Checkpoint checkpoint = checkpoint_of(options_, run_, at.progress, history_.text().substr(0, at.history_length));
+    checkpoint.progress.times = progress_.times;
+    checkpoint.warnings.resize(at.warning_count);
+    return progress_.times.saving.time([&] { return checkpoints_.write(checkpoint); });
   }
 
   // An interrupt may have put the latest row between two frames, even between two parts of a step, or left it without its energy.
   // So the checkpoint is from before that row, and a resumed run makes the row again.
   void keep_interrupted() {
-    if (checkpoints_.is_wanted() && is_interrupted())
-      keep_checkpoint(before_row_.progress, history_.text().substr(0, before_row_.history_length));
+    if (checkpoints_.is_wanted() && is_interrupted()) leaves_checkpoint_ = keep_checkpoint(before_row_);
   }
 
   void record_unless_recorded() {
@@ -153,11 +161,11 @@ class Run {
   }
 
   void record() {
-    before_row_ = {progress_, history_.text().size()};
+    before_row_ = now();
     state_ = run_.simulation->state();
-    Measurement& now = progress_.latest;
-    now = progress_.times.measuring.time([&] { return measured(); });
-    if (report_.time == 0) progress_.first = now;
+    Measurement& latest = progress_.latest;
+    latest = progress_.times.measuring.time([&] { return measured(); });
+    if (report_.time == 0) progress_.first = latest;
     note_energy();
     progress_.recorded_steps = report_.steps;
     progress_.recorded_time = report_.time;
@@ -165,11 +173,11 @@ class Run {
     warn_of_forces();
     history_.append({.step = report_.steps,
                      .time = report_.time,
-                     .kinetic = now.kinetic,
-                     .elastic = now.elastic,
-                     .gravitational = now.gravitational,
-                     .momentum = now.momentum,
-                     .angular_momentum = now.angular_momentum,
+                     .kinetic = latest.kinetic,
+                     .elastic = latest.elastic,
+                     .gravitational = latest.gravitational,
+                     .momentum = latest.momentum,
+                     .angular_momentum = latest.angular_momentum,
                      .contact_steps = report_.contact_steps,
                      .reverted_vertices = report_.reverted_vertices,
                      .outside_impulse = report_.response.outside_impulse,
@@ -268,8 +276,8 @@ class Run {
     write_summary(folder_ / summary_name, summary_of(status()));
     has_summary_ = true;
     if (!options_.quiet) show_end(status());
-    if (!options_.quiet && is_interrupted() && checkpoints_.holds_latest())
-      fmt::print("checkpoint: {0} (go on with: pliant run --resume {0})\n", options_.checkpoint.string());
+    if (!options_.quiet && leaves_checkpoint_)
+      fmt::print("checkpoint: {0} (go on with: pliant run --resume '{0}')\n", options_.checkpoint.string());
     for (const std::string& trouble : contact_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
     if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;
@@ -293,16 +301,14 @@ class Run {
   std::unique_ptr<FileLock> video_lock_;
   FrameSink frames_;  // made before any file is touched, because drawing may be impossible here
   HistoryFile history_;
-  struct {
-    RunProgress progress;
-    std::size_t history_length;
-  } before_row_;  // as they were before the latest row
+  Place before_row_;  // the latest one
   StepReport report_;
   int first_frame_ = frames_.count();
   std::uint64_t batch_ = 1;  // steps between reports
   State state_;
   bool has_blown_up_ = false;
   bool has_state_ = false, has_summary_ = false;  // this run has written them
+  bool leaves_checkpoint_ = false;                // of where it was interrupted
 };
 
 // Throws Error if the folder can't be made or written to. It tries by making and removing the first missing folder, because
@@ -326,7 +332,13 @@ void expect_folder(const std::filesystem::path& folder) {
 void expect_outputs(const RunOptions& options) {
   const std::filesystem::path folder = folder_of(options);
   expect_folder(folder);
-  for (const char* name : output_names) expect_replaceable(folder / name);
+  for (const char* name : output_names) {
+    std::error_code failure;
+    if (std::filesystem::is_fifo(folder / name, failure))
+      throw Error(ErrorKind::command_line, (folder / name).string(), "is a pipe, and a run writes files",
+                  "name another place by --out");
+    expect_replaceable(folder / name);
+  }
   if (options.frames != FrameFormat::none) expect_folder(folder / "frames");
 }
 
@@ -362,7 +374,7 @@ int run_scene(const RunOptions& given) {
     show_check(prepared);
     return 0;
   }
-  watch_for_interrupts("the steps in hand");
+  watch_for_interrupts("the steps in hand, or a part of one");
   return Run(options, prepared, std::move(from)).execute();
 }
 

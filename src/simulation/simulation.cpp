@@ -109,7 +109,8 @@ void Simulation::add_parts(StepReport& report) const {
   report.held_parts = made.held;
   if (pacer_) return;
   report.steps = made.steps;
-  report.time = made.left == physics::smallest_parts ? static_cast<double>(made.steps) * fixed_step_ : made.simulated;
+  const double part_over = 1 - made.left / static_cast<double>(physics::smallest_parts);  // of the step in hand
+  report.time = (static_cast<double>(made.steps) + part_over) * fixed_step_;
   report.substeps = made.parts - made.steps;
 }
 

@@ -1,4 +1,6 @@
 // What a run leaves in its folder.
+#include <sys/stat.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -201,13 +203,25 @@ TEST_CASE("Ctrl-C and SIGTERM end a run early and write what there is") {
     REQUIRE(program.has_shown_progress(3));
     const ProgramResult result = program.end_by(signal);
     CHECK(result.exit_code == 130);
-    CHECK_THAT(result.output, Catch::Contains("pliant: ends after the steps in hand; another Ctrl-C"));
+    CHECK_THAT(result.output, Catch::Contains("pliant: ends after the steps in hand, or a part of one; another Ctrl-C"));
     const auto summary = summary_in(folder.path);
     CHECK(summary["steps"] > 0);
     CHECK(summary["steps"] < 100000000);
     CHECK(summary["interrupted"] == true);
     CHECK(summary["energy"]["final"].is_number());
     CHECK(line_count(read_text(folder.path / "final_state.csv")) == 1 + 84);
+  }
+}
+
+TEST_CASE("a pipe in the place of an output is an error before any step") {
+  for (const std::string name : {"history.csv", "final_state.csv", "summary.json"}) {
+    const ScratchFolder folder;
+    REQUIRE(mkfifo((folder.path / name).c_str(), 0600) == 0);
+    const ProgramResult result =
+        run_program("run " + small_scene(folder).string() + " --device cpu --out " + folder.path.string());
+    CHECK(result.exit_code == 2);
+    CHECK_THAT(result.output, Catch::Contains(name) && Catch::Contains("is a pipe"));
+    CHECK(std::filesystem::is_fifo(folder.path / name));
   }
 }
 

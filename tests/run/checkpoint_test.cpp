@@ -125,7 +125,7 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   const std::string at_start = read_text(checkpoint);  // five minutes have not passed
   const ProgramResult interrupted = program.end_by(SIGINT);
   CHECK(interrupted.exit_code == 130);
-  CHECK_THAT(interrupted.output, Catch::Contains("go on with: pliant run --resume " + checkpoint));
+  CHECK_THAT(interrupted.output, Catch::Contains("go on with: pliant run --resume '" + checkpoint));
   const auto steps = account_in(part)["steps"];
   CHECK(steps > 0);
   CHECK(steps < account_in(whole)["steps"]);
@@ -141,7 +141,7 @@ TEST_CASE("a run that is interrupted leaves a checkpoint of where it stood, from
   check_same_run(whole, part);
 }
 
-TEST_CASE("a run that is interrupted between the parts of a step goes on there, and ends as one that is not") {
+TEST_CASE("a run that is interrupted between the parts of a step goes on there, and ends as one that is not", "[long]") {
   const ScratchFolder folder;
   const std::string scene = (folder.path / "scene.toml").string(), checkpoint = (folder.path / "run.checkpoint").string();
   const double step = 0.02;  // all but the first fall into a hundred parts, and take a third of a second
@@ -154,8 +154,8 @@ TEST_CASE("a run that is interrupted between the parts of a step goes on there, 
   double steps = 0, time = 0;
   for (int tries = 0; tries < 20 && !(time > step * steps); ++tries) {  // some interrupts come just between two steps
     ProgramInTerminal program({"run", scene, "--device", "cpu", "--out", part.string(), "--checkpoint", checkpoint});
-    REQUIRE(program.has_shown_progress(1));  // after the first step
-    CHECK(program.end_by(SIGINT).exit_code == 130);
+    REQUIRE(program.has_shown_progress(1));                 // after the first step
+    if (program.end_by(SIGINT).exit_code != 130) continue;  // it was over
     const ReadJson account = account_in(part);
     steps = account["steps"].get<double>();
     time = account["simulated_seconds"].get<double>();
