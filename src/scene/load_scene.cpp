@@ -134,14 +134,13 @@ class TableReader {
     if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
   }
 
-  /// If both are there, an override replaces the other one of the file.
-  void allow_one_of(const char* first, const char* second) {
+  /// If both are there, an override replaces the other one of the file. Call it before either is read.
+  void keep_one_of(const char* first, const char* second) {
     const toml::node *one = peek(first), *other = peek(second);
     if (one == nullptr || other == nullptr) return;
     if (is_override(*one) == is_override(*other))
       fail(*other, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
     replaced_.emplace_back(is_override(*one) ? second : first);
-    known_.emplace_back(replaced_.back());
   }
 
   /// Returns null if the key is absent. Does not make the key a known one.
@@ -193,7 +192,7 @@ const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts"
 
 void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("integrator", simulation.integrator);
-  table.allow_one_of("time_step", "tolerance");
+  table.keep_one_of("time_step", "tolerance");
   const toml::node* time_step = table.find("time_step");
   if (time_step != nullptr && time_step->value<std::string>() != "auto")
     convert(*time_step, "simulation.time_step", simulation.time_step, positive_or_auto);
@@ -274,10 +273,10 @@ void read_table(TableReader& table, BodyDescription& body) {
   if (body.stretch == glm::dvec3(0.0))
     throw Error(table.where("stretch"), "presses the body into one point, where no spring has a direction",
                 "write a factor other than 0 for an axis");
-  table.allow_one_of("stiffness", "total_stiffness");
+  table.keep_one_of("stiffness", "total_stiffness");
   table.read("stiffness", body.stiffness, not_negative);
   table.read("total_stiffness", body.total_stiffness, not_negative);
-  table.allow_one_of("vertex_mass", "total_mass");
+  table.keep_one_of("vertex_mass", "total_mass");
   table.read("vertex_mass", body.vertex_mass, positive);
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
@@ -309,8 +308,8 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
 
 void read_table(TableReader& table, GroundDescription& ground) {
   double height = 0;
-  table.allow_one_of("height", "point");
-  table.allow_one_of("height", "normal");
+  table.keep_one_of("height", "point");
+  table.keep_one_of("height", "normal");
   table.read("height", height, coordinate);
   ground.point.y = height;
   table.read("point", ground.point, coordinate);

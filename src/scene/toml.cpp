@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/extension.hpp"
 
 namespace pliant {
 namespace {
@@ -44,7 +45,7 @@ std::size_t line_of_assertion(const std::string& text) {
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file) {
   const auto fail_at = [&](std::size_t line, const std::string& what) {
     return Error(ErrorKind::input, fmt::format("{}:{}", file.string(), line), what,
-                 file.extension() == ".obj"
+                 extension_of(file) == ".obj"
                      ? "a mesh is no scene: show it by pliant view, or name it as the mesh of a body in a scene"
                      : "correct the TOML, where texts stand in quotes");
   };

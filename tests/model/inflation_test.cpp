@@ -41,6 +41,15 @@ double sum_of_areas(const TriangleMesh& mesh) {
   return glm::length(sum);
 }
 
+TEST_CASE("pressure takes no open mesh, and advises to weld one that is not welded") {
+  TriangleMesh open = tetrahedron(1);
+  open.triangles.pop_back();
+  BodySetup setup = inflated(open);
+  check_says(error_of([&] { return built(setup); }), {"3 edges have only one triangle", "such as weld = 1e-6"});
+  setup.description.weld = 1e-6;
+  CHECK_THAT(error_of([&] { return built(setup); }).what(), !Catch::Contains("weld vertices"));
+}
+
 TEST_CASE("pressure takes no mesh whose areas do not cancel, though no edge has a triangle alone") {
   TriangleMesh shared = tetrahedron(1);
   shared.positions.emplace_back(-1, 0, 0);

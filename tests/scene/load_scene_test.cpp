@@ -371,6 +371,11 @@ TEST_CASE("a missing scene and a folder are input errors that name the path") {
   check_says(folder, {"is a folder"});
 }
 
+TEST_CASE("a mesh is no scene, and is told so") {
+  const Error mesh = error_of([] { return load_scene(source_dir() + "/meshes/teapot.obj"); });
+  CHECK_THAT(mesh.what(), Catch::Contains("show it by pliant view"));
+}
+
 TEST_CASE("overrides replace, add and reach into sections that the file lacks") {
   const SceneDescription scene =
       load_text("[simulation]\ntime_step = 0.5\n" + two_named,
@@ -395,11 +400,16 @@ TEST_CASE("a later override wins, and auto replaces a step") {
 }
 
 TEST_CASE("an override replaces the key of the file that it can't stand beside") {
-  const std::string text = "[simulation]\ntime_step = 0.5\n" + two_named;
-  const SceneDescription scene = load_text(text, {"body.left.total_stiffness=7", "simulation.tolerance=1e-6"});
-  CHECK(scene.bodies[0].total_stiffness == 7);
-  CHECK((scene.simulation.tolerance == 1e-6 && !scene.simulation.time_step));
-  const Error both = error_of([] { load_text(two_named, {"body.left.vertex_mass=1", "body.left.total_mass=1"}); });
+  const std::string stiffness = "[simulation]\ntime_step = 0.5\n" + smallest + "stiffness = 3\n",
+                    total = "[simulation]\ntolerance = 1e-6\n" + smallest + "total_stiffness = 3\n";
+  const SceneDescription by_total = load_text(stiffness, {"body.body0.total_stiffness=7", "simulation.tolerance=1e-6"});
+  CHECK((by_total.bodies[0].total_stiffness == 7 && by_total.bodies[0].stiffness == BodyDescription().stiffness));
+  CHECK((by_total.simulation.tolerance == 1e-6 && !by_total.simulation.time_step));
+  const SceneDescription by_one = load_text(total, {"body.body0.stiffness=7", "simulation.time_step=0.25"});
+  CHECK((!by_one.bodies[0].total_stiffness && by_one.bodies[0].stiffness == 7));
+  CHECK((!by_one.simulation.tolerance && by_one.simulation.time_step == 0.25));
+  CHECK_FALSE(load_text(total, {"simulation.time_step=auto"}).simulation.tolerance);
+  const Error both = error_of([] { return load_text(two_named, {"body.left.vertex_mass=1", "body.left.total_mass=1"}); });
   CHECK_THAT(both.what(), Catch::Contains("can't be combined with vertex_mass"));
 }
 
