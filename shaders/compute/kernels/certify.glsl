@@ -114,7 +114,7 @@ void cut_short(IN(Case) c, uint cut_round) {
 
 void certify(uint item, uint cut_round) {
   uvec2 triangles = uvec2(triangle_pair[item].x, triangle_pair[item].y & ~ways_meet);
-  if (!overlaps_at_once(box_of_ways(triangles.x), box_of_ways(triangles.y))) return;
+  if (!overlaps(box_of_ways(triangles.x), box_of_ways(triangles.y))) return;
   uint who[6];
   bool changed = false;
   for (uint k = 0u; k < 3u; ++k) {

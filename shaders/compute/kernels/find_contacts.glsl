@@ -22,6 +22,7 @@ PARAMETER(uint, threads_at_once)
 PARAMETER(uint, most_threads_of_a_pair)
 
 #include "parts/add_contact.glsl"
+#include "parts/boxes_in_motion.glsl"
 
 // What is the same for all contacts of a pair of triangles.
 struct Pair {
@@ -264,35 +265,26 @@ void meet_feature(IN(Pair) p, uint feature) {
     meet_edges(p, (feature - 6u) / 3u, (feature - 6u) % 3u);
 }
 
-// The box of the way of a triangle's corner.
-Box way_box(uint t, uint k) {
-  uint at = way_box_of(triangle[corner_of(t, k)]);
-  Box box;
-  box.lower = vec3(cage[at]);
-  box.upper = vec3(cage[at + 1u]);
-  return box;
-}
-
 // Returns those of the wanted features whose ways come near each other, as far as the boxes of the corners' ways tell.
 uint near_features(uvec2 triangles, uint wanted) {
-  Box first[3], second[3];
+  Reach first[3], second[3];
   for (uint k = 0u; k < 3u; ++k) {
-    first[k] = way_box(triangles.x, k);
-    second[k] = way_box(triangles.y, k);
+    first[k] = way_of_corner(triangles.x, k);
+    second[k] = way_of_corner(triangles.y, k);
   }
-  Box edges[3];
+  Reach edges[3];
   for (uint k = 0u; k < 3u; ++k) edges[k] = joined(second[k], second[k == 2u ? 0u : k + 1u]);
-  Box all_first = joined(joined(first[0], first[1]), first[2]), all_second = joined(edges[0], second[2]);
+  Reach all_first = joined(joined(first[0], first[1]), first[2]), all_second = joined(edges[0], second[2]);
   uint near = 0u;
   for (uint k = 0u; k < 3u; ++k) {
-    if (overlaps_at_once(first[k], all_second)) near |= 1u << k;
-    if (overlaps_at_once(second[k], all_first)) near |= 8u << k;
+    if (overlaps(first[k], all_second)) near |= 1u << k;
+    if (overlaps(second[k], all_first)) near |= 8u << k;
   }
   for (uint j = 0u; j < 3u; ++j) {
     if ((wanted >> (6u + 3u * j) & 7u) == 0u) continue;
-    Box edge = joined(first[j], first[j == 2u ? 0u : j + 1u]);
+    Reach edge = joined(first[j], first[j == 2u ? 0u : j + 1u]);
     for (uint k = 0u; k < 3u; ++k)
-      if (overlaps_at_once(edge, edges[k])) near |= 1u << (6u + 3u * j + k);
+      if (overlaps(edge, edges[k])) near |= 1u << (6u + 3u * j + k);
   }
   return near & wanted;
 }

@@ -14,12 +14,18 @@ WRITE(arrival)
 READ(partner_step)
 #include "parts/boxes_in_motion.glsl"
 #include "parts/kept_boxes.glsl"
-Box box_of_triangle(uint t) { return kept_box(triangle_cage_of(t)); }
+Box box_of_triangle(uint t) {
+  Reach kept = kept_box(triangle_cage_of(t));
+  Box box;
+  box.lower = vec3(kept.lower);
+  box.upper = vec3(kept.upper);
+  return box;
+}
 #include "parts/refit.glsl"
 
-void keep_box(uint at, IN(Box) box) {
-  triangle_bounds[at] = vec4(box.lower, 0);
-  triangle_bounds[at + 1u] = vec4(box.upper, 0);
+void keep_box(uint at, IN(Reach) box) {
+  triangle_bounds[at] = box.lower;
+  triangle_bounds[at + 1u] = box.upper;
 }
 
 void bound_triangles(uint begin, uint end) {

@@ -144,7 +144,8 @@ void answer(uint kick_round, bool ends) {
   if (ends) return;
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
   if (!turns) held.ahead += momentum_after(kick_round) * (held.impulse - before);
-  if (length(held.impulse - had) > held.resistance.w) note_unsettled(kick_round);
+  real4 change_of_impulse = held.impulse - had;
+  if (dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w) note_unsettled(kick_round);
 }
 
 // Where one group serves all contacts, a thread keeps its contact from the first round to the last.

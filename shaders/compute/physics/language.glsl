@@ -12,6 +12,9 @@
   #include <bit>
   #include <cstdint>
   #include <cmath>
+  #ifdef __SSE__
+    #include <xmmintrin.h>
+  #endif
   #define SHARED_BEGIN namespace pliant::physics {
   #define SHARED_END }
   namespace pliant::physics {}
@@ -86,6 +89,19 @@ using std::abs, std::sqrt;
 // glm's branches on every sign
 FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
 FN dvec3 abs(IN(dvec3) v) { return dvec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
+#ifdef __SSE__
+FN __m128 lanes(IN(vec4) v) { return _mm_loadu_ps(&v.x); }
+FN vec4 of_lanes(__m128 lanes) {
+  vec4 v;
+  _mm_storeu_ps(&v.x, lanes);
+  return v;
+}
+FN vec4 min(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_min_ps(lanes(a), lanes(b))); }
+FN vec4 max(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_max_ps(lanes(a), lanes(b))); }
+FN bool any_above_zero(IN(vec4) v) { return _mm_movemask_ps(_mm_cmpgt_ps(lanes(v), _mm_setzero_ps())) != 0; }
+#else
+FN bool any_above_zero(IN(vec4) v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0; }
+#endif
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
 FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
 FN uint atomicExchange(uint& target, uint value) { return std::atomic_ref(target).exchange(value, std::memory_order_relaxed); }
@@ -110,8 +126,11 @@ FN uint atomicCompSwap(uint& target, uint expected, uint value) {
 FN uint atomicOr(uint& target, uint bits) { return std::atomic_ref(target).fetch_or(bits, std::memory_order_acq_rel); }
 FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
 FN int bitCount(uint bits) { return std::popcount(bits); }
+FN int findLSB(uint bits) { return bits == 0 ? -1 : std::countr_zero(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
+#else
+bool any_above_zero(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0.0; }
 #endif
 // The dot and the cross product. Every device rounds them in the order written.
 FN float ordered_dot(vec3 a, vec3 b) {

@@ -40,6 +40,7 @@ class Witness {
   ApartOracle oracle_;
   ThreadPool pool_{1};
   Measurement first_;
+  glm::dvec3 first_momentum_;
   double sum_of_momenta_ = 0, sum_of_angular_momenta_ = 0;
   std::vector<glm::dvec3> before_;
 };

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -99,7 +100,8 @@ class CpuDevice final : public Device {
     PLIANT_EXPECT(call.buffers.size() <= max_arrays);
     std::array<void*, max_arrays> buffers{};
     for (std::size_t k = 0; k < call.buffers.size(); ++k) buffers[k] = bytes_of(call.buffers[k]);
-    const cpu::KernelArguments arguments{.buffers = buffers.data(), .parameters = call.parameters.data()};
+    const cpu::KernelArguments arguments{
+        .buffers = buffers.data(), .parameters = call.parameters.data(), .works_alone = pool_.size() == 1};
     const cpu::KernelEntry& entry = kernels_[call.kernel % kernels_.size()];
     if (entry.rounds.run != nullptr) {
       run_rounds(entry, arguments);
@@ -109,7 +111,7 @@ class CpuDevice final : public Device {
       run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
       return;
     }
-    pool_.for_ranges(item_count, entry.grain,
+    pool_.for_ranges(item_count, grain_of(entry),
                      [&](std::uint32_t first, std::uint32_t end) { entry.function(arguments, first, end); });
   }
   std::uint32_t parallel_items() const override { return 256; }
@@ -131,11 +133,16 @@ class CpuDevice final : public Device {
     std::uint32_t share, first, end;
   };
 
+  // One thread takes all items at once.
+  std::uint32_t grain_of(const cpu::KernelEntry& entry) const {
+    return pool_.size() == 1 ? std::numeric_limits<std::uint32_t>::max() : entry.grain;
+  }
+
   void run_rounds(const cpu::KernelEntry& entry, const cpu::KernelArguments& arguments) {
     const std::uint32_t items = entry.rounds.items(arguments), most = entry.rounds.most(arguments);
     if (items == 0) return;
     for (std::uint32_t round = 0; round < most; ++round) {
-      pool_.for_ranges(items, entry.grain,
+      pool_.for_ranges(items, grain_of(entry),
                        [&](std::uint32_t first, std::uint32_t end) { entry.rounds.run(arguments, round, first, end); });
       if (!entry.rounds.goes_on(arguments, round)) return;
     }

@@ -16,6 +16,7 @@ struct KernelArguments {
   void* const* buffers = nullptr;         // in the order in which the kernel declares them
   const Parameter* parameters = nullptr;  // in the same order
   KernelSignature* declared = nullptr;    // if not null, the kernel only says what it declares
+  bool works_alone = false;               // one thread runs all items
 };
 
 /// Hands a kernel its arguments one after another, as its members ask for them.
@@ -23,6 +24,7 @@ class ArgumentReader {
  public:
   explicit ArgumentReader(const KernelArguments& arguments) : arguments_(arguments) {}
 
+  [[nodiscard]] bool works_alone() const { return arguments_.works_alone; }
   template <class T>
   [[nodiscard]] const T* read(std::string_view array, std::string_view view = {}) {
     return static_cast<const T*>(next_buffer(array, ArrayUse::read, view));

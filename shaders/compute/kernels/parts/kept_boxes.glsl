@@ -1,7 +1,7 @@
 // Boxes of triangles as refit_cages kept them.
-Box kept_box(uint at) {
-  Box box;
-  box.lower = vec3(triangle_bounds[at]);
-  box.upper = vec3(triangle_bounds[at + 1u]);
+Reach kept_box(uint at) {
+  Reach box;
+  box.lower = triangle_bounds[at];
+  box.upper = triangle_bounds[at + 1u];
   return box;
 }

@@ -2,15 +2,27 @@
 // `first` on. Pairs are counted beyond the list's end, too.
 #include "kept_boxes.glsl"
 
+// Lists pairs of s with those of up to 32 triangles from t on that are set in `near`.
+void list_pairs(uint s, uint t, uint near, uint meeting) {
+  uint at = atomicAdd(contact_list[0].triangle_pair_count, uint(bitCount(near)));
+  for (; near != 0u; near &= near - 1u) {
+    uint k = uint(findLSB(near));
+    if (at < triangle_pair_capacity) triangle_pair[at] = uvec2(s, (t + k) | ((meeting >> k & 1u) != 0u ? ways_meet : 0u));
+    ++at;
+  }
+}
+
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
   for (uint s = a.z + first; s < a.w; s += stride) {
-    Box cages = kept_box(triangle_cage_of(s)), ways = kept_box(triangle_way_box_of(s));
-    for (uint t = b.z; t < b.w; ++t) {
-      if (!overlaps_at_once(cages, kept_box(triangle_cage_of(t)))) continue;
-      uint mark = overlaps_at_once(ways, kept_box(triangle_way_box_of(t))) ? ways_meet : 0u;
-      uint at = atomicAdd(contact_list[0].triangle_pair_count, 1u);
-      if (at < triangle_pair_capacity) triangle_pair[at] = uvec2(s, t | mark);
+    Reach cages = kept_box(triangle_cage_of(s)), ways = kept_box(triangle_way_box_of(s));
+    for (uint t = b.z; t < b.w; t += 32u) {
+      uint near = 0u, meeting = 0u;
+      for (uint k = 0u; k < min(b.w - t, 32u); ++k) {
+        if (overlaps(cages, kept_box(triangle_cage_of(t + k)))) near |= 1u << k;
+        if (overlaps(ways, kept_box(triangle_way_box_of(t + k)))) meeting |= 1u << k;
+      }
+      if (near != 0u) list_pairs(s, t, near, meeting);
     }
   }
 }

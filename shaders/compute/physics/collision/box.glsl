@@ -40,10 +40,20 @@ FN bool overlaps(Box a, Box b) {
          a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-// The same with one comparison, where processors can't foresee the results of six.
-FN bool overlaps_at_once(IN(Box) a, IN(Box) b) {
-  vec3 apart = max(a.lower - b.upper, b.lower - a.upper);
-  return max(max(apart.x, apart.y), apart.z) <= 0.0f;
+// A box whose corners have a fourth number, 0. A processor handles such a corner in one instruction.
+struct Reach { vec4 lower; vec4 upper; };
+
+FN Reach joined(IN(Reach) a, IN(Reach) b) {
+  Reach both;
+  both.lower = min(a.lower, b.lower);
+  both.upper = max(a.upper, b.upper);
+  return both;
+}
+
+// One comparison, because processors can't foresee the results of six.
+FN bool overlaps(IN(Reach) a, IN(Reach) b) {
+  vec4 apart = max(a.lower - b.upper, b.lower - a.upper);
+  return !any_above_zero(apart);
 }
 
 // Bits that order as the floats do, for atomicMin and atomicMax.

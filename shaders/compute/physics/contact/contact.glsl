@@ -70,8 +70,8 @@ FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3)
   // Projected twice: after once, fp32 leaves roundings along the normal.
   real3 friction =
       across(normal, real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (change - along * normal)));
-  real size = length(friction), most = goal_row.w * next.x;
-  if (size > most) friction *= most / size;
+  real size_squared = dot(friction, friction), most = goal_row.w * next.x;
+  if (size_squared > most * most) friction *= most / sqrt(size_squared);
   next.y = friction.x;
   next.z = friction.y;
   next.w = friction.z;

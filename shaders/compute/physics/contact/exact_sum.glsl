@@ -25,11 +25,16 @@ FN uvec2 negative_of(uvec2 a) { return sum_of(uvec2(~a.x, ~a.y), uvec2(1u, 0u));
 FN double whole_of(IN(uvec2) halves) { return static_cast<double>(std::bit_cast<std::int64_t>(halves)); }
 FN uvec2 halves_of(double whole) { return std::bit_cast<uvec2>(static_cast<std::int64_t>(whole)); }
 
-FN void add_halves(uvec2& sum, uvec2 halves) {
+FN void add_halves(uvec2& sum, uvec2 halves, bool works_alone) {
   using Sum [[gnu::may_alias]] = std::int64_t;
-  std::atomic_ref(reinterpret_cast<Sum&>(sum)).fetch_add(std::bit_cast<std::int64_t>(halves), std::memory_order_relaxed);
+  const auto whole = std::bit_cast<std::int64_t>(halves);
+  Sum& shared = reinterpret_cast<Sum&>(sum);
+  if (works_alone)
+    shared += whole;
+  else
+    std::atomic_ref(shared).fetch_add(whole, std::memory_order_relaxed);
 }
-#define ADD_LOW_HALF(sum, halves) (add_halves(sum, halves), 0u)
+#define ADD_LOW_HALF(sum, halves) (add_halves(sum, halves, works_alone), 0u)
 #define ADD_HIGH_HALF(sum, halves, before) static_cast<void>(before);
 #else
 double whole_of(uvec2 halves) { return double(int(halves.y)) * double(4294967296.0) + double(halves.x); }
