@@ -6,6 +6,7 @@
 #include <limits>
 #include <system_error>
 
+#include "collision/responses/response.hpp"
 #include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/read_text.hpp"
@@ -49,6 +50,22 @@ SceneDescription describe_scene(const std::string& text, const RunOptions& optio
 
 std::uint64_t checksum_of(const TriangleMesh& mesh) {
   return checksum(std::as_bytes(std::span(mesh.triangles)), checksum(std::as_bytes(std::span(mesh.positions))));
+}
+
+void warn_of_idle_keys(PreparedRun& run) {
+  const auto warn = [&](const Origin& where, std::string_view why) {
+    run.warnings.push_back(fmt::format("{} has no effect {}", where.place, why));
+  };
+  const std::string with_response = fmt::format("with response = \"{}\"", run.scene.collision.response.value);
+  const auto warn_without_impulses = [&](const std::vector<Origin>& keys) {
+    if (find_response(run.scene.collision.response).gives_impulses) return;
+    for (const Origin& where : keys) warn(where, with_response);
+  };
+  warn_without_impulses(run.scene.collision.impulse_keys);
+  for (const BodyDescription& body : run.scene.bodies) {
+    warn_without_impulses(body.impulse_keys);
+    for (const IdleKey& key : body.idle_keys) warn(key.where, key.why);
+  }
 }
 
 void warn_of_integrator(PreparedRun& run) {
@@ -121,6 +138,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.device = choose_device(options.device);
   expect_carried(run.scene, run.plan, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
+  warn_of_idle_keys(run);
   warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);

@@ -159,6 +159,12 @@ class TableReader {
     return node == nullptr ? Origin() : origin_of(*node, path_of(key));
   }
 
+  /// Adds where those of the keys stand that are there.
+  void note(std::initializer_list<const char*> keys, std::vector<Origin>& found) const {
+    for (const char* key : keys)
+      if (peek(key) != nullptr) found.push_back(where(key));
+  }
+
   void finish() const {
     for (const auto& [key, node] : table_)
       if (std::ranges::find(known_, key.str()) == known_.end())
@@ -228,6 +234,7 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   collision.search_where = table.where("search");
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
+  table.note({"friction", "restitution", "gap"}, collision.impulse_keys);
 }
 
 void read_table(TableReader& table, CameraDescription& camera) {
@@ -254,6 +261,15 @@ void expect_still(const TableReader& table) {
   for (const char* key : {"velocity", "spin", "stretch", "pressure"})
     if (table.peek(key) != nullptr)
       throw Error(table.where(key), "a static body neither moves nor changes its shape", fmt::format("remove {}, or kind", key));
+}
+
+void note_idle(const TableReader& table, BodyDescription& body) {
+  std::vector<Origin> of_springs, of_pressure;
+  if (body.kind == BodyKind::immovable)
+    table.note({"stiffness", "total_stiffness", "vertex_mass", "total_mass", "damping"}, of_springs);
+  if (table.peek("pressure") == nullptr) table.note({"pressure_law"}, of_pressure);
+  for (Origin& where : of_springs) body.idle_keys.push_back({std::move(where), "on a static body"});
+  for (Origin& where : of_pressure) body.idle_keys.push_back({std::move(where), "without pressure"});
 }
 
 void read_table(TableReader& table, BodyDescription& body) {
@@ -285,7 +301,9 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
+  table.note({"elasticity", "friction", "gap", "restitution"}, body.impulse_keys);
   if (body.kind == BodyKind::immovable) expect_still(table);
+  note_idle(table, body);
 }
 
 /// Returns the name in a body's table, or "body0", "body1", ... by its index.

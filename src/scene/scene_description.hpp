@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/origin.hpp"
@@ -42,6 +43,12 @@ struct SimulationDescription {
   glm::dvec3 gravity{0.0};                // [m/s^2]
 };
 
+/// A key that the scene has, and that changes nothing.
+struct IdleKey {
+  Origin where;
+  std::string_view why;
+};
+
 struct TreeDescription {
   std::optional<unsigned> max_depth;  // the root has depth 0. If empty, it grows with the triangle count
   unsigned leaf_size = 4;             // triangles
@@ -57,6 +64,7 @@ struct CollisionDescription {
   Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
+  std::vector<Origin> impulse_keys = {};  // given ones that only responses by impulses read
 };
 
 /// What contacts know of a body or a ground. What is empty is the scene's.
@@ -111,6 +119,8 @@ struct BodyDescription {
   double pressure = 0.0;                   // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
+  std::vector<Origin> impulse_keys;     // as in CollisionDescription
+  std::vector<IdleKey> idle_keys;
 };
 
 /// A half-space that bodies stay out of.

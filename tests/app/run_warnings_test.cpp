@@ -299,6 +299,29 @@ TEST_CASE("pressure in an open mesh is an error with the body's file and line") 
                     {"open.toml:4", "bag", "pressure needs a closed mesh", "3 edges"});
 }
 
+TEST_CASE("keys that change nothing are named in warnings, and no others") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "scene.toml";
+  std::ofstream(scene) << "[collision]\nfriction = 0.3\nelasticity = 0.8\n"
+                       << "[[body]]\nname = \"soft\"\nmesh = \"icosphere:1\"\ngap = 0.04\nstiffness = 30\n"
+                       << "[[body]]\nname = \"wall\"\nmesh = \"icosphere:1\"\nposition = [3, 0, 0]\n";
+  const auto told = [&](const std::string& options) {
+    const ProgramResult result = run_program("run " + scene.string() + " --device cpu --check" + options);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
+    return result.output;
+  };
+  CHECK_THAT(told(""), !Catch::Contains("no effect"));
+  const std::string reflected = told(" --set collision.response=reflect");
+  CHECK_THAT(reflected, Catch::Contains("scene.toml:2: collision.friction has no effect with response = \"reflect\"") &&
+                            Catch::Contains("scene.toml:7: body.soft.gap has no effect with") &&
+                            !Catch::Contains("elasticity has no effect"));
+  CHECK_THAT(told(" --set body.wall.kind=static --set body.wall.total_mass=2"),
+             Catch::Contains("body.wall.total_mass has no effect on a static body") && !Catch::Contains("body.soft"));
+  CHECK_THAT(told(" --set body.soft.pressure_law=constant"), Catch::Contains("pressure_law has no effect without pressure"));
+  CHECK_THAT(told(" --set body.soft.pressure_law=constant --set body.soft.pressure=1"), !Catch::Contains("no effect"));
+}
+
 TEST_CASE("a duration too short for one step is warned of") {
   const ScratchFolder folder;
   const ProgramResult result =
