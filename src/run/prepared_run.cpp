@@ -57,13 +57,13 @@ void warn_of_idle_keys(PreparedRun& run) {
     run.warnings.push_back(fmt::format("{} has no effect {}", where.place, why));
   };
   const std::string with_response = fmt::format("with response = \"{}\"", run.scene.collision.response.value);
-  const auto warn_without_impulses = [&](const std::vector<Origin>& keys) {
-    if (find_response(run.scene.collision.response).gives_impulses) return;
+  const auto warn_of_surface = [&](const std::vector<Origin>& keys) {
+    if (find_response(run.scene.collision.response).reads_surfaces) return;
     for (const Origin& where : keys) warn(where, with_response);
   };
-  warn_without_impulses(run.scene.collision.impulse_keys);
+  warn_of_surface(run.scene.collision.surface_keys);
   for (const BodyDescription& body : run.scene.bodies) {
-    warn_without_impulses(body.impulse_keys);
+    warn_of_surface(body.surface_keys);
     for (const IdleKey& key : body.idle_keys) warn(key.where, key.why);
   }
 }

@@ -29,7 +29,7 @@ struct PreparedRun {
 /// Returns a run that must not move, because its simulation refers to its model. Throws Error, also if bodies intersect at the
 /// start that the response keeps apart.
 /// The run's warnings tell of
-/// - flaws of meshes
+/// - flaws of meshes, and keys that change nothing
 /// - an integrator that was replaced because it can't meet the tolerance
 /// - a step beyond the stability bound, or no step at all
 /// - bodies that intersect at the start, if the response does not keep them apart

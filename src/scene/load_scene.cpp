@@ -234,7 +234,7 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   collision.search_where = table.where("search");
   table.read("triangle_test", collision.triangle_test, triangle_tests);
   table.section("tree", collision.tree);
-  table.note({"friction", "restitution", "gap"}, collision.impulse_keys);
+  table.note({"friction", "restitution", "gap"}, collision.surface_keys);
 }
 
 void read_table(TableReader& table, CameraDescription& camera) {
@@ -264,12 +264,14 @@ void expect_still(const TableReader& table) {
 }
 
 void note_idle(const TableReader& table, BodyDescription& body) {
-  std::vector<Origin> of_springs, of_pressure;
+  const auto note = [&](std::initializer_list<const char*> keys, std::string_view why) {
+    std::vector<Origin> found;
+    table.note(keys, found);
+    for (Origin& where : found) body.idle_keys.push_back({std::move(where), why});
+  };
   if (body.kind == BodyKind::immovable)
-    table.note({"stiffness", "total_stiffness", "vertex_mass", "total_mass", "damping"}, of_springs);
-  if (table.peek("pressure") == nullptr) table.note({"pressure_law"}, of_pressure);
-  for (Origin& where : of_springs) body.idle_keys.push_back({std::move(where), "on a static body"});
-  for (Origin& where : of_pressure) body.idle_keys.push_back({std::move(where), "without pressure"});
+    note({"stiffness", "total_stiffness", "vertex_mass", "total_mass", "damping"}, "on a static body");
+  if (body.pressure == 0) note({"pressure_law"}, "without pressure");
 }
 
 void read_table(TableReader& table, BodyDescription& body) {
@@ -301,7 +303,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
-  table.note({"elasticity", "friction", "gap", "restitution"}, body.impulse_keys);
+  table.note({"elasticity", "friction", "gap", "restitution"}, body.surface_keys);
   if (body.kind == BodyKind::immovable) expect_still(table);
   note_idle(table, body);
 }

@@ -64,7 +64,7 @@ struct CollisionDescription {
   Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
-  std::vector<Origin> impulse_keys = {};  // given ones that only responses by impulses read
+  std::vector<Origin> surface_keys = {};  // given ones that not all responses read
 };
 
 /// What contacts know of a body or a ground. What is empty is the scene's.
@@ -119,7 +119,7 @@ struct BodyDescription {
   double pressure = 0.0;                   // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1
-  std::vector<Origin> impulse_keys;     // as in CollisionDescription
+  std::vector<Origin> surface_keys;     // as in CollisionDescription
   std::vector<IdleKey> idle_keys;
 };
 

@@ -267,14 +267,14 @@ void meet_feature(IN(Pair) p, uint feature) {
 
 // Returns those of the wanted features whose ways come near each other, as far as the boxes of the corners' ways tell.
 uint near_features(uvec2 triangles, uint wanted) {
-  Reach first[3], second[3];
+  PaddedBox first[3], second[3];
   for (uint k = 0u; k < 3u; ++k) {
     first[k] = way_of_corner(triangles.x, k);
     second[k] = way_of_corner(triangles.y, k);
   }
-  Reach edges[3];
+  PaddedBox edges[3];
   for (uint k = 0u; k < 3u; ++k) edges[k] = joined(second[k], second[k == 2u ? 0u : k + 1u]);
-  Reach all_first = joined(joined(first[0], first[1]), first[2]), all_second = joined(edges[0], second[2]);
+  PaddedBox all_first = joined(joined(first[0], first[1]), first[2]), all_second = joined(edges[0], second[2]);
   uint near = 0u;
   for (uint k = 0u; k < 3u; ++k) {
     if (overlaps(first[k], all_second)) near |= 1u << k;
@@ -282,7 +282,7 @@ uint near_features(uvec2 triangles, uint wanted) {
   }
   for (uint j = 0u; j < 3u; ++j) {
     if ((wanted >> (6u + 3u * j) & 7u) == 0u) continue;
-    Reach edge = joined(first[j], first[j == 2u ? 0u : j + 1u]);
+    PaddedBox edge = joined(first[j], first[j == 2u ? 0u : j + 1u]);
     for (uint k = 0u; k < 3u; ++k)
       if (overlaps(edge, edges[k])) near |= 1u << (6u + 3u * j + k);
   }

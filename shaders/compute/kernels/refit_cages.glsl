@@ -15,7 +15,7 @@ READ(partner_step)
 #include "parts/boxes_in_motion.glsl"
 #include "parts/kept_boxes.glsl"
 Box box_of_triangle(uint t) {
-  Reach kept = kept_box(triangle_cage_of(t));
+  PaddedBox kept = kept_box(triangle_cage_of(t));
   Box box;
   box.lower = vec3(kept.lower);
   box.upper = vec3(kept.upper);
@@ -23,7 +23,7 @@ Box box_of_triangle(uint t) {
 }
 #include "parts/refit.glsl"
 
-void keep_box(uint at, IN(Reach) box) {
+void keep_box(uint at, IN(PaddedBox) box) {
   triangle_bounds[at] = box.lower;
   triangle_bounds[at + 1u] = box.upper;
 }

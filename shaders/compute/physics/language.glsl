@@ -99,8 +99,6 @@ FN vec4 of_lanes(__m128 lanes) {
 FN vec4 min(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_min_ps(lanes(a), lanes(b))); }
 FN vec4 max(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_max_ps(lanes(a), lanes(b))); }
 FN bool any_above_zero(IN(vec4) v) { return _mm_movemask_ps(_mm_cmpgt_ps(lanes(v), _mm_setzero_ps())) != 0; }
-#else
-FN bool any_above_zero(IN(vec4) v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0; }
 #endif
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
 FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
@@ -129,8 +127,9 @@ FN int bitCount(uint bits) { return std::popcount(bits); }
 FN int findLSB(uint bits) { return bits == 0 ? -1 : std::countr_zero(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
-#else
-bool any_above_zero(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0.0; }
+#endif
+#ifndef __SSE__
+FN bool any_above_zero(IN(vec4) v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0.0f; }
 #endif
 // The dot and the cross product. Every device rounds them in the order written.
 FN float ordered_dot(vec3 a, vec3 b) {

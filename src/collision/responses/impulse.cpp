@@ -394,6 +394,7 @@ ResponseRow impulse_row() {
           .divides_steps = true,
           .keeps_apart = true,
           .gives_impulses = true,
+          .reads_surfaces = true,
           .answers_touching = false};
 }
 

@@ -81,6 +81,7 @@ struct ResponseRow {
   bool divides_steps = false;                          // of a fixed length: see step_parts()
   bool keeps_apart = false;      // bodies that are apart at the start stay so. Those that are not can't begin
   bool gives_impulses = false;   // contact_impulses() says what contacts gave
+  bool reads_surfaces = false;   // friction, restitution and gap, and the elasticity of each body, change what it does
   bool answers_touching = true;  // after_step() answers triangles that touch at the step's end, so the step looks for them
 };
 

@@ -15,11 +15,12 @@ void list_pairs(uint s, uint t, uint near, uint meeting) {
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
   for (uint s = a.z + first; s < a.w; s += stride) {
-    Reach cages = kept_box(triangle_cage_of(s)), ways = kept_box(triangle_way_box_of(s));
+    PaddedBox cages = kept_box(triangle_cage_of(s)), ways = kept_box(triangle_way_box_of(s));
     for (uint t = b.z; t < b.w; t += 32u) {
       uint near = 0u, meeting = 0u;
       for (uint k = 0u; k < min(b.w - t, 32u); ++k) {
-        if (overlaps(cages, kept_box(triangle_cage_of(t + k)))) near |= 1u << k;
+        if (!overlaps(cages, kept_box(triangle_cage_of(t + k)))) continue;
+        near |= 1u << k;
         if (overlaps(ways, kept_box(triangle_way_box_of(t + k)))) meeting |= 1u << k;
       }
       if (near != 0u) list_pairs(s, t, near, meeting);

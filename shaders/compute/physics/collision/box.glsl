@@ -41,17 +41,17 @@ FN bool overlaps(Box a, Box b) {
 }
 
 // A box whose corners have a fourth number, 0. A processor handles such a corner in one instruction.
-struct Reach { vec4 lower; vec4 upper; };
+struct PaddedBox { vec4 lower; vec4 upper; };
 
-FN Reach joined(IN(Reach) a, IN(Reach) b) {
-  Reach both;
+FN PaddedBox joined(IN(PaddedBox) a, IN(PaddedBox) b) {
+  PaddedBox both;
   both.lower = min(a.lower, b.lower);
   both.upper = max(a.upper, b.upper);
   return both;
 }
 
-// One comparison, because processors can't foresee the results of six.
-FN bool overlaps(IN(Reach) a, IN(Reach) b) {
+// One comparison, because processors can't foresee the results of six. On a processor boxes with NaN overlap all others.
+FN bool overlaps(IN(PaddedBox) a, IN(PaddedBox) b) {
   vec4 apart = max(a.lower - b.upper, b.lower - a.upper);
   return !any_above_zero(apart);
 }

@@ -26,8 +26,8 @@ FN double whole_of(IN(uvec2) halves) { return static_cast<double>(std::bit_cast<
 FN uvec2 halves_of(double whole) { return std::bit_cast<uvec2>(static_cast<std::int64_t>(whole)); }
 
 FN void add_halves(uvec2& sum, uvec2 halves, bool works_alone) {
-  using Sum [[gnu::may_alias]] = std::int64_t;
-  const auto whole = std::bit_cast<std::int64_t>(halves);
+  using Sum [[gnu::may_alias]] = std::uint64_t;  // which wraps
+  const auto whole = std::bit_cast<std::uint64_t>(halves);
   Sum& shared = reinterpret_cast<Sum&>(sum);
   if (works_alone)
     shared += whole;
