@@ -25,7 +25,8 @@ class OutputFile {
  public:
   enum class Begin { empty, at_end };
 
-  /// Makes missing folders. It replaces an existing file or goes on at its end. Throws Error (command_line).
+  /// Makes missing folders. It replaces an existing file or goes on at its end. Throws Error (command_line),
+  /// also for a pipe that nobody reads.
   explicit OutputFile(const std::filesystem::path& path, Begin begin = Begin::empty);
 
   void write(std::string_view bytes) { stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }

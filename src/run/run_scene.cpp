@@ -144,10 +144,12 @@ class Run {
   // If the run has failed, the checkpoint before is worth more. A run begins anew from time 0.
   bool keep_checkpoint(const Place& at) {
     if (has_failed()) return false;
-    Checkpoint checkpoint = checkpoint_of(options_, run_, at.progress, history_.text().substr(0, at.history_length));
-    checkpoint.progress.times = progress_.times;
-    checkpoint.warnings.resize(at.warning_count);
-    return progress_.times.saving.time([&] { return checkpoints_.write(checkpoint); });
+    return progress_.times.saving.time([&] {
+      Checkpoint checkpoint = checkpoint_of(options_, run_, at.progress, history_.text().substr(0, at.history_length));
+      checkpoint.progress.times = progress_.times;
+      checkpoint.warnings.resize(at.warning_count);
+      return checkpoints_.write(checkpoint);
+    });
   }
 
   // An interrupt may have put the latest row between two frames, even between two parts of a step, or left it without its energy.
