@@ -115,7 +115,7 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
 inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, impact.kept}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.last, parts.simulated, double(parts.left), double(parts.steps), double(parts.parts)};
+  return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 }  // namespace pliant

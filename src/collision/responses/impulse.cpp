@@ -103,7 +103,6 @@ class Impulse final : public Response {
     time_step_ = bodies_.control.download().front().time_step;
     parts_ = &arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
                                                                          .last = 0,
-                                                                         .simulated = 0,
                                                                          .left = physics::smallest_parts,
                                                                          .longest = physics::no_bound,
                                                                          .steps = 0,

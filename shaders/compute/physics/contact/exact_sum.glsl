@@ -34,6 +34,7 @@ FN void add_halves(uvec2& sum, uvec2 halves, bool works_alone) {
   else
     std::atomic_ref(shared).fetch_add(whole, std::memory_order_relaxed);
 }
+// A kernel knows whether its thread works alone: device/cpu/kernel_prelude.inc.
 #define ADD_LOW_HALF(sum, halves) (add_halves(sum, halves, works_alone), 0u)
 #define ADD_HIGH_HALF(sum, halves, before) static_cast<void>(before);
 #else

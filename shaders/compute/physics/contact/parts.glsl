@@ -8,7 +8,6 @@ SHARED_BEGIN
 struct StepParts {
   double full;       // length of the scene's steps, or with a tolerance of the step as errors allow it [s]
   double last;       // length of the last part [s], 0 before the first one
-  double simulated;  // [s]
   uint left;         // of the scene's step, in units of the smallest part
   uint longest;      // bound on the next part [s], as bits of a float
   uint steps;        // complete ones
@@ -41,7 +40,6 @@ FN double next_part(IN(StepParts) p) {
 // Counts a part that was made.
 FN void end_part(INOUT(StepParts) p) {
   p.last = next_part(p);
-  p.simulated += p.last;
   p.parts += 1u;
   p.left -= p.divides != 0u ? next_size(p) : p.left;
   if (p.left != 0u) return;
