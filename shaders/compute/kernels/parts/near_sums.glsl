@@ -4,13 +4,14 @@
 #define GROUP_SIZE 512u
 const uint near_items = GROUP_SIZE;  // contacts, one a thread
 const uint near_places = (SHARED_BYTES - 64u) / (4u + 24u * sum_buffers);
-const uint most_searches = 64u;  // for a place
+const uint most_near_vertices = near_places - near_places / 8u;  // fuller, it would take long to find a place
 shared uint near_vertex[near_places];
 shared int near_high[3u * sum_buffers * near_places];
 shared int near_low[3u * sum_buffers * near_places];
+shared uint near_vertex_count;
 shared uint near_presses;
 shared uint near_unsettled_round;
-shared uint near_fails;
+shared uint asked_too_much;
 bool sums_are_near = false;  // the same in all threads
 
 // Runs this in the group's own memory, and otherwise what follows.
@@ -25,15 +26,18 @@ uint near_place_of(uint i) {
   return place;
 }
 
+// Returns whether there were not more vertices than places. It is only the number of vertices that decides, and not who came first.
+bool have_places() { return near_vertex_count <= most_near_vertices; }
+
 void give_place(uint i) {
   if (i == no_vertex) return;
   uint place = first_place_of(i);
-  for (uint k = 0u; k < most_searches; ++k) {
+  for (uint k = 0u; k < near_places && have_places(); ++k) {
     uint before = atomicCompSwap(near_vertex[place], no_vertex, i);
+    if (before == no_vertex) atomicAdd(near_vertex_count, 1u);
     if (before == no_vertex || before == i) return;
     place = place_after(place);
   }
-  near_fails = 1u;
 }
 
 void clear_near(uint buffer_index) {
@@ -57,18 +61,19 @@ void begin_near(uint count) {
   for (uint k = gl_LocalInvocationID.x; k < near_places; k += GROUP_SIZE) near_vertex[k] = no_vertex;
   for (uint k = 0u; k < sum_buffers; ++k) clear_near(k);
   if (gl_LocalInvocationID.x == 0u) {
+    near_vertex_count = 0u;
     near_presses = 0u;
     near_unsettled_round = 0u;
-    near_fails = 0u;
+    asked_too_much = 0u;
   }
   memoryBarrierShared();
   barrier();
   if (gl_LocalInvocationID.x < count)
     for (int k = 0; k < 4; ++k) give_place(contact_vertex[gl_LocalInvocationID.x][k]);
-  if (gl_LocalInvocationID.x < count && asks_much(gl_LocalInvocationID.x)) near_fails = 1u;
+  if (gl_LocalInvocationID.x < count && asks_much(gl_LocalInvocationID.x)) asked_too_much = 1u;
   memoryBarrierShared();
   barrier();
-  sums_are_near = near_fails == 0u;
+  sums_are_near = have_places() && asked_too_much == 0u;
 }
 
 // All threads of the one group call it after each round.
