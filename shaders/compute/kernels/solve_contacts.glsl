@@ -148,13 +148,13 @@ void answer(uint kick_round, bool ends) {
   if (dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w) note_unsettled(kick_round);
 }
 
-// Where one group serves all contacts, a thread keeps its contact from the first round to the last.
+// Where a contact has a thread to itself, the thread keeps it from the first round to the last.
 void push(uint c, uint kick_round) {
   bool starts = kick_round == 0u, ends = is_last(kick_round);
-  if (starts || !sums_are_near) fetch(c, kick_round);
+  if (starts || !has_own_thread) fetch(c, kick_round);
   if (held.resistance.z == real(0)) return;  // between immovable bodies
   if (!starts) answer(kick_round, ends);
-  if (ends || !sums_are_near) store(c);
+  if (ends || !has_own_thread) store(c);
   if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_sums(held.place, buffer_of(kick_round + 2u));
   if (held.ahead == real4(0)) return;

@@ -3,6 +3,7 @@
 #define NEAR_ROUNDS
 #define GROUP_SIZE 512u
 const uint near_items = GROUP_SIZE;  // contacts, one a thread
+const uint far_threads = 32u;        // of a group, where several share the contacts. On an H200 64 took longer
 const uint near_places = (SHARED_BYTES - 64u) / (4u + 24u * sum_buffers);
 const uint most_near_vertices = near_places - near_places / 8u;  // fuller, it would take long to find a place
 shared uint near_vertex[near_places];

@@ -3,7 +3,7 @@
 #include "impulse_sums.glsl"
 
 #ifdef __cplusplus
-static constexpr bool sums_are_near = false;
+static constexpr bool sums_are_near = false, has_own_thread = false;
 #define NEAR_ELSE(statement)
 #else
 #include "near_sums.glsl"
