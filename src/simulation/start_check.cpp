@@ -43,12 +43,15 @@ std::string described(std::span<const Ground* const> grounds, const ModelBody& b
   return text;
 }
 
+// A message with "-0" would look like a mistake.
+glm::dvec3 without_signs_of_zeros(const glm::dvec3& v) { return v + 0.0; }
+
 // A move out of one ground can lead into another. No move is named then.
 std::string way_out_of(std::span<const Ground* const> grounds, const Model& model, const ModelBody& body,
                        std::span<const glm::dvec3> positions, const CollisionDescription& collision) {
   const Ground& ground = *grounds.front();
   const double gap = physics::gap_above(ground_of(ground, collision), surface_of(model, body, collision));
-  const glm::dvec3 way = (depth_in(ground, body, positions) + gap) * ground.normal;
+  const glm::dvec3 way = without_signs_of_zeros((depth_in(ground, body, positions) + gap) * ground.normal);
   std::vector<glm::dvec3> moved(positions.begin(), positions.end());
   for (glm::dvec3& position : moved) position += way;
   if (grounds.size() > 1 || !grounds_under(model, body, moved).empty())
@@ -79,7 +82,7 @@ std::string described(const Model& model, const Overlap& overlap) {
 std::string way_apart(const Model& model, const Overlap& overlap) {
   const bool moves_first = model.bodies[overlap.second].is_static;
   const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
-  const glm::dvec3 way = (moves_first ? -1.0 : 1.0) * overlap.way_out;
+  const glm::dvec3 way = without_signs_of_zeros((moves_first ? -1.0 : 1.0) * overlap.way_out);
   const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_static);
   return fmt::format("move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}", body.name, way.x, way.y, way.z,
                      may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"

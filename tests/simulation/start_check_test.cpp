@@ -67,6 +67,11 @@ TEST_CASE("a body that no single move brings out of grounds is promised none") {
   CHECK(std::string(out_of_one.what()).find("move the body by") == std::string::npos);
 }
 
+TEST_CASE("a body in a static one is the one to be moved, and zeros have no sign") {
+  const Error inside = Start(ball + "[[body]]\nmesh = \"icosphere:2\"\nposition = [1.5, 0, 0]\nkind = \"static\"\n").error();
+  check_says(inside, {"\"ball\" by [-0.51", ", 0, 0]"});
+}
+
 // A second ball beside the first one, so many gaps from it. A corner of each is nearest to the other.
 std::string beside(double gaps) {
   return ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n",
