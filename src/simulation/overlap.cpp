@@ -1,57 +1,71 @@
+#define REAL_BITS 64
 #include "simulation/overlap.hpp"
 
 #include <algorithm>
-#include <array>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "collision/responses/impulse.hpp"
 #include "model/inside.hpp"
+#include "physics/collision/certified_triangles.glsl"
+#include "physics/contact/features.glsl"
+#include "simulation/near_boxes.hpp"
 
 namespace pliant {
 namespace {
 
 constexpr std::size_t most_tests = 20'000'000;  // of a vertex against a triangle, some two seconds
 
-using Corners = std::array<glm::dvec3, 3>;
-
-struct Extent {
-  glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
-};
-
 std::span<const glm::dvec3> vertices_of(const ModelBody& body, std::span<const glm::dvec3> positions) {
   return positions.subspan(body.first_vertex, body.vertex_count);
 }
 
-Extent extent_of(std::span<const glm::dvec3> places) {
-  Extent extent;
-  for (const glm::dvec3& place : places) {
-    extent.lower = glm::min(extent.lower, place);
-    extent.upper = glm::max(extent.upper, place);
+IndexedBox box_of(const ModelBody& body, std::span<const glm::dvec3> positions) {
+  IndexedBox box;
+  for (const glm::dvec3& place : vertices_of(body, positions)) box.add(place);
+  return box;
+}
+
+// Adds boxes of the body's triangles that overlap this one.
+void add_boxes(std::vector<IndexedBox>& boxes, const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions,
+               const IndexedBox& within) {
+  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
+    IndexedBox box{.index = t};
+    for (const std::uint32_t vertex : model.triangles[t]) box.add(positions[vertex]);
+    if (are_near(box, within, 0)) boxes.push_back(box);
   }
-  return extent;
 }
 
-bool are_apart(const Extent& a, const Extent& b) {
-  return glm::any(glm::lessThan(a.upper, b.lower)) || glm::any(glm::lessThan(b.upper, a.lower));
+// Relative to a corner, because positions in the world lose digits in fp32.
+bool may_touch(const Model& model, std::span<const glm::dvec3> positions, std::uint32_t s, std::uint32_t t) {
+  const glm::dvec3 origin = positions[model.triangles[s][0]];
+  glm::vec3 first[3], second[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    first[k] = positions[model.triangles[s][k]] - origin;
+    second[k] = positions[model.triangles[t][k]] - origin;
+  }
+  return physics::triangles_may_touch(first, second);
 }
 
-// C. Ericson, Real-Time Collision Detection (2005), 5.1.5: the region of the triangle that the point is nearest to.
-double distance(const glm::dvec3& p, const Corners& t) {
-  const glm::dvec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp), d5 = glm::dot(ab, cp),
-               d6 = glm::dot(ac, cp);
-  if (d1 <= 0 && d2 <= 0) return glm::length(ap);
-  if (d3 >= 0 && d4 <= d3) return glm::length(bp);
-  if (d6 >= 0 && d5 <= d6) return glm::length(cp);
-  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return glm::length(ap - d1 / (d1 - d3) * ab);
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return glm::length(ap - d2 / (d2 - d6) * ac);
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return glm::length(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (t[2] - t[1]));
-  return glm::length(ap - (vb * ab + vc * ac) / (va + vb + vc));
+bool may_touch(const Model& model, const ModelBody& a, const ModelBody& b, std::span<const glm::dvec3> positions) {
+  const IndexedBox box_a = box_of(a, positions), box_b = box_of(b, positions);
+  if (!are_near(box_a, box_b, 0)) return false;
+  std::vector<IndexedBox> boxes;
+  add_boxes(boxes, model, a, positions, box_b);
+  add_boxes(boxes, model, b, positions, box_a);
+  bool touch = false;
+  for_each_near(std::move(boxes), 0, [&](const IndexedBox& s, const IndexedBox& t) {
+    const bool is_of_both = model.body_index(model.triangles[s.index][0]) != model.body_index(model.triangles[t.index][0]);
+    touch = touch || (is_of_both && may_touch(model, positions, s.index, t.index));
+  });
+  return touch;
+}
+
+double distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 weight = physics64::closest_on_triangle(p, a, b, c);
+  return glm::length(p - (weight.x * a + weight.y * b + weight.z * c));
 }
 
 // How far the point is inside the body, or 0 if it is outside [m].
@@ -60,18 +74,19 @@ double depth_in(const Model& model, const ModelBody& body, std::span<const glm::
   double nearest = std::numeric_limits<double>::infinity();
   for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
     const auto& [a, b, c] = model.triangles[t];
-    nearest = std::min(nearest, distance(point, {positions[a], positions[b], positions[c]}));
+    nearest = std::min(nearest, distance(point, positions[a], positions[b], positions[c]));
   }
   return nearest;
 }
 
 // The largest depth of the first body's vertices in the second. Of a large mesh it looks at some vertices only.
 double deepest(const Model& model, const ModelBody& of, const ModelBody& in, std::span<const glm::dvec3> positions) {
-  const Extent extent = extent_of(vertices_of(in, positions));
+  const IndexedBox box = box_of(in, positions);
   const std::size_t stride = 1 + std::size_t{of.vertex_count} * in.triangle_count / most_tests;
   double depth = 0;
   for (std::size_t i = of.first_vertex; i < of.first_vertex + of.vertex_count; i += stride)
-    if (!are_apart({positions[i], positions[i]}, extent)) depth = std::max(depth, depth_in(model, in, positions, positions[i]));
+    if (are_near({.lower = positions[i], .upper = positions[i]}, box, 0))
+      depth = std::max(depth, depth_in(model, in, positions, positions[i]));
   return depth;
 }
 
@@ -106,18 +121,19 @@ double gap_between(const Model& model, const ModelBody& a, const ModelBody& b, c
   return physics::gap_of_pair(surface_of(model, a, collision), surface_of(model, b, collision));
 }
 
-Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions, std::span<const std::uint32_t> bodies,
-                     const CollisionDescription& collision) {
-  Overlap found{.first = bodies[0], .second = bodies[1], .depth = -1};
+std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
+                                    std::span<const std::uint32_t> bodies, const CollisionDescription& collision) {
+  std::optional<Overlap> found;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const ModelBody &a = model.bodies[bodies[i]], &b = model.bodies[bodies[j]];
-      if (are_apart(extent_of(vertices_of(a, positions)), extent_of(vertices_of(b, positions)))) continue;
+      if (!may_touch(model, a, b, positions)) continue;
       const double depth = std::max(deepest(model, a, b, positions), deepest(model, b, a, positions));
-      if (depth > found.depth) found = {.first = bodies[i], .second = bodies[j], .depth = depth};
+      if (!found || depth > found->depth) found = {.first = bodies[i], .second = bodies[j], .depth = depth};
     }
-  const ModelBody &first = model.bodies[found.first], &second = model.bodies[found.second];
-  found.way_out =
+  if (!found) return {};
+  const ModelBody &first = model.bodies[found->first], &second = model.bodies[found->second];
+  found->way_out =
       way_out(vertices_of(first, positions), vertices_of(second, positions), gap_between(model, first, second, collision));
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 #include "model/model.hpp"
@@ -20,9 +21,9 @@ struct Overlap {
 [[nodiscard]] double gap_between(const Model& model, const ModelBody& a, const ModelBody& b,
                                  const CollisionDescription& collision);
 
-/// Returns the two of these bodies that lie deepest in each other, as far as it can tell. There have to be two or more.
+/// Returns the two of these bodies that lie deepest in each other, as far as it can tell, or nothing if no two intersect.
 /// `positions` are those of the model's vertices in the world [m].
-[[nodiscard]] Overlap find_overlap(const Model& model, std::span<const glm::dvec3> positions,
-                                   std::span<const std::uint32_t> bodies, const CollisionDescription& collision);
+[[nodiscard]] std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
+                                                  std::span<const std::uint32_t> bodies, const CollisionDescription& collision);
 
 }  // namespace pliant

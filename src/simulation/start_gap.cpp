@@ -18,35 +18,13 @@
 #include "core/counted.hpp"
 #include "model/inside.hpp"
 #include "physics/contact/features.glsl"
+#include "simulation/near_boxes.hpp"
 
 namespace pliant {
 namespace {
 
 constexpr std::size_t most_told = 8;
 constexpr double near_enough = 0.99;  // of the gap: places in scenes are rounded
-
-struct StartBox {
-  std::uint32_t index = 0;  // of the body or triangle
-  glm::dvec3 lower{std::numeric_limits<double>::infinity()}, upper{-std::numeric_limits<double>::infinity()};
-
-  void add(const glm::dvec3& place) {
-    lower = glm::min(lower, place);
-    upper = glm::max(upper, place);
-  }
-};
-
-bool are_near(const StartBox& a, const StartBox& b, double distance) {
-  return glm::all(glm::lessThanEqual(a.lower, b.upper + distance)) && glm::all(glm::lessThanEqual(b.lower, a.upper + distance));
-}
-
-// Calls visit(a, b) for each two boxes that are no further apart than that.
-template <class Visit>
-void for_each_near(std::vector<StartBox> boxes, double distance, const Visit& visit) {
-  std::ranges::sort(boxes, {}, [](const StartBox& box) { return box.lower.x; });
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lower.x <= boxes[i].upper.x + distance; ++j)
-      if (are_near(boxes[i], boxes[j], distance)) visit(boxes[i], boxes[j]);
-}
 
 class NearStarts {
  public:
@@ -85,7 +63,7 @@ class NearStarts {
   }
 
   // Whether the first box's body has the second box's body inside. They do not intersect, so one vertex tells.
-  bool encloses(const StartBox& outer, const StartBox& inner) const {
+  bool encloses(const IndexedBox& outer, const IndexedBox& inner) const {
     return glm::all(glm::lessThan(outer.lower, inner.lower)) && glm::all(glm::lessThan(inner.upper, outer.upper)) &&
            is_enclosed(positions_[model_.bodies[inner.index].first_vertex], model_, model_.bodies[outer.index], positions_);
   }
@@ -107,29 +85,29 @@ class NearStarts {
   }
 
   void find_near_bodies() {
-    std::vector<StartBox> boxes;
+    std::vector<IndexedBox> boxes;
     double largest_gap = 0, largest_edge = 0;
     for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
       const ModelBody& body = model_.bodies[b];
       if (body.triangle_count == 0) continue;
       largest_gap = std::max(largest_gap, surfaces_[b].gap);
       largest_edge = std::max(largest_edge, surfaces_[b].edge);
-      StartBox& box = boxes.emplace_back(StartBox{.index = b});
+      IndexedBox& box = boxes.emplace_back(IndexedBox{.index = b});
       for (const glm::dvec3& p : std::span(positions_).subspan(body.first_vertex, body.vertex_count)) box.add(p);
     }
-    for_each_near(std::move(boxes), largest_gap * largest_edge, [&](const StartBox& a, const StartBox& b) { compare(a, b); });
+    for_each_near(std::move(boxes), largest_gap * largest_edge, [&](const IndexedBox& a, const IndexedBox& b) { compare(a, b); });
   }
 
-  void compare(const StartBox& a, const StartBox& b) {
+  void compare(const IndexedBox& a, const IndexedBox& b) {
     const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
     if (first.is_static && second.is_static) return;
     if (encloses(a, b)) tell_enclosed(second, first);
     if (encloses(b, a)) tell_enclosed(first, second);
     const double gap = physics::gap_of_pair(surfaces_[a.index], surfaces_[b.index]);
-    std::vector<StartBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
+    std::vector<IndexedBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
     boxes.insert(boxes.end(), others.begin(), others.end());
     double nearest = near_enough * gap;
-    for_each_near(std::move(boxes), gap, [&](const StartBox& s, const StartBox& t) {
+    for_each_near(std::move(boxes), gap, [&](const IndexedBox& s, const IndexedBox& t) {
       if (model_.body_index(model_.triangles[s.index][0]) != model_.body_index(model_.triangles[t.index][0]))
         nearest = std::min(nearest, distance_of(s.index, t.index));
     });
@@ -140,10 +118,10 @@ class NearStarts {
   }
 
   // Boxes of the body's triangles that are no further from the other body's box than that.
-  std::vector<StartBox> boxes_near(const ModelBody& body, const StartBox& other, double distance) const {
-    std::vector<StartBox> boxes;
+  std::vector<IndexedBox> boxes_near(const ModelBody& body, const IndexedBox& other, double distance) const {
+    std::vector<IndexedBox> boxes;
     for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-      StartBox box{.index = t};
+      IndexedBox box{.index = t};
       for (const std::uint32_t vertex : model_.triangles[t]) box.add(positions_[vertex]);
       if (are_near(box, other, distance)) boxes.push_back(box);
     }

@@ -27,10 +27,13 @@ class Start {
       : scene_(parse_scene(text, "scene.toml", {})),
         start_(build_model(load_bodies(scene_), scene_.simulation.gravity, scene_.grounds)) {}
 
-  Error error() {
+  void check() {
     const auto device = make_cpu_device(1, 32);
     Simulation simulation(*device, start_.model, start_.state, plan_time(scene_, start_.model), scene_.collision);
-    return error_of([&] { expect_apart(simulation, start_.model, scene_.collision, "scene.toml"); });
+    expect_apart(simulation, start_.model, scene_.collision, "scene.toml");
+  }
+  Error error() {
+    return error_of([&] { check(); });
   }
 
   std::vector<std::string> told() const { return told_near_starts(start_.model, start_.state, scene_.collision); }
@@ -70,6 +73,12 @@ TEST_CASE("a body that no single move brings out of grounds is promised none") {
 TEST_CASE("a body in a static one is the one to be moved, and zeros have no sign") {
   const Error inside = Start(ball + "[[body]]\nmesh = \"icosphere:2\"\nposition = [1.5, 0, 0]\nkind = \"static\"\n").error();
   check_says(inside, {"\"ball\" by [-0.51", ", 0, 0]"});
+}
+
+TEST_CASE("bodies far from the origin are apart if they are so in fp64") {
+  const std::string far = "[[body]]\nmesh = \"icosphere:2\"\nposition = [1e8, 0, 0]\n";  // where floats are 8 m apart
+  CHECK_NOTHROW(Start(far + "[[body]]\nmesh = \"icosphere:2\"\nposition = [100000003, 0, 0]\n").check());
+  CHECK_THROWS_AS(Start(far + "[[body]]\nmesh = \"icosphere:2\"\nposition = [100000001.5, 0, 0]\n").check(), Error);
 }
 
 // A second ball beside the first one, so many gaps from it. A corner of each is nearest to the other.
