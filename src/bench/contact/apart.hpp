@@ -1,4 +1,4 @@
-// Oracles for bodies that must not touch: proofs in fp64, by brute force, without the simulation's own search and tests.
+// Oracles for bodies that must not touch: proofs in fp64 with bounds on rounding, without the simulation's own search and tests.
 #pragma once
 #include <glm/vec3.hpp>
 #include <span>

@@ -86,7 +86,7 @@ struct CostRow {
   int precision = 32;
   std::uint64_t vertices = 0;       // of a body
   double edges_a_step = 0;          // how fast they come near each other
-  std::uint64_t contacts = 0;       // the most impulses in a part of a step
+  std::uint64_t contacts = 0;       // the most impulses in a part of a step, of every sixteenth part
   double microseconds = 0;          // of a part of a step, where three quarters of these or more act
   double microseconds_apart = 0;    // of a step while they are far from each other
   double microseconds_without = 0;  // of the same with response = "none"

@@ -17,7 +17,7 @@ struct Seen {
   std::size_t inside = 0;              // vertices that were inside another body, in all states
   double momentum_change = 0;          // the largest, over the sum of m |v| at the start
   double angular_momentum_change = 0;  // of the latest state, over the sum of |x x m v| at the start
-  double most_energy = 0;              // the largest above the start's, over the start's kinetic energy; may be below 0
+  double most_energy = 0;              // the largest above the start's, over the start's kinetic energy; at least 0
   double last_energy = 0;              // the latest one, in the same way
   StepReport report;
 };
