@@ -36,6 +36,20 @@ void wait_for_others(uint groups, uint often) {
   barrier();
 }
 
+// The last group to leave counts from 0 again, for the next kernel that goes in rounds.
+void leave(uint groups, uint waits) {
+  if (groups == 1u || gl_LocalInvocationID.x != 0u) return;
+  uint before = atomicAdd(contact_list[0].arrivals, 1u) & ~waited_in_vain;
+  if (before + 1u == groups * (waits + 1u)) atomicAnd(contact_list[0].arrivals, waited_in_vain);
+}
+
+// Mesa's llvmpipe silently stops what has gone through loops 65,535 times. Loops then end after one turn, and so does this one.
+bool was_stopped(uint count) {
+  uint turns = 0u, most = 1u + min(count, 3u);
+  while (turns < most) ++turns;
+  return turns < most;
+}
+
 void end_round(uint groups, uint number) {
 #ifdef NEAR_ROUNDS
   if (sums_are_near) {
@@ -51,7 +65,7 @@ void main() {
   if (count == 0u) return;
   uint groups = min((count + threads - 1u) / threads, item_count);
 #ifdef NEAR_ROUNDS
-  if (count <= near_items) {
+  if (count <= near_items || item_count == 1u) {
     threads = GROUP_SIZE;
     groups = 1u;
   }
@@ -62,9 +76,14 @@ void main() {
 #endif
   has_own_thread = count <= groups * threads;
   uint first = gl_LocalInvocationID.x < threads ? gl_WorkGroupID.x * threads + gl_LocalInvocationID.x : count;
-  for (uint number = 0u; number < rounds_at_most(); ++number) {
+  uint number = 0u;
+  bool more = true;
+  while (more) {
     for (uint item = first; item < count; item += groups * threads) KERNEL(item, number);
     end_round(groups, number);
-    if (!goes_on(number)) break;
+    more = goes_on(number) && number + 1u < rounds_at_most();
+    ++number;
   }
+  if (was_stopped(count)) atomicOr(contact_list[0].arrivals, waited_in_vain);
+  leave(groups, number);
 }

@@ -102,8 +102,8 @@ class Device {
   /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once() items.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
-  /// Returns how many items of a force kernel certainly run side by side, so that they may wait for each other. It is 0 if that
-  /// is not known.
+  /// Returns how many items of a force kernel or a kernel in rounds run side by side, so that they may wait for each other. It is
+  /// 0 if that is not known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
   /// Returns the variant that is fastest for so many vertices in all, with one dispatch per sum.

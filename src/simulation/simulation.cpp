@@ -46,9 +46,11 @@ bool is_finite(const State& state, const Model& model) {
 
 void expect_groups_met(const std::vector<physics::Status>& statuses) {
   if (std::ranges::find(statuses, physics::halted_waiting, &physics::Status::activity) == statuses.end()) return;
-  throw Error(ErrorKind::device, "",
-              "the GPU did not run all work groups of a body at once, though it has a multiprocessor for each",
-              "close other programs that use the GPU, or use --device cpu");
+  throw Error(
+      ErrorKind::device, "",
+      "the GPU did not run all work groups at once, though it has a multiprocessor for each, or it stopped a long loop, as "
+      "Mesa's llvmpipe does",
+      "close other programs that use the GPU, or use --device cpu");
 }
 
 }  // namespace

@@ -95,6 +95,9 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(list.contact_count),
           double(list.uncertified),
           double(list.rounds_that_cut),
+          double(list.arrivals),
+          double(list.latest_count),
+          double(list.has_cuts),
           double(std::bit_cast<float>(list.fastest))};
 }
 

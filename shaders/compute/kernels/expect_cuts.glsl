@@ -69,10 +69,7 @@ void bound_way(uint i, dvec3 from, dvec3 together, dvec3 own) {
 }
 
 void expect_cuts(uint i) {
-  if (i == 0u) {
-    add_contact_sums();
-    contact_list[0].arrivals &= waited_in_vain;
-  }
+  if (i == 0u) add_contact_sums();
   for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint b = uint(rest_position[i].w);
   uint before = displacement_of(in_half(from_half, vertex_count, i));

@@ -33,7 +33,6 @@ void empty_lists() {
   contact_list[0].contact_count = 0u;
   contact_list[0].uncertified = 0u;
   contact_list[0].rounds_that_cut = 0u;
-  contact_list[0].arrivals &= waited_in_vain;
   contact_list[0].presses = 0u;
   contact_list[0].unsettled_round = 0u;
   contact_list[0].has_cuts = 0u;

@@ -207,12 +207,12 @@ const real look_again_after = real(0.5);  // of the step
 void meet_vertex(IN(Pair) p, uint corner, real side) {
   Feature f = vertex_and_triangle(corner, side, p.place);
   real part = comes_near_after(p, f);
-  bool is_near = part == real(0);
-  if (is_near && !is_nearer_to_others(p, f, p.place, real(0))) {
+  bool near_now = part == real(0);
+  if (near_now && !is_nearer_to_others(p, f, p.place, real(0))) {
     consider(p, f);
     return;
   }
-  if (is_near) part = look_again_after;
+  if (near_now) part = look_again_after;
   if (part < real(0)) return;
   real3 later[6];
   for (uint k = 0u; k < 6u; ++k) later[k] = p.place[k] + part * p.way[k];
@@ -236,12 +236,12 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   bool crosses;
   Feature f = two_edges(j, k, p.place, crosses);
   real part = comes_near_after(p, f);
-  bool is_near = part == real(0);
-  if (is_near && crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) {
+  bool near_now = part == real(0);
+  if (near_now && crosses && !is_nearer_to_faces(p, j, k, f, p.place, real(0))) {
     consider(p, f);
     return;
   }
-  if (is_near) part = look_again_after;
+  if (near_now) part = look_again_after;
   if (part < real(0)) return;
   real3 later[6];
   for (uint n = 0u; n < 6u; ++n) later[n] = p.place[n] + part * p.way[n];

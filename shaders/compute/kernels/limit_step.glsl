@@ -1,5 +1,5 @@
-// One thread compares two bodies, and bounds the length of the step. No two vertices of them may come nearer than their distance and a
-// quarter edge beyond. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
+// One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
+// the bodies and a quarter edge. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
 // much further than expected bodies that are far from each other may move without meeting, and how bodies that meet may push each other.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"

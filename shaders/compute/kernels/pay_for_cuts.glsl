@@ -37,9 +37,10 @@ const uint last_round = 5u;
 bool is_needed() {
   return contact_list[0].has_cuts != 0u || debt[body_count].energy > double(0) || cluster[body_count].bodies != 0u;
 }
-uint items_in_a_round() { return is_needed() ? part_count : 0u; }
+// A step that is empty or was undone leaves clusters as they are.
+uint items_in_a_round() { return is_needed() && control[0].time_step > double(0) ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
-bool goes_on(uint number) { return number < last_round; }  // rounds change what is_needed() reads
+bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return other_half(from_half); }
 #include "parts/rigid_motion_by_parts.glsl"
@@ -48,9 +49,9 @@ uint moments_half() { return other_half(from_half); }
 // change of its velocity over the step. No displacement of one vertex by d takes more than N k d^2 / 2 beyond that.
 double energy_of_cut(uint i, uint b, double part) {
   dvec3 change = velocity_of_vertex(i) - LOAD3(motion, velocity_of(in_half(from_half, vertex_count, i)));
-  dvec3 held = (double(1) - part) * LOAD3(way, force_of(i));
+  dvec3 missing = (double(1) - part) * LOAD3(way, force_of(i));
   double stiffness = double(body[b].vertex_count) * body[b].unit_force * body[b].inverse_unit;
-  return dot(rotate(pose[b], change), held) / (body[b].inverse_mass * control[0].time_step) + double(0.5) * stiffness * dot(held, held);
+  return dot(rotate(pose[b], change), missing) / (body[b].inverse_mass * control[0].time_step) + double(0.5) * stiffness * dot(missing, missing);
 }
 
 void sum_energies_of(uvec4 part, uint item) {

@@ -37,7 +37,7 @@ bool is_needed() {
 }
 uint items_in_a_round() { return is_needed() ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
-bool goes_on(uint number) { return number < last_round; }  // rounds change what is_needed() reads
+bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return from_half; }
 #include "parts/rigid_motion_by_parts.glsl"

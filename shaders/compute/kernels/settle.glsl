@@ -67,13 +67,13 @@ void end_step_part(bool is_made) {
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
     contact_list[0].fastest = 0u;
-    ATOMIC_STORE(contact_list[0].arrivals, ATOMIC_LOAD(contact_list[0].arrivals) & waited_in_vain);  // which other bodies read
-    bool is_empty = contact_list[0].contact_count == 0u && control[0].time_step == double(0);
-    if (!is_empty) contact_list[0].latest_count = lists_are_full() ? 0u : contact_list[0].contact_count;
-    end_step_part(control[0].non_finite_step == 0u && control[0].time_step > double(0));
+    bool was_made = control[0].time_step > double(0);
+    if (was_made || contact_list[0].contact_count != 0u)  // an empty step changes nothing, and one that was undone has no contacts
+      contact_list[0].latest_count = was_made && !lists_are_full() ? contact_list[0].contact_count : 0u;
+    end_step_part(control[0].non_finite_step == 0u && was_made);
   }
   if (i != body[b].first_vertex) return;
-  if ((ATOMIC_LOAD(contact_list[0].arrivals) & waited_in_vain) != 0u) status[b].activity = halted_waiting;
+  if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
   room[b].to_others = no_bound;
   for (uint k = 0u; k < 3u; ++k) {
     body_motion[b].lower[k] = 0xffffffffu;

@@ -215,7 +215,6 @@ void solve_contacts(uint c, uint kick_round) {
     push(c, kick_round);
     return;
   }
-  tell_notes();
   add_work(c, kick_round);
   for (int k = 0; k < 4; ++k) kick(contact_vertex[c][k], kick_round);
 }

@@ -1,11 +1,13 @@
 // One thread adds the impulses of some contacts to those of their pairs of bodies. All grounds together are one partner more. It runs if a
-// body has a restitution. All threads share the list of contacts in strides.
+// body has a restitution. A step that was undone adds nothing. All threads share the list of contacts in strides.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/contact.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/impact.glsl"
 #include "../physics/contact/parts.glsl"
+READ(control)
 READ(rest_position)
 READ(step_parts)
 READ(contact_vertex)
@@ -37,6 +39,6 @@ void sum_impact(uint c) {
 }
 
 void sum_impacts(uint item) {
-  if (lists_are_full()) return;
+  if (lists_are_full() || control[0].time_step == double(0)) return;
   for (uint c = item; c < contact_list[0].contact_count; c += contacts_at_once) sum_impact(c);
 }

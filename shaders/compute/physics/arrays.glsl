@@ -3,7 +3,8 @@
 // A line is ARRAY(name, element, per, life, layout). An array per `run` belongs to the run as a whole. An array has one of these lives:
 // - `fixed`: it is made from scene and meshes
 // - `carried`: it outlasts a step and belongs to a saved state
-// - `step`: it is written in a step before it is read there
+// - `step`: it is written in a step before it is read there. The next step begins by reading contacts and their impulses once more, and
+//   the response saves what it needs of them
 // docs/conventions.md repeats the layouts.
 
 // bodies

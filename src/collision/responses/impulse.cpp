@@ -186,13 +186,6 @@ class Impulse final : public Response {
                                                    {"triangle_pair_capacity", triangle_pair_capacity},
                                                    {"least_speed", least_speed()},
                                                    {"heaviest_vertex", heaviest_vertex_}}));
-    if (restores_)
-      passes.push_back(make_pass(arrays, "sum_impacts",
-                                 {{"contact_capacity", contact_capacity},
-                                  {"triangle_pair_capacity", triangle_pair_capacity},
-                                  {"contacts_at_once", items_at_once_},
-                                  {"impact_unit", impact_unit()}},
-                                 items_at_once_));
     return passes;
   }
 
@@ -205,7 +198,7 @@ class Impulse final : public Response {
   }
   std::vector<ContactImpulse> contact_impulses() const override {
     std::vector<ContactImpulse> contacts;
-    for (const Held& c : held_contacts()) {
+    for (const GivenImpulse& c : given_impulses()) {
       const bool has_ground = c.vertex.y == physics::no_vertex;
       contacts.push_back({.vertex = c.vertex,
                           .weight = has_ground ? glm::dvec4(1, 0, 0, 0) : c.weight,
@@ -216,18 +209,18 @@ class Impulse final : public Response {
 
   // Contacts are sorted, because lists are in no fixed order.
   std::string save() const override {
-    std::vector<Held> contacts = held_contacts();
-    const auto key = [](const Held& c) { return std::tuple(c.vertex.x, c.vertex.y, c.vertex.z, c.vertex.w, c.weight.w); };
+    std::vector<GivenImpulse> contacts = given_impulses();
+    const auto key = [](const GivenImpulse& c) { return std::tuple(c.vertex.x, c.vertex.y, c.vertex.z, c.vertex.w, c.weight.w); };
     std::ranges::sort(contacts, {}, key);
     ByteWriter saved;
-    for (const Held& c : contacts) saved(c.vertex, c.weight, c.impulse);
+    for (const GivenImpulse& c : contacts) saved(c.vertex, c.weight, c.impulse);
     return saved.take();
   }
   void restore(std::string_view saved) override {
     std::vector<glm::uvec4> vertices;
     std::vector<double> rows, impulses;
     for (ByteReader from(saved); !from.at_end();) {
-      Held c{};
+      GivenImpulse c{};
       from(c.vertex, c.weight, c.impulse);
       vertices.push_back(c.vertex);
       rows.resize(rows.size() + contact_numbers);
@@ -257,6 +250,13 @@ class Impulse final : public Response {
                                            {"heaviest_vertex", heaviest_vertex_},
                                            {"largest_body", largest_body_}},
                                           bodies_.vertex_count)};
+    if (restores_)
+      passes.push_back(make_pass(arrays, "sum_impacts",
+                                 {{"contact_capacity", contact_capacity},
+                                  {"triangle_pair_capacity", triangle_pair_capacity},
+                                  {"contacts_at_once", items_at_once_},
+                                  {"impact_unit", impact_unit()}},
+                                 items_at_once_));
     if (has_pairs_)
       passes.push_back(
           round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity}, {"largest_body", largest_body_}}));
@@ -292,18 +292,18 @@ class Impulse final : public Response {
   double impact_unit() const { return heaviest_vertex_ * least_speed() / 1024; }
 
   // A contact that gave an impulse in the latest step, as physics/contact/contact.glsl says.
-  struct Held {
+  struct GivenImpulse {
     glm::uvec4 vertex{0};
     glm::dvec3 normal{0.0};
     glm::dvec4 weight{0.0}, impulse{0.0};
   };
-  std::vector<Held> held_contacts() const {
+  std::vector<GivenImpulse> given_impulses() const {
     const std::size_t count = bodies_.arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
     if (count == 0) return {};
     const std::vector<glm::uvec4> vertices = bodies_.arrays.get<glm::uvec4>("contact_vertex").download(0, count);
     const std::vector<double> rows = download_reals(*contacts_, contact_numbers * count),
                               impulses = download_reals(*impulses_, 4 * count);
-    std::vector<Held> contacts;
+    std::vector<GivenImpulse> contacts;
     for (std::size_t c = 0; c < count; ++c) {
       const double *const row = &rows[contact_numbers * c], *const impulse = &impulses[4 * c];
       if (impulse[0] > 0)

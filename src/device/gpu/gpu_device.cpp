@@ -109,7 +109,7 @@ class GpuDevice final : public Device {
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it
-  // takes.
+  // takes, as long as the driver has memory for all threads: rounds.comp has a measurement.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::size_t best_force_variant(std::uint32_t vertex_count) const override {

@@ -27,7 +27,7 @@ uint near_place_of(uint i) {
   return place;
 }
 
-// Returns whether there were not more vertices than places. It is only the number of vertices that decides, and not who came first.
+// Whether all vertices so far fit. Their number alone decides, and not their order.
 bool have_places() { return near_vertex_count <= most_near_vertices; }
 
 void give_place(uint i) {
@@ -84,7 +84,7 @@ void end_near_round(uint kick_round) {
   barrier();
 }
 
-// Three sums of a place are high 2^21 + low. The low parts of 512 contacts need no carry. A high part has room for 2^52 quanta.
+// A place has three sums, each high * 2^21 + low. The low parts of 512 contacts need no carry. A high part has room for 2^52 quanta.
 const real limb = real(2097152);
 const real most_high = real(1073741824);  // of one contact. Beyond, its impulse is cut down, on both bodies alike
 
@@ -128,9 +128,4 @@ void push_apart_near(uvec4 at, real3 of_y, real3 of_z, real3 of_w) {
   add_near(at.y, y);
   add_near(at.z, z);
   add_near(at.w, w);
-}
-
-void tell_near_notes() {
-  contact_list[0].presses = near_presses;
-  contact_list[0].unsettled_round = near_unsettled_round;
 }

@@ -122,8 +122,3 @@ void note_unsettled(uint kick_round) {
   NEAR_ELSE(near_unsettled_round = kick_round;)
   ATOMIC_STORE(contact_list[0].unsettled_round, kick_round);
 }
-
-// Leaves the notes to who looks at them after the rounds.
-void tell_notes() {
-  NEAR_ELSE(tell_near_notes();) {}
-}
