@@ -113,6 +113,8 @@ std::optional<bench::ContactStudy> study_of(BenchStudy only) {
 int measure_contact(const BenchOptions& options) {
   const bench::ContactOptions asked{
       .devices = selection_of(options), .only = study_of(options.only), .scenes = options.scenes, .quick = options.quick};
+  const bool reads_meshes = !asked.quick && asked.only.value_or(bench::ContactStudy::apart) == bench::ContactStudy::apart;
+  if (reads_meshes) bench::expect_scenes(options.scenes);
   return measure_and_write(options, asked, bench::bench_contact);
 }
 

@@ -88,6 +88,10 @@ double energy_growth(const RunProgress& progress, const Model& model) {
   return 1 + (progress.latest.energy() - progress.first.energy()) / had;
 }
 
+std::string_view shorter_steps(const StepReport& report) {
+  return report.adaptive ? "a smaller tolerance" : "a shorter time step";
+}
+
 bool has_blown_up(const RunStatus& status) {
   const Model& model = status.run.start.model;
   const bool has_measure = energy_had(status.progress, model) >= smallest_energy(model);
@@ -100,8 +104,8 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   if (report.breakdown) return describe_breakdown(*report.breakdown, run.plan, run.start.model);
   const Model& model = run.start.model;
   if (has_blown_up(status))
-    return fmt::format("{}, which ends the run at step {}; try a shorter time step", told_growth_of(progress, model),
-                       report.steps);
+    return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
+                       shorter_steps(report));
   if (progress.largest_growth >= told_growth)
     return fmt::format("{}: {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
@@ -118,8 +122,9 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
-                    "move too far in a step, or are pressed too hard; try a shorter time step, or stiffer bodies{}",
-                    report.reverted_vertices, precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
+                    "move too far in a step, or are pressed too hard; try {}, or stiffer bodies{}",
+                    report.reverted_vertices, shorter_steps(report),
+                    precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
   return told;
 }
 

@@ -100,6 +100,7 @@ TEST_CASE("a wrong command line of bench exits with 2 before anything is measure
   check_fails("forces --scenes scenes", 2, "--scenes");
   check_fails("forces --device cpu --gpu 0", 2, "--gpu");
   check_fails("steps --device cpu --scenes " + folder.path.string(), 2, "no scenes");
+  check_fails("contact --device cpu --scenes " + folder.path.string(), 2, "no scenes");
   CHECK(run_program("bench steps --scenes " + folder.path.string()).output.starts_with("pliant: --scenes: no scenes"));
   check_fails("forces --device cpu --json \"\"", 2, "--json: is empty");
   check_fails("forces --device cpu --json /proc/none/forces.json", 2, "/proc/none/forces.json");
