@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "bench/contact/apart.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
@@ -112,6 +113,7 @@ RestSeen watch_rest(Device& device, const RestingPlace& place, const RestWatch& 
   }
   seen.cut_vertices = simulation.report().reverted_vertices - cut;
   seen.contacts = simulation.contact_impulses().size();
+  seen.inside = ApartOracle(model).vertices_inside_others(before);
   return seen;
 }
 

@@ -1,5 +1,6 @@
 // Bodies that come to rest: on a ground, on static meshes, and on each other.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <stop_token>
 #include <string>
@@ -33,6 +34,7 @@ struct RestSeen {
   double edge = 0;         // [m]
   std::uint64_t cut_vertices = 0;
   std::uint64_t contacts = 0;  // in the last step
+  std::size_t inside = 0;      // vertices inside another body at the end
 };
 
 /// Runs by verlet, with steps of 0.3 / omega, elasticity 0 and friction 0.5.

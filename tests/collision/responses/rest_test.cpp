@@ -1,12 +1,12 @@
 // Contact by impulses at rest and at its extremes, and what it does to energy.
+#include "bench/contact/rest.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/witness.hpp"
-#include "model/mean_edge.hpp"
 #include "simulation/measure.hpp"
 #include "simulation/start_check.hpp"
 #include "support/evolve.hpp"
@@ -44,60 +44,23 @@ ModelAndState damped(std::vector<BodySetup> setups) {
 }
 
 // A ball that wedges itself between four spheres. Its contacts have many normals, and friction holds it up.
-ModelAndState wedged_ball() {
-  std::vector<BodySetup> setups;
-  for (int k = 0; k < 4; ++k) {
-    BodySetup& post = setups.emplace_back(standing("icosphere:2", "post"));
-    const double angle = 0.5 * std::numbers::pi * k;
-    post.description.position = {1.6 * std::cos(angle), 0, 1.6 * std::sin(angle)};
-    post.description.rotation = {13.0 * k, 7.0 * k, 3};
-  }
-  setups.push_back(resting("icosphere:2", "ball"));
-  setups.back().description.position = {0, 1.4, 0};
-  return damped(std::move(setups));
+bench::RestingPlace wedged_ball() {
+  std::vector<bench::RestingPlace> places = bench::resting_places();
+  return *std::ranges::find(places, "ball between posts", &bench::RestingPlace::name);
 }
 
 double time_step_of(const Model& model) { return 0.3 / stiffest_frequency(model.bodies.back()); }
 
-struct Rest {
-  double most_a_step = 0, drift = 0;  // in edges
-  std::uint64_t cut = 0;
-};
-
-// Lets bodies settle, then watches them.
-Rest rest_of(Device& device, const ModelAndState& start, std::uint64_t settling, std::uint64_t watched) {
-  const Model& model = start.model;
-  Simulation simulation(device, model, start.state, plan_of(Method{"verlet", time_step_of(model), DampingLaw::constant}),
-                        without_bounce);
-  simulation.advance(settling);
-  const std::uint64_t cut = simulation.report().reverted_vertices;
-  const std::vector<glm::dvec3> first = simulation.state().world_positions(model);
-  std::vector<glm::dvec3> before = first;
-  const double edge = mean_edge(model, model.bodies.back());
-  Rest rest;
-  for (std::uint64_t step = 0; step < watched; ++step) {
-    simulation.advance(1);
-    const std::vector<glm::dvec3> now = simulation.state().world_positions(model);
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      rest.most_a_step = larger(rest.most_a_step, glm::length(now[i] - before[i]) / edge);
-      rest.drift = larger(rest.drift, glm::length(now[i] - first[i]) / edge);
-    }
-    before = now;
-  }
-  rest.cut = simulation.report().reverted_vertices - cut;
-  CHECK(simulation.report().contact_steps > watched);
-  CHECK(bench::ApartOracle(model).vertices_inside_others(before) == 0);
-  return rest;
-}
-
 TEST_CASE("a ball that is wedged between static meshes rests") {
-  const ModelAndState start = wedged_ball();
   for (const int precision : {64, 32}) {
     CAPTURE(precision);
-    const Rest rest = rest_of(*make_cpu_device(1, precision), start, 2000, 300);
+    const bench::RestSeen rest =
+        bench::watch_rest(*make_cpu_device(1, precision), wedged_ball(), {.settling = 2000, .watched = 300});
+    CHECK(rest.contacts > 20);
+    CHECK(rest.inside == 0);
     CHECK(rest.most_a_step < (precision == 64 ? 1e-9 : 1e-6));
     CHECK(rest.drift < (precision == 64 ? 1e-8 : 1e-5));
-    CHECK(rest.cut == 0);
+    CHECK(rest.cut_vertices == 0);
   }
 }
 
@@ -112,9 +75,12 @@ TEST_CASE("a small ball rests on a slab with edges of ten metres, far from the o
     for (const int precision : {64, 32}) {
       CAPTURE(precision);
       CHECK(told_rounding(start.model, start.state, without_bounce, precision).empty());
-      const Rest rest = rest_of(*make_cpu_device(1, precision), start, 1500, 200);
+      const bench::RestSeen rest =
+          bench::watch_rest(*make_cpu_device(1, precision), {.name = "slab", .start = start}, {.settling = 1500, .watched = 200});
+      CHECK(rest.contacts > 0);
+      CHECK(rest.inside == 0);
       CHECK(rest.most_a_step < (precision == 64 ? 1e-8 : 1e-6));
-      CHECK(rest.cut == 0);
+      CHECK(rest.cut_vertices == 0);
     }
   }
 }
@@ -135,7 +101,7 @@ TEST_CASE("a run names the body whose contacts are lost in rounding") {
 }
 
 TEST_CASE("what contacts at rest take up from the last step does not depend on threads") {
-  const ModelAndState start = wedged_ball();
+  const ModelAndState start = wedged_ball().start;
   const TimePlan plan = plan_of(Method{"verlet", time_step_of(start.model), DampingLaw::constant});
   std::vector<std::string> saved;
   for (const unsigned threads : {1u, 3u}) {
