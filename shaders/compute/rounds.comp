@@ -4,7 +4,8 @@
 // What items_in_a_round() reads must not change in the first round, and what goes_on(n) answers must not change once round n has ended:
 // else a slow group would leave alone.
 //
-// A group has 128 threads. On an H200 fewer took longer, and of 109 groups with 256 threads one never began: `certify` takes much memory.
+// A group has 128 threads, because 64 took longer. An H200 does not run as many groups at once as it might: `certify` takes much memory. It
+// runs 198 groups of 128 threads, but not 264, and 108 of 256 threads.
 //
 // A kernel with NEAR_ROUNDS says how many threads it wants. It serves up to near_items items in one group. begin_near() may then set
 // sums_are_near. It says that threads share nothing but the group's own memory, in all rounds but the last.
