@@ -79,6 +79,10 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
   fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(steps));
 }
 
+std::string_view shorter_steps(const StepReport& report) {
+  return report.adaptive ? "a smaller tolerance" : "a shorter time step";
+}
+
 }  // namespace
 
 // None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
@@ -86,10 +90,6 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 double energy_growth(const RunProgress& progress, const Model& model) {
   const double had = std::max(energy_had(progress, model), smallest_energy(model));
   return 1 + (progress.latest.energy() - progress.first.energy()) / had;
-}
-
-std::string_view shorter_steps(const StepReport& report) {
-  return report.adaptive ? "a smaller tolerance" : "a shorter time step";
 }
 
 bool has_blown_up(const RunStatus& status) {

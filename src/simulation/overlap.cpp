@@ -28,16 +28,6 @@ IndexedBox box_of(const ModelBody& body, std::span<const glm::dvec3> positions) 
   return box;
 }
 
-// Adds boxes of the body's triangles that overlap this one.
-void add_boxes(std::vector<IndexedBox>& boxes, const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions,
-               const IndexedBox& within) {
-  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-    IndexedBox box{.index = t};
-    for (const std::uint32_t vertex : model.triangles[t]) box.add(positions[vertex]);
-    if (are_near(box, within, 0)) boxes.push_back(box);
-  }
-}
-
 // Relative to a corner, because positions in the world lose digits in fp32.
 bool may_touch(const Model& model, std::span<const glm::dvec3> positions, std::uint32_t s, std::uint32_t t) {
   const glm::dvec3 origin = positions[model.triangles[s][0]];
@@ -52,14 +42,9 @@ bool may_touch(const Model& model, std::span<const glm::dvec3> positions, std::u
 bool may_touch(const Model& model, const ModelBody& a, const ModelBody& b, std::span<const glm::dvec3> positions) {
   const IndexedBox box_a = box_of(a, positions), box_b = box_of(b, positions);
   if (!are_near(box_a, box_b, 0)) return false;
-  std::vector<IndexedBox> boxes;
-  add_boxes(boxes, model, a, positions, box_b);
-  add_boxes(boxes, model, b, positions, box_a);
   bool touch = false;
-  for_each_near(std::move(boxes), 0, [&](const IndexedBox& s, const IndexedBox& t) {
-    const bool is_of_both = model.body_index(model.triangles[s.index][0]) != model.body_index(model.triangles[t.index][0]);
-    touch = touch || (is_of_both && may_touch(model, positions, s.index, t.index));
-  });
+  for_each_near_triangles(model, a, box_a, b, box_b, positions, 0,
+                          [&](std::uint32_t s, std::uint32_t t) { touch = touch || may_touch(model, positions, s, t); });
   return touch;
 }
 
@@ -127,7 +112,7 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const ModelBody &a = model.bodies[bodies[i]], &b = model.bodies[bodies[j]];
-      if (!may_touch(model, a, b, positions)) continue;
+      if ((a.is_static && b.is_static) || !may_touch(model, a, b, positions)) continue;
       const double depth = std::max(deepest(model, a, b, positions), deepest(model, b, a, positions));
       if (!found || depth > found->depth) found = {.first = bodies[i], .second = bodies[j], .depth = depth};
     }

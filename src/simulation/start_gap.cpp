@@ -104,28 +104,13 @@ class NearStarts {
     if (encloses(a, b)) tell_enclosed(second, first);
     if (encloses(b, a)) tell_enclosed(first, second);
     const double gap = physics::gap_of_pair(surfaces_[a.index], surfaces_[b.index]);
-    std::vector<IndexedBox> boxes = boxes_near(first, b, gap), others = boxes_near(second, a, gap);
-    boxes.insert(boxes.end(), others.begin(), others.end());
     double nearest = near_enough * gap;
-    for_each_near(std::move(boxes), gap, [&](const IndexedBox& s, const IndexedBox& t) {
-      if (model_.body_index(model_.triangles[s.index][0]) != model_.body_index(model_.triangles[t.index][0]))
-        nearest = std::min(nearest, distance_of(s.index, t.index));
-    });
+    for_each_near_triangles(model_, first, a, second, b, positions_, gap,
+                            [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance_of(s, t)); });
     if (nearest < near_enough * gap)
       tell_near(fmt::format("bodies \"{}\" and \"{}\" begin", model_.bodies[std::min(a.index, b.index)].name,
                             model_.bodies[std::max(a.index, b.index)].name),
                 nearest, gap);
-  }
-
-  // Boxes of the body's triangles that are no further from the other body's box than that.
-  std::vector<IndexedBox> boxes_near(const ModelBody& body, const IndexedBox& other, double distance) const {
-    std::vector<IndexedBox> boxes;
-    for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-      IndexedBox box{.index = t};
-      for (const std::uint32_t vertex : model_.triangles[t]) box.add(positions_[vertex]);
-      if (are_near(box, other, distance)) boxes.push_back(box);
-    }
-    return boxes;
   }
 
   double distance_of(std::uint32_t s, std::uint32_t t) const {

@@ -73,6 +73,9 @@ TEST_CASE("only bodies that intersect are named, though the boxes of others over
   const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all, {}).value();
   CHECK(overlap.second == overlap.first + 2);
   CHECK(overlap.depth == 0);
+  for (BodySetup& setup : setups) setup.description.kind = BodyKind::immovable;  // these may intersect
+  const ModelAndState still = build_model(setups, glm::dvec3(0.0));
+  CHECK_FALSE(find_overlap(still.model, still.state.world_positions(still.model), all, {}).has_value());
 }
 
 TEST_CASE("bodies of which one is longer have a way out, too") {

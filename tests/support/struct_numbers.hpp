@@ -97,6 +97,7 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(list.rounds_that_cut),
           double(list.arrivals),
           double(list.latest_count),
+          double(list.is_tried),
           double(list.has_cuts),
           double(std::bit_cast<float>(list.fastest))};
 }

@@ -33,6 +33,7 @@ void empty_lists() {
   contact_list[0].contact_count = 0u;
   contact_list[0].uncertified = 0u;
   contact_list[0].rounds_that_cut = 0u;
+  contact_list[0].is_tried = control[0].time_step > double(0) ? 1u : 0u;
   contact_list[0].presses = 0u;
   contact_list[0].unsettled_round = 0u;
   contact_list[0].has_cuts = 0u;

@@ -1,6 +1,7 @@
 // One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
-// the bodies and a quarter edge. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also finds how
-// much further than expected bodies that are far from each other may move without meeting, and how bodies that meet may push each other.
+// the bodies and a quarter edge. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also
+// finds how much further than expected bodies that are far from each other may move without meeting, and how bodies that meet may push each
+// other.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
@@ -60,7 +61,7 @@ void limit_step(uint item) {
   if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
   double longest = step_parts[0].full;
   if (a == b) {
-    if (pressed[a] != 0u && step_parts[0].parts - pressed[a] < pressed_for) longest = surface[a].longest_pressed;
+    if (pressed[a] != 0u && step_parts[0].parts + 1u - pressed[a] <= pressed_for) longest = surface[a].longest_pressed;
   } else {
     dvec3 between = way_between(a, b);
     double speed = approach(a, b), distance = length(between);

@@ -4,8 +4,10 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 READ(control)
+READ(body)
 WRITE(step_parts)
 READ(pose)
 READ(rest_position)
@@ -16,13 +18,16 @@ WRITE(unkicked)
 WRITE(body_motion)
 WRITE(body_box)
 WRITE(status)
+WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
 void measure_motion(uint i) {
   if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
-  uint b = uint(rest_position[i].w), at = in_half(from_half, vertex_count, i);
+  uint b = uint(rest_position[i].w);
+  if (i == body[b].first_vertex) cluster[b].is_met = 0u;
+  uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
   dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);

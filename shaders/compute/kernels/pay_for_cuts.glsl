@@ -51,7 +51,8 @@ double energy_of_cut(uint i, uint b, double part) {
   dvec3 change = velocity_of_vertex(i) - LOAD3(motion, velocity_of(in_half(from_half, vertex_count, i)));
   dvec3 missing = (double(1) - part) * LOAD3(way, force_of(i));
   double stiffness = double(body[b].vertex_count) * body[b].unit_force * body[b].inverse_unit;
-  return dot(rotate(pose[b], change), missing) / (body[b].inverse_mass * control[0].time_step) + double(0.5) * stiffness * dot(missing, missing);
+  double given = dot(rotate(pose[b], change), missing) / (body[b].inverse_mass * control[0].time_step);
+  return given + double(0.5) * stiffness * dot(missing, missing);
 }
 
 void sum_energies_of(uvec4 part, uint item) {

@@ -68,8 +68,7 @@ void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
     contact_list[0].fastest = 0u;
     bool was_made = control[0].time_step > double(0);
-    if (was_made || contact_list[0].contact_count != 0u)  // an empty step changes nothing, and one that was undone has no contacts
-      contact_list[0].latest_count = was_made && !lists_are_full() ? contact_list[0].contact_count : 0u;
+    if (contact_list[0].is_tried != 0u) contact_list[0].latest_count = was_made && !lists_are_full() ? contact_list[0].contact_count : 0u;
     end_step_part(control[0].non_finite_step == 0u && was_made);
   }
   if (i != body[b].first_vertex) return;

@@ -1,6 +1,7 @@
 // Contact by impulses at rest and at its extremes, and what it does to energy.
 #include "bench/contact/rest.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -41,9 +41,10 @@ struct ContactList {
   uint rounds_that_cut;      // of proofs, up to the last one that cut motions short
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
-  uint latest_count;         // contacts that the lists hold between steps. Empty steps keep those of the step before
-  uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick
-  uint unsettled_round;      // the latest one of a kick in which a contact had not settled
+  uint latest_count;         // contacts of the latest step, which the lists hold until the next. None if it was undone
+  uint is_tried;             // 1: the step is not empty, though it may be undone
+  uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
+  uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
   uint has_cuts;             // 1: motions were cut short in this step
 };
 
