@@ -1,6 +1,6 @@
 // The frame around kernels that go in rounds. One thread calls the kernel's function for one item in one round. The next round begins when
-// all threads have ended theirs. Work groups wait for each other, so no more of them are started than there are multiprocessors. Only as many
-// take part as there are items for.
+// all threads have ended theirs. Work groups wait for each other, so no more of them are started than there are multiprocessors. Only as
+// many take part as there are items for.
 // What items_in_a_round() reads must not change in the first round, and what goes_on(n) answers must not change once round n has ended:
 // else a slow group would leave alone.
 //
