@@ -110,8 +110,8 @@ class Simulation {
   void restore(std::string_view saved);
   /// Returns the vertices that touched another body in the latest queued step. Waits for it.
   [[nodiscard]] std::vector<std::uint32_t> touching_vertices();
-  /// Returns the impulses that contacts gave in the latest queued step, in no fixed order. There are none after restore(), or if
-  /// the response gives no impulses. Waits for the step.
+  /// Returns the impulses that contacts gave in the latest queued step, in no fixed order. An empty step keeps those of the step
+  /// before. There are none after restore(), or if the response gives no impulses. Waits for the step.
   [[nodiscard]] std::vector<ContactImpulse> contact_impulses();
   /// Tests the current world positions with the scene's own search and triangle test.
   [[nodiscard]] Intersections intersections();
