@@ -21,7 +21,8 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t triangle_pair_capacity = 1u << 19, contact_capacity = 1u << physics::kept_index_bits;
+constexpr std::uint64_t most_triangle_pairs = 1u << 22;
+constexpr std::uint32_t contact_capacity = 1u << physics::kept_index_bits;
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
 constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
@@ -73,6 +74,16 @@ std::vector<std::uint32_t> surroundings(const Forest& forest) {
   return around;
 }
 
+// All pairs of triangles of different bodies, if they are not too many.
+std::uint32_t room_for_triangle_pairs(const Model& model) {
+  std::uint64_t triangles = 0, pairs = 0;
+  for (const ModelBody& body : model.bodies) {
+    pairs += triangles * body.triangle_count;
+    triangles += body.triangle_count;
+  }
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, most_triangle_pairs));
+}
+
 class Impulse final : public Response {
  public:
   explicit Impulse(const ResponseSetting& setting)
@@ -81,6 +92,7 @@ class Impulse final : public Response {
         trees_(setting.trees),
         has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
         divides_steps_(setting.step_lengths == StepLengths::fixed),
+        triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
         items_at_once_(setting.bodies.arrays.device().items_of_lists()) {
     Arrays& arrays = setting.bodies.arrays;
     const std::size_t vertices = bodies_.vertex_count;
@@ -126,7 +138,7 @@ class Impulse final : public Response {
     arrays.make<glm::vec4>("cage", 4 * vertices);
     arrays.make<glm::vec4>("triangle_bounds", 4 * setting.forest.triangles.size());
     arrays.make<physics::ContactList>("contact_list", 1);
-    arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity);
+    arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity_);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
     contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity);
     impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
@@ -163,9 +175,9 @@ class Impulse final : public Response {
       // A GPU waits for its slowest thread. One in software gains nothing, but so tests see what others do.
       const bool is_gpu = arrays.device().info().kind == DeviceKind::gpu;
       passes.push_back(body_pairs_.pairing_pass());
-      std::ranges::move(trees_.cage_passes(triangle_pair_capacity), std::back_inserter(passes));
+      std::ranges::move(trees_.cage_passes(triangle_pair_capacity_), std::back_inserter(passes));
       passes.push_back(make_pass(arrays, "find_contacts",
-                                 {{"triangle_pair_capacity", triangle_pair_capacity},
+                                 {{"triangle_pair_capacity", triangle_pair_capacity_},
                                   {"contact_capacity", contact_capacity},
                                   {"threads_at_once", items_at_once_},
                                   {"most_threads_of_a_pair", is_gpu ? 16u : 1u}},
@@ -183,7 +195,7 @@ class Impulse final : public Response {
           items_at_once_));
     passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
                                                    {"contact_capacity", contact_capacity},
-                                                   {"triangle_pair_capacity", triangle_pair_capacity},
+                                                   {"triangle_pair_capacity", triangle_pair_capacity_},
                                                    {"least_speed", least_speed()},
                                                    {"heaviest_vertex", heaviest_vertex_}}));
     return passes;
@@ -253,16 +265,16 @@ class Impulse final : public Response {
     if (restores_)
       passes.push_back(make_pass(arrays, "sum_impacts",
                                  {{"contact_capacity", contact_capacity},
-                                  {"triangle_pair_capacity", triangle_pair_capacity},
+                                  {"triangle_pair_capacity", triangle_pair_capacity_},
                                   {"contacts_at_once", items_at_once_},
                                   {"impact_unit", impact_unit()}},
                                  items_at_once_));
     if (has_pairs_)
       passes.push_back(
-          round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity}, {"largest_body", largest_body_}}));
+          round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity_}, {"largest_body", largest_body_}}));
     passes.push_back(make_pass(
         arrays, "settle",
-        {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity}, {"contact_capacity", contact_capacity}},
+        {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity}},
         bodies_.vertex_count));
     passes.push_back(round_pass("pay_for_cuts", {{"from_half", from_half}, {"part_count", part_count_}}));
     return passes;
@@ -353,7 +365,7 @@ class Impulse final : public Response {
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
   bool has_pairs_, divides_steps_, restores_ = false;
-  std::uint32_t items_at_once_, ground_count_ = 0, part_count_ = 0;
+  std::uint32_t triangle_pair_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
   double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision

@@ -115,5 +115,30 @@ TEST_CASE("paying for cuts gives the same bits on any number of threads, and aft
   CHECK(saved.reverted_vertices > 0);
 }
 
+// Triangles that all run from one end of a diagonal of the unit cube to the other, so that the boxes of all of them overlap.
+TriangleMesh ribbon(std::uint32_t triangles) {
+  TriangleMesh mesh;
+  for (std::uint32_t k = 0; k <= triangles / 2; ++k) {
+    const glm::dvec3 across = 2e-4 * k * glm::dvec3(1, 1, -2);
+    mesh.positions.push_back(across);
+    mesh.positions.push_back(across + 1.0);
+  }
+  for (std::uint32_t k = 0; k < triangles; ++k) mesh.triangles.push_back({k, k + 1, k + 2});
+  return mesh;
+}
+
+TEST_CASE("there is room for all pairs of triangles that two bodies of 800 can have, so none holds them") {
+  std::vector<BodySetup> setups = {soft(ribbon(800), "left"), soft(ribbon(800), "right")};
+  setups[0].description.velocity = {1, 0, 0};
+  setups[1].description.position = {0.2, -0.2, 0};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const auto device = make_cpu_device(2, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1e-4}), by_impulses);
+  simulation.advance(2);
+  CHECK(simulation.report().held_parts == 0);
+  const double moved = (simulation.state().world_positions(start.model)[0] - start.state.world_positions(start.model)[0]).x;
+  CHECK(moved == Approx(2e-4));
+}
+
 }  // namespace
 }  // namespace pliant
