@@ -18,6 +18,7 @@
 
 #include "bench/common/timing.hpp"
 #include "bench/contact/cost.hpp"
+#include "bench/contact/encounter.hpp"
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/rest.hpp"
 #include "bench/contact/witness.hpp"
@@ -32,7 +33,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr double apart_omega_step = 0.5;
-constexpr std::uint64_t apart_parts = 900, quick_apart_parts = 90;  // of steps, twice as many for bodies that come fast
+constexpr std::uint64_t apart_parts = 900, quick_apart_parts = 90;  // watched closely; twice as many for bodies that come fast
 constexpr std::size_t many_triangles = 4000;                        // of both bodies
 constexpr std::uint32_t few_vertices = 400;                         // of both bodies: more take longer to measure than to move
 
@@ -94,28 +95,25 @@ struct Pairing {
   bool left_comes = false;  // and the right one rests
 };
 
-// Waits until bodies that come fast have parted, too. They make many parts of a step.
-bool part_at_last(Simulation& simulation, const Model& model, std::uint64_t most_parts, const std::stop_token& stop) {
-  const ApartOracle oracle(model);
-  for (std::uint64_t part = 0; part < most_parts && !stop.stop_requested(); part += 16) {
-    if (oracle.have_parted(simulation.state().world_positions(model))) return true;
-    for (int k = 0; k < 16; ++k) simulation.advance_part();
-  }
-  return false;
+std::size_t triangles_of(const Pairing& pair) { return pair.left.mesh.triangles.size() + pair.right.mesh.triangles.size(); }
+
+// Bodies of large meshes that come fast take most of the time, and a GPU waits for the host's proofs. Both get less. A processor
+// would need hours until the fastest of them have parted.
+Patience patience_for(const Pairing& pair, double speed, const Place& place, bool quick) {
+  const bool is_gpu = place.device == DeviceKind::gpu, is_large = triangles_of(pair) > many_triangles;
+  Patience patience{.closely = (speed > 1 ? 2 : 1) * (quick ? quick_apart_parts : apart_parts)};
+  if (pair.left.mesh.positions.size() + pair.right.mesh.positions.size() > few_vertices) patience.stride = 16;
+  if (quick) return patience;
+  if (is_gpu) patience.closely /= 5;
+  if (speed > 1 && is_large) patience.closely /= 10;
+  if (speed > 5 && is_large && !is_gpu) patience.to_part = 0;
+  return patience;
 }
 
-// How many parts of steps to watch, and how many more bodies get to part.
-struct Patience {
-  std::uint64_t parts, to_part = 3000;
-};
-
-// Bodies of large meshes that come fast take most of the time, and a GPU waits for the host's proofs. Both get less.
-Patience patience_for(std::size_t triangles, double speed, const Place& place, bool quick) {
-  const std::uint64_t all = (speed > 1 ? 2 : 1) * (quick ? quick_apart_parts : apart_parts);
-  if (quick) return {all};
-  const std::uint64_t on_device = all / (place.device == DeviceKind::gpu ? 5 : 1);
-  if (speed > 1 && triangles > many_triangles) return {on_device / 10, on_device / 10};
-  return {on_device};
+// About the seconds that an encounter takes.
+double cost_of(const Pairing& pair, double speed, const Patience& patience) {
+  const double parts = static_cast<double>(patience.closely) + (patience.to_part > 0 ? 200 * speed : 0);
+  return static_cast<double>(triangles_of(pair)) * parts * 1e-5;
 }
 
 ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step, const Patience& patience,
@@ -125,11 +123,13 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
       {.edges_a_step = edges_a_step, .omega_step = apart_omega_step, .far_away = pair.far_away, .left_comes = pair.left_comes});
   const Model& model = meeting.start.model;
   const std::uint32_t vertices = model.vertex_count();
-  Simulation simulation(device, model, meeting.start.state, plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step),
-                        by("impulse"));
-  const Seen seen =
-      watch(simulation, meeting.start,
-            {.steps = patience.parts, .most_parts = patience.parts, .stride = vertices > few_vertices ? 16u : 1u, .stop = stop});
+  const TimePlan plan = plan_of(vertices > 1000 ? "verlet" : "cv8", meeting.time_step);
+  Simulation simulation(device, model, meeting.start.state, plan, by("impulse"));
+  const SeenEncounter encounter = watch_encounter(simulation, model, patience, stop);
+  const Seen& seen = encounter.seen;
+  Simulation alone(device, model, seen.most_deformed, plan, by("none"));
+  const double changed_alone =
+      most_change_of_momentum(alone, model, static_cast<std::uint64_t>(std::ceil(seen.report.time / meeting.time_step)), stop);
   return {.bodies = pair.name,
           .device = device.info().kind,
           .precision = device.precision(),
@@ -139,15 +139,17 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
           .far_away = pair.far_away,
           .edges_a_step = edges_a_step,
           .omega_step = apart_omega_step,
-          .steps = seen.report.steps,
-          .parts = seen.report.steps + seen.report.substeps,
+          .steps = encounter.close_steps,
+          .parts = encounter.close_parts,
+          .parts_in_all = seen.report.steps + seen.report.substeps,
           .contact_parts = seen.report.contact_steps,
           .cut_vertices = seen.report.reverted_vertices,
           .held_parts = seen.report.held_parts,
           .touching = seen.touching,
           .inside = seen.inside,
-          .parted = part_at_last(simulation, model, patience.to_part, stop),
+          .parted = encounter.parted,
           .momentum_change = seen.momentum_change,
+          .momentum_change_alone = changed_alone / sum_of_momenta(model, meeting.start.state),
           .angular_momentum_change = seen.angular_momentum_change,
           .most_energy = seen.most_energy,
           .last_energy = seen.last_energy};
@@ -181,10 +183,9 @@ void add_apart(std::vector<Task>& tasks, const ContactOptions& options) {
   for (const Pairing& pair : pairings(options))
     for (const Place& place : places(options.devices))
       for (const double speed : speeds) {
-        const std::size_t triangles = pair.left.mesh.triangles.size() + pair.right.mesh.triangles.size();
-        const Patience patience = patience_for(triangles, speed, place, options.quick);
+        const Patience patience = patience_for(pair, speed, place, options.quick);
         tasks.push_back({fmt::format("apart, {}, {} edges a step, {}", pair.name, speed, name_of(place)),
-                         static_cast<double>(triangles * patience.parts) * 1e-5,
+                         cost_of(pair, speed, patience),
                          [=](Device& device, const std::stop_token& stop) {
                            return std::vector<ContactRow>{measure_apart(device, pair, speed, patience, stop)};
                          },
@@ -211,14 +212,14 @@ std::vector<Pairing> extremes() {
 }
 
 void add_extremes(std::vector<Task>& tasks, const ContactOptions& options) {
-  constexpr std::uint64_t parts = 400;  // a small sphere has to come down to the other's surface
+  const Patience patience{.closely = 400};
   const std::vector<double> speeds = options.quick ? std::vector{0.2} : std::vector{0.05, 0.1, 0.2, 0.25};
   for (const Pairing& pair : extremes())
     for (const Place& place : places(options.devices))
       for (const double speed : speeds)
         tasks.push_back({fmt::format("extremes, {}, {} edges a step, {}", pair.name, speed, name_of(place)), 1,
                          [=](Device& device, const std::stop_token& stop) {
-                           return std::vector<ContactRow>{measure_apart(device, pair, speed, {parts}, stop)};
+                           return std::vector<ContactRow>{measure_apart(device, pair, speed, patience, stop)};
                          },
                          place});
 }
@@ -361,6 +362,7 @@ void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
 
 std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
   std::uint64_t steps = 0, parts = 0, touching = 0, inside = 0, without_contact = 0, not_parted = 0;
+  std::vector<double> ratios;  // of changes of momentum in fp32, with contacts and alone
   for (const ContactRow& any : rows)
     if (const auto* row = std::get_if<ApartRow>(&any)) {
       steps += row->steps;
@@ -369,12 +371,19 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
       inside += row->inside;
       without_contact += row->contact_parts == 0 ? 1 : 0;
       not_parted += row->parted ? 0 : 1;
+      if (row->precision == 32) ratios.push_back(row->momentum_change / row->momentum_change_alone);
     }
   if (steps == 0) return {};
-  return {
+  std::ranges::sort(ratios);
+  std::vector<std::string> notes = {
       fmt::format("apart: {} steps in {} parts: {} pairs of triangles not apart, {} vertices inside another body", steps, parts,
                   touching, inside),
       fmt::format("apart: {} cases without contact, {} in which bodies have not parted by the end", without_contact, not_parted)};
+  if (!ratios.empty())
+    notes.push_back(
+        fmt::format("apart: in fp32 momentum changes by {:.2f} times as much as without contacts (median), at most {:.2f}",
+                    ratios[ratios.size() / 2], ratios.back()));
+  return notes;
 }
 
 }  // namespace

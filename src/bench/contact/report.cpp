@@ -9,10 +9,11 @@ namespace {
 
 std::string line(const ApartRow& row) {
   return fmt::format(
-      "{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>8} {:>6} {:>5} {:>8} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e}\n",
-      row.bodies, name_of(row.device), row.precision, row.vertices, row.edges_a_step, row.steps, row.parts, row.contact_parts,
-      row.cut_vertices, row.held_parts, row.touching, row.inside, row.parted ? "yes" : "no", row.momentum_change,
-      row.angular_momentum_change, row.most_energy, row.last_energy);
+      "{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>6} {:>8} {:>7} {:>5} {:>8} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} "
+      "{:>9.1e}\n",
+      row.bodies, name_of(row.device), row.precision, row.vertices, row.edges_a_step, row.steps, row.parts, row.parts_in_all,
+      row.contact_parts, row.cut_vertices, row.held_parts, row.touching, row.inside, row.parted ? "yes" : "no",
+      row.momentum_change, row.momentum_change_alone, row.angular_momentum_change, row.most_energy, row.last_energy);
 }
 
 std::string line(const ImpactRow& row) {
@@ -54,6 +55,7 @@ Json row_json(const ApartRow& row) {
           {"omega_step", row.omega_step},
           {"steps", row.steps},
           {"parts", row.parts},
+          {"parts_in_all", row.parts_in_all},
           {"contact_parts", row.contact_parts},
           {"cut_vertices", row.cut_vertices},
           {"held_parts", row.held_parts},
@@ -61,6 +63,7 @@ Json row_json(const ApartRow& row) {
           {"inside", row.inside},
           {"parted", row.parted},
           {"momentum_change", row.momentum_change},
+          {"momentum_change_alone", row.momentum_change_alone},
           {"angular_momentum_change", row.angular_momentum_change},
           {"most_energy", row.most_energy},
           {"last_energy", row.last_energy}};
@@ -103,9 +106,10 @@ Json row_json(const CostRow& row) {
 std::string to_table(const ContactResult& result) {
   std::string table = lines_of<ApartRow>(
       result,
-      fmt::format("{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>8} {:>6} {:>5} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>9}\n",
-                  "apart", "device", "bits", "vertices", "edges/h", "steps", "parts", "contact", "cut", "held", "touching",
-                  "inside", "parted", "momentum", "ang. mom.", "most E", "last E"));
+      fmt::format(
+          "{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>6} {:>8} {:>7} {:>5} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+          "apart", "device", "bits", "vertices", "edges/h", "steps", "parts", "in all", "contact", "cut", "held", "touching",
+          "inside", "parted", "momentum", "and alone", "ang. mom.", "most E", "last E"));
   table +=
       lines_of<ImpactRow>(result, fmt::format("{:<9} {:<8} {:>8} {:>4} {:>11} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "impact",
                                               "method", "N k", "e", "h omega", "kept", "most E", "position", "momentum", "spin"));

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 namespace pliant::bench {
-namespace {
 
 // Sums with the digits that each addition loses. A plain sum of thousands of equal numbers can be off by 2e-14 of itself, as that
 // of measure() is, whose bits histories have. Source: A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation
@@ -25,20 +24,25 @@ glm::dvec3 momentum_of(const Model& model, const State& state) {
   return sum + lost;
 }
 
-}  // namespace
+double sum_of_momenta(const Model& model, const State& state) {
+  const std::vector<glm::dvec3> velocities = state.world_velocities(model);
+  double sum = 0;
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    if (!model.body_of(i).is_static) sum += model.body_of(i).vertex_mass * glm::length(velocities[i]);
+  return sum;
+}
 
 Witness::Witness(const ModelAndState& start)
     : start_(start),
       oracle_(start.model),
       first_(measure(start.model, start.state, glm::dvec3(0.0), pool_)),
       first_momentum_(momentum_of(start.model, start.state)),
+      sum_of_momenta_(sum_of_momenta(start.model, start.state)),
       before_(start.state.world_positions(start.model)) {
+  seen.most_deformed = start.state;
   const std::vector<glm::dvec3> velocities = start.state.world_velocities(start.model);
-  for (std::size_t i = 0; i < velocities.size(); ++i) {
-    const glm::dvec3 momentum = start.model.body_of(i).vertex_mass * velocities[i];
-    sum_of_momenta_ += glm::length(momentum);
-    sum_of_angular_momenta_ += glm::length(glm::cross(before_[i], momentum));
-  }
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    sum_of_angular_momenta_ += start.model.body_of(i).vertex_mass * glm::length(glm::cross(before_[i], velocities[i]));
 }
 
 void Witness::look_at_places(const State& state) {
@@ -46,6 +50,10 @@ void Witness::look_at_places(const State& state) {
   for (int k = 1; k <= 8; ++k) seen.touching += oracle_.pairs_not_apart(between(before_, after, k / 8.0));
   before_ = after;
 }
+
+void Witness::look_at_place(const State& state) { seen.touching += oracle_.pairs_not_apart(state.world_positions(start_.model)); }
+
+bool Witness::have_parted(const State& state) const { return oracle_.have_parted(state.world_positions(start_.model)); }
 
 void Witness::look_at_motion(const State& state) {
   seen.inside += oracle_.vertices_inside_others(state.world_positions(start_.model));
@@ -55,10 +63,12 @@ void Witness::look_at_motion(const State& state) {
   seen.angular_momentum_change = glm::length(now.angular_momentum - first_.angular_momentum) / sum_of_angular_momenta_;
   seen.last_energy = (now.energy() - first_.energy()) / first_.kinetic;
   seen.most_energy = std::max(seen.most_energy, seen.last_energy);
+  if (now.elastic <= most_elastic_) return;
+  most_elastic_ = now.elastic;
+  seen.most_deformed = state;
 }
 
-Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how) {
-  Witness witness(start);
+void watch(Simulation& simulation, Witness& witness, const Watch& how) {
   StepReport& report = witness.seen.report;
   for (std::uint64_t part = 1;
        report.steps < how.steps && part <= how.most_parts && !report.breakdown && !how.stop.stop_requested(); ++part) {
@@ -68,6 +78,11 @@ Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how)
     witness.look_at_places(state);
     if (part % how.stride == 0 || report.steps == how.steps || part == how.most_parts) witness.look_at_motion(state);
   }
+}
+
+Seen watch(Simulation& simulation, const ModelAndState& start, const Watch& how) {
+  Witness witness(start);
+  watch(simulation, witness, how);
   return witness.seen;
 }
 
