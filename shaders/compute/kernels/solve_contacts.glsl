@@ -132,6 +132,7 @@ void fetch(uint c, uint kick_round) {
 }
 
 void store(uint c) {
+  contact_row[contact_rows * c + 2u] = held.goal_row;
   contact_row[contact_rows * c + 4u] = held.ahead;
   impulse_row[c] = held.impulse;
 }
@@ -145,7 +146,9 @@ void answer(uint kick_round, bool ends) {
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
   if (!turns) held.ahead += momentum_after(kick_round) * (held.impulse - before);
   real4 change_of_impulse = held.impulse - had;
-  if (dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w) note_unsettled(kick_round);
+  if (dot(change_of_impulse, change_of_impulse) <= held.resistance.w * held.resistance.w) return;
+  note_unsettled(kick_round);
+  if (kick_round >= friction_rounds) held.goal_row.w *= real(0.9);
 }
 
 // Where a contact has a thread to itself, the thread keeps it from the first round to the last.

@@ -137,6 +137,29 @@ TEST_CASE("motions are cut short where a kick could not have foreseen them, and 
   CHECK(seen.report.reverted_vertices > 0);
 }
 
+TEST_CASE("jammed contacts with strong friction make no energy") {
+  const bench::Partner sphere{.mesh = generate_mesh("icosphere:2")};
+  for (const double friction : {3.0, 10.0}) {
+    for (const double edges_a_step : {0.5, 1.0}) {
+      CAPTURE(friction, edges_a_step);
+      const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = edges_a_step});
+      const auto device = make_cpu_device(1, 64);
+      Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"cv8", meeting.time_step}),
+                            {.response = {"impulse"}, .elasticity = 0.5, .friction = friction});
+      bench::Witness witness(meeting.start);
+      double least = 0, most_above = 0;
+      for (int look = 0; look < 50; ++look) {
+        for (int part = 0; part < 8; ++part) simulation.advance_part();
+        witness.look_at_motion(simulation.state());
+        least = std::min(least, witness.seen.last_energy);
+        most_above = std::max(most_above, witness.seen.last_energy - least);
+      }
+      CHECK(least < -0.2);
+      CHECK(most_above < 1e-4);
+    }
+  }
+}
+
 TEST_CASE("spheres that dent each other by edges part again, and hardly a motion is cut short") {
   const bench::Partner sphere{.mesh = generate_mesh("icosphere:3")};
   const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 1.3});

@@ -88,6 +88,9 @@ const uint contact_rows = 5u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step.
 const uint fewest_kick_rounds = 9u;
 const uint most_kick_rounds = 129u;
+// From this one on contacts that have not settled lose friction. Where they jam, impulses along and across the normal raise each other. With
+// a friction of 0.5 that brought two spheres of 2,562 vertices from 0.4 of the start's energy to 1.2 times as much.
+const uint friction_rounds = 65u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
 const uint kept_index_bits = 18u;
