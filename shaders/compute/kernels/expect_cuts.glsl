@@ -57,6 +57,14 @@ void add_contact_sums() {
   }
 }
 
+// What jammed contacts have given the body beyond what they took. It has to pay for that.
+void find_energy_due(uint b) {
+  double energy = was_made() ? max(quantum_of_energy() * whole_of(contact_sum[energy_of(b)]), double(0)) : double(0);
+  contact_total[energy_of(b)] = energy;
+  contact_sum[energy_of(b)] = uvec2(0u);
+  if (energy > double(0)) ATOMIC_STORE(contact_list[0].has_cuts, 1u);
+}
+
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
 void bound_way(uint i, dvec3 from, dvec3 together, dvec3 own) {
   dvec3 by_cluster = from + together, to = by_cluster + own;
@@ -72,6 +80,7 @@ void expect_cuts(uint i) {
   if (i == 0u) add_contact_sums();
   for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint b = uint(rest_position[i].w);
+  if (i == 0u || uint(rest_position[i - 1u].w) != b) find_energy_due(b);
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);

@@ -1,8 +1,8 @@
-// A kernel in rounds. One thread serves some vertices of a body that had motions cut short, or still owes for earlier cuts. A vertex that
-// is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum and
-// its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
-// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies
-// can't pay, they owe.
+// A kernel in rounds. One thread serves some vertices of a body that had motions cut short or contacts that jam, or still owes. A vertex
+// that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum
+// and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
+// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't
+// pay, they owe.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -81,7 +81,7 @@ bool is_near_one_that_moves(uint b) {
   return is_near;
 }
 
-// Without what others may pay.
+// Without what others may pay. Contacts that jam give energy, which is due, too.
 Means own_means_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Means m;
@@ -91,7 +91,7 @@ Means own_means_of(uint b) {
     m.rigid += part_sum[k].rigid;
     m.due += part_sum[k].gained;
   }
-  m.due = max(debt[b].energy + m.due, double(0));
+  m.due = max(debt[b].energy + m.due, double(0)) + contact_total[energy_of(b)];
   return m;
 }
 

@@ -133,6 +133,7 @@ void fetch(uint c, uint kick_round) {
 
 void store(uint c) {
   contact_row[contact_rows * c + 2u] = held.goal_row;
+  contact_row[contact_rows * c + 3u] = held.resistance;
   contact_row[contact_rows * c + 4u] = held.ahead;
   impulse_row[c] = held.impulse;
 }
@@ -148,7 +149,9 @@ void answer(uint kick_round, bool ends) {
   real4 change_of_impulse = held.impulse - had;
   if (dot(change_of_impulse, change_of_impulse) <= held.resistance.w * held.resistance.w) return;
   note_unsettled(kick_round);
-  if (kick_round >= friction_rounds) held.goal_row.w *= real(0.9);
+  if (kick_round < friction_rounds) return;
+  held.goal_row.w *= real(0.9);
+  held.resistance.w = -abs(held.resistance.w);
 }
 
 // Where a contact has a thread to itself, the thread keeps it from the first round to the last.
@@ -202,6 +205,14 @@ void add_energy(uint k, double energy) {
   if (whole != double(0)) ADD_EXACTLY(contact_sum[k], whole)
 }
 
+bool jams(uint c) { return contact_row[contact_rows * c + 3u].w < real(0); }
+
+// Half of what a contact gave stands for either body.
+void share_energy(uint i, double energy) {
+  uint b = uint(rest_position[i].w);
+  if (inverse_mass_of(i) != double(0)) add_energy(energy_of(b), double(0.5) * energy);
+}
+
 // An impulse gives as much energy as it would along the mean of the velocities before and after.
 void add_work(uint c, uint kick_round) {
   real4 impulse = impulse_row[c], normal_row = contact_row[contact_rows * c];
@@ -211,6 +222,10 @@ void add_work(uint c, uint kick_round) {
   double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
   add_energy(along + across > double(0) ? energy_given : energy_taken, abs(along + across));
   add_energy(friction_work, -across);
+  if (!jams(c)) return;
+  uvec4 who = contact_vertex[c];
+  share_energy(who.x, along + across);
+  share_energy(who.w == no_vertex ? who.x : who.w, along + across);
 }
 
 void solve_contacts(uint c, uint kick_round) {

@@ -106,6 +106,7 @@ Patience patience_for(const Pairing& pair, double speed, const Place& place, boo
   if (quick) return patience;
   if (is_gpu) patience.closely /= 5;
   if (speed > 1 && is_large) patience.closely /= 10;
+  if (is_large) patience.to_part = 6000;
   if (speed > 5 && is_large && !is_gpu) patience.to_part = 0;
   return patience;
 }

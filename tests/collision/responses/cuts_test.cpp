@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "bench/contact/meeting.hpp"
 #include "support/impulse_scene.hpp"
 
 namespace pliant {
@@ -85,6 +86,25 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
     CHECK(seen.most - seen.first < 1e-3 * without_flight);
     CHECK(glm::length(seen.momentum) < 1e-4 * (1 + along));
   }
+}
+
+// Each crumples around the other, and most kicks do not settle from some 2,000 parts on.
+TEST_CASE("kicks that do not settle give no energy", "[long]") {
+  const bench::Partner sphere{.mesh = generate_mesh("icosphere:4")};
+  const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 2});
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"verlet", meeting.time_step}),
+                        by_impulses);
+  bench::Witness witness(meeting.start);
+  double least = 0, most_above = 0;
+  for (int look = 0; look < 42; ++look) {
+    for (int part = 0; part < 64; ++part) simulation.advance_part();
+    witness.look_at_motion(simulation.state());
+    least = std::min(least, witness.seen.last_energy);
+    most_above = std::max(most_above, witness.seen.last_energy - least);
+  }
+  CHECK(least < -0.5);
+  CHECK(most_above < 1e-3);
 }
 
 // Where a tolerance governs steps, one that is queued when the time is reached is empty.

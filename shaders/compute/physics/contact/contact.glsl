@@ -9,9 +9,9 @@ REAL_BEGIN
 // Rows in `contact`:
 // row 0: the normal, from the second body to the first, and the least change of velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
-// row 2: the goal of the change of velocity across the normal [m/s], and the friction
+// row 2: the goal of the change of velocity across the normal [m/s], and the friction, of which a contact that jams loses some
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
-//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
+//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns], with a minus if it jams;
 //        until then its last number is the contact's settled_speed()
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 

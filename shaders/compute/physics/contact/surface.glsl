@@ -88,8 +88,7 @@ const uint contact_rows = 5u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step.
 const uint fewest_kick_rounds = 9u;
 const uint most_kick_rounds = 129u;
-// From this one on contacts that have not settled lose friction. Where they jam, impulses along and across the normal raise each other. With
-// a friction of 0.5 that brought two spheres of 2,562 vertices from 0.4 of the start's energy to 1.2 times as much.
+// From this one on contacts that have not settled jam, and lose friction. Their impulses along and across the normal raise each other.
 const uint friction_rounds = 65u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
@@ -99,6 +98,7 @@ const uint energy_given = 3u;
 const uint energy_taken = 4u;
 const uint friction_work = 5u;
 const uint contact_sums = 6u;
+FN uint energy_of(uint b) { return contact_sums + b; }  // behind them, what jammed contacts gave each body
 
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
