@@ -2,7 +2,7 @@
 // that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum
 // and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
 // whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't
-// pay, they owe.
+// pay, they owe. What cuts take from a body's angular momentum comes back as spin.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -55,14 +55,41 @@ double energy_of_cut(uint i, uint b, double part) {
   return given + double(0.5) * stiffness * dot(missing, missing);
 }
 
+// Cuts move a vertex and leave its velocity, so its angular momentum changes.
+void sum_what_is_missing(uvec4 part, uint item) {
+  dvec3 missing = dvec3(0);
+  for (uint i = part.y; i < part.z; ++i) {
+    double part_of_way = double(uintBitsToFloat(cut[i]));
+    if (part_of_way < double(1))
+      missing += cross(rotate_back(pose[part.x], (double(1) - part_of_way) * LOAD3(way, force_of(i))), velocity_of_vertex(i));
+  }
+  STORE3(part_sum[item].missing, 0u, missing)
+}
+
+// With what cuts took.
+Moments restored_moments_of(uint b) {
+  uvec2 range = vertex_part_range[b];
+  Moments m = moments_of_body(b);
+  dvec3 turning = LOAD3(m.turning, 0u);
+  for (uint k = range.x; k < range.x + range.y; ++k) turning += LOAD3(part_sum[k].missing, 0u);
+  STORE3(m.turning, 0u, turning)
+  return m;
+}
+
+RigidMotion restored_motion_of(uint b) {
+  return rigid_motion_with(restored_moments_of(b), double(body[b].vertex_count), place_of(body[b].first_vertex), dvec3(0));
+}
+
 void sum_energies_of(uvec4 part, uint item) {
   uint b = part.x;
-  RigidMotion rigid = rigid_motion_of_body(b);
+  RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b);
   double deformation = double(0), all_rigid = double(0), gained = double(0);
   for (uint i = part.y; i < part.z; ++i) {
-    dvec3 along = velocity_at(rigid, place_of(i)), beside = velocity_of_vertex(i) - along;
+    dvec3 place = place_of(i), along = velocity_at(rigid, place), beside = velocity_of_vertex(i) - along;
+    dvec3 along_restored = velocity_at(restored, place);
     deformation += dot(beside, beside);
-    all_rigid += dot(along, along);
+    all_rigid += dot(along_restored, along_restored);
+    gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
     double part_of_way = double(uintBitsToFloat(cut[i]));
     if (part_of_way < double(1)) gained += energy_of_cut(i, b, part_of_way);
   }
@@ -142,7 +169,7 @@ dvec3 first_place_of(uint b) { return to_world(pose[b], place_of(body[b].first_v
 void add_to_cluster(uint b) {
   uint first = cluster[b].first;
   double count = double(body[b].vertex_count), mass = double(1) / body[b].inverse_mass;
-  Moments m = moments_of_body(b), sum = cluster[first].sum;
+  Moments m = restored_moments_of(b), sum = cluster[first].sum;
   dvec3 place = LOAD3(m.place, 0u), from_first = place / count, frame_velocity = LOAD3(m.velocity, 0u) / count;
   dvec3 frame_turning = LOAD3(m.turning, 0u) - cross(place, frame_velocity);
   dvec3 squares = LOAD3(m.spread, 0u) - place * from_first;
@@ -211,11 +238,11 @@ void pay(uvec4 part) {
   uint b = part.x;
   Means means = means_of(b);
   double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means);
-  if (of_deformation == double(1) && of_rigid == double(1)) return;
+  if (of_deformation == double(1) && of_rigid == double(1) && !was_cut_short(b)) return;
   bool shares = is_in_cluster(b);
-  RigidMotion rigid = rigid_motion_of_body(b), of_cluster = cluster[cluster[b].first].motion;
+  RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {
-    dvec3 place = place_of(i), along = velocity_at(rigid, place), beside = velocity_of_vertex(i) - along;
+    dvec3 place = place_of(i), along = velocity_at(restored, place), beside = velocity_of_vertex(i) - velocity_at(rigid, place);
     dvec3 together = shares ? common_velocity(b, of_cluster, place) : dvec3(0);
     dvec3 velocity = together + of_rigid * (along - together) + of_deformation * beside;
     STORE3(motion, velocity_of(vertex_at(i)), velocity)
@@ -253,6 +280,7 @@ void pay_for_cuts(uint item, uint number) {
   uvec4 part = vertex_part[item];
   if (status[part.x].activity != moving) return;
   if (number == 0u) sum_moments_of(part, item);
+  if (number == 0u) sum_what_is_missing(part, item);
   if (number == 1u) sum_energies_of(part, item);
   if (number == 3u) pay(part);
   if (number == 4u && item == vertex_part_range[part.x].x) note_debt(part.x);

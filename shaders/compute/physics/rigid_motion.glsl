@@ -23,6 +23,7 @@ struct Moments {
 // A part of a body in a sum over its vertices.
 struct PartSums {
   Moments moments;
+  double missing[3];   // angular momentum over the mass of a vertex that cuts took, because they moved places and not velocities
   double deformation;  // kinetic energy of the velocities less the rigid motion [J]
   double rigid;        // kinetic energy of the rigid motion [J]
   double gained;       // that cuts added to springs [J]

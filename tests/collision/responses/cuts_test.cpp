@@ -85,6 +85,7 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
     CHECK(seen.report.reverted_vertices > 1000);
     CHECK(seen.most - seen.first < 1e-3 * without_flight);
     CHECK(glm::length(seen.momentum) < 1e-4 * (1 + along));
+    CHECK(glm::length(seen.angular_momentum_change) < 5e-3);
   }
 }
 
