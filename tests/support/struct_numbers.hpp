@@ -98,7 +98,7 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(list.arrivals),
           double(list.latest_count),
           double(list.is_tried),
-          double(list.has_cuts),
+          double(list.has_dues),
           double(std::bit_cast<float>(list.fastest))};
 }
 

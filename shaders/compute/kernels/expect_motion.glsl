@@ -36,7 +36,7 @@ void empty_lists() {
   contact_list[0].is_tried = control[0].time_step > double(0) ? 1u : 0u;
   contact_list[0].presses = 0u;
   contact_list[0].unsettled_round = 0u;
-  contact_list[0].has_cuts = 0u;
+  contact_list[0].has_dues = 0u;
 }
 
 // How much further than expected a vertex may go, on all sides [m]. Bodies that are far from all others have more room.

@@ -1,8 +1,8 @@
-// A kernel in rounds. One thread serves some vertices of a body that had motions cut short or contacts that jam, or still owes. A vertex
-// that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its momentum
-// and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each other. A body
-// whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion. What bodies can't
-// pay, they owe. What cuts take from a body's angular momentum comes back as spin.
+// A kernel in rounds. One thread serves some vertices of a body that had motions cut short or contacts that gave energy, or still owes. A
+// vertex that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its
+// momentum and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each
+// other. A body whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion.
+// What bodies can't pay, they owe. What cuts take from a body's angular momentum comes back as spin.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -35,7 +35,7 @@ const uint last_round = 5u;
 
 // The last debt is that of all bodies together, and the last cluster counts bodies in clusters.
 bool is_needed() {
-  return contact_list[0].has_cuts != 0u || debt[body_count].energy > double(0) || cluster[body_count].bodies != 0u;
+  return contact_list[0].has_dues != 0u || debt[body_count].energy > double(0) || cluster[body_count].bodies != 0u;
 }
 // A step that is empty or was undone leaves clusters as they are.
 uint items_in_a_round() { return is_needed() && control[0].time_step > double(0) ? part_count : 0u; }
@@ -108,7 +108,7 @@ bool is_near_one_that_moves(uint b) {
   return is_near;
 }
 
-// Without what others may pay. Contacts that jam give energy, which is due, too.
+// Without what others may pay. What contacts gave that ended unsettled is due, too.
 Means own_means_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Means m;
@@ -118,7 +118,7 @@ Means own_means_of(uint b) {
     m.rigid += part_sum[k].rigid;
     m.due += part_sum[k].gained;
   }
-  m.due = max(debt[b].energy + m.due, double(0)) + contact_total[energy_of(b)];
+  m.due = max(debt[b].energy + m.due, double(0)) + contact_total[jam_energy_of(b)];
   return m;
 }
 
@@ -139,7 +139,7 @@ Means means_of(uint b) {
 }
 
 // Whether motions of the body were cut short, now or before, so that it owes for them.
-bool is_hooked(uint b) { return status[b].activity == moving && own_means_of(b).due > double(0); }
+bool is_hooked(uint b) { return status[b].activity == moving && own_means_of(b).due > contact_total[jam_energy_of(b)]; }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();

@@ -49,7 +49,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
   cut[i] = floatBitsToUint(float(part));
-  ATOMIC_STORE(contact_list[0].has_cuts, 1u);
+  ATOMIC_STORE(contact_list[0].has_dues, 1u);
   ATOMIC_STORE(status[b].force_stale, 1u);
   ATOMIC_STORE(status[b].deformed, 1u);
   atomicAdd(control[0].count[reverted_vertices], 1u);

@@ -132,26 +132,28 @@ void fetch(uint c, uint kick_round) {
 }
 
 void store(uint c) {
-  contact_row[contact_rows * c + 2u] = held.goal_row;
-  contact_row[contact_rows * c + 3u] = held.resistance;
   contact_row[contact_rows * c + 4u] = held.ahead;
   impulse_row[c] = held.impulse;
 }
 
-void answer(uint kick_round, bool ends) {
+void answer(uint c, uint kick_round, bool ends) {
   real4 had = held.ahead, before = held.impulse;
   real3 change = relative_change(held.place, held.weight, held.resistance, buffer_of(kick_round));
   held.impulse = next_impulse(had, held.normal_row, held.goal_row, change, held.resistance.z);
   held.ahead = held.impulse;
-  if (ends) return;
+  real4 change_of_impulse = held.impulse - had;
+  bool changes = dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w;
+  if (ends) {
+    contact_row[contact_rows * c + 3u].w = changes && kick_round + 1u == most_kick_rounds ? real(-1) : real(0);
+    return;
+  }
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
   if (!turns) held.ahead += momentum_after(kick_round) * (held.impulse - before);
-  real4 change_of_impulse = held.impulse - had;
-  if (dot(change_of_impulse, change_of_impulse) <= held.resistance.w * held.resistance.w) return;
+  if (!changes) return;
   note_unsettled(kick_round);
   if (kick_round < friction_rounds) return;
   held.goal_row.w *= real(0.9);
-  held.resistance.w = -abs(held.resistance.w);
+  contact_row[contact_rows * c + 2u] = held.goal_row;
 }
 
 // Where a contact has a thread to itself, the thread keeps it from the first round to the last.
@@ -159,7 +161,7 @@ void push(uint c, uint kick_round) {
   bool starts = kick_round == 0u, ends = is_last(kick_round);
   if (starts || !has_own_thread) fetch(c, kick_round);
   if (held.resistance.z == real(0)) return;  // between immovable bodies
-  if (!starts) answer(kick_round, ends);
+  if (!starts) answer(c, kick_round, ends);
   if (ends || !has_own_thread) store(c);
   if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
   clear_sums(held.place, buffer_of(kick_round + 2u));
@@ -205,12 +207,15 @@ void add_energy(uint k, double energy) {
   if (whole != double(0)) ADD_EXACTLY(contact_sum[k], whole)
 }
 
-bool jams(uint c) { return contact_row[contact_rows * c + 3u].w < real(0); }
+bool ended_unsettled(uint c) { return contact_row[contact_rows * c + 3u].w < real(0); }
 
-// Half of what a contact gave stands for either body.
-void share_energy(uint i, double energy) {
-  uint b = uint(rest_position[i].w);
-  if (inverse_mass_of(i) != double(0)) add_energy(energy_of(b), double(0.5) * energy);
+// Half of what a contact gave stands for either body, or all of it for one that meets what does not move.
+void share_energy(uvec4 who, double energy) {
+  bool meets_ground = who.w == no_vertex;
+  bool first_moves = inverse_mass_of(who.x) != double(0), second_moves = !meets_ground && inverse_mass_of(who.w) != double(0);
+  double share_of_it = first_moves && second_moves ? double(0.5) * energy : energy;
+  if (first_moves) add_energy(jam_energy_of(uint(rest_position[who.x].w)), share_of_it);
+  if (second_moves) add_energy(jam_energy_of(uint(rest_position[who.w].w)), share_of_it);
 }
 
 // An impulse gives as much energy as it would along the mean of the velocities before and after.
@@ -222,10 +227,7 @@ void add_work(uint c, uint kick_round) {
   double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
   add_energy(along + across > double(0) ? energy_given : energy_taken, abs(along + across));
   add_energy(friction_work, -across);
-  if (!jams(c)) return;
-  uvec4 who = contact_vertex[c];
-  share_energy(who.x, along + across);
-  share_energy(who.w == no_vertex ? who.x : who.w, along + across);
+  if (ended_unsettled(c)) share_energy(contact_vertex[c], along + across);
 }
 
 void solve_contacts(uint c, uint kick_round) {

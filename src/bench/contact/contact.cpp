@@ -372,7 +372,8 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
       inside += row->inside;
       without_contact += row->contact_parts == 0 ? 1 : 0;
       not_parted += row->parted ? 0 : 1;
-      if (row->precision == 32) ratios.push_back(row->momentum_change / row->momentum_change_alone);
+      if (row->precision == 32 && row->momentum_change_alone > 0)
+        ratios.push_back(row->momentum_change / row->momentum_change_alone);
     }
   if (steps == 0) return {};
   std::ranges::sort(ratios);

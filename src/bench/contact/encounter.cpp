@@ -20,7 +20,8 @@ void go_to_the_first_impulse(Simulation& simulation, std::uint64_t most_parts, c
   for (std::uint64_t part = 0; part < most_parts && !stop.stop_requested(); part += at_once) {
     earlier = std::exchange(saved, simulation.save());
     advance_some_parts(simulation);
-    if (simulation.report().contact_steps == 0) continue;
+    const StepReport report = simulation.report();
+    if (report.contact_steps == 0 && !report.breakdown) continue;
     simulation.restore(earlier);
     return;
   }
@@ -35,15 +36,15 @@ StepReport since(const StepReport& earlier, StepReport report) {
 }
 
 bool part_at_last(Simulation& simulation, Witness& witness, std::uint64_t most_parts, const std::stop_token& stop) {
-  for (std::uint64_t part = 0; part < most_parts && !stop.stop_requested(); part += at_once) {
+  for (std::uint64_t part = 0;; part += at_once) {
     const State state = simulation.state();
     const bool parted = witness.have_parted(state);
+    const bool ends = parted || part >= most_parts || stop.stop_requested() || simulation.report().breakdown;
     witness.look_at_place(state);
-    if (parted || part % between_motions == 0) witness.look_at_motion(state);
-    if (parted) return true;
+    if (ends || part % between_motions == 0) witness.look_at_motion(state);
+    if (ends) return parted;
     advance_some_parts(simulation);
   }
-  return false;
 }
 
 }  // namespace

@@ -45,21 +45,29 @@ Witness::Witness(const ModelAndState& start)
     sum_of_angular_momenta_ += start.model.body_of(i).vertex_mass * glm::length(glm::cross(before_[i], velocities[i]));
 }
 
+void Witness::look_at_momentum(const State& state) {
+  const double change = glm::length(momentum_of(start_.model, state) - first_momentum_);
+  seen.momentum_change = std::max(seen.momentum_change, change / sum_of_momenta_);
+}
+
 void Witness::look_at_places(const State& state) {
+  look_at_momentum(state);
   const std::vector<glm::dvec3> after = state.world_positions(start_.model);
   for (int k = 1; k <= 8; ++k) seen.touching += oracle_.pairs_not_apart(between(before_, after, k / 8.0));
   before_ = after;
 }
 
-void Witness::look_at_place(const State& state) { seen.touching += oracle_.pairs_not_apart(state.world_positions(start_.model)); }
+void Witness::look_at_place(const State& state) {
+  look_at_momentum(state);
+  seen.touching += oracle_.pairs_not_apart(state.world_positions(start_.model));
+}
 
 bool Witness::have_parted(const State& state) const { return oracle_.have_parted(state.world_positions(start_.model)); }
 
 void Witness::look_at_motion(const State& state) {
   seen.inside += oracle_.vertices_inside_others(state.world_positions(start_.model));
   const Measurement now = measure(start_.model, state, glm::dvec3(0.0), pool_);
-  const glm::dvec3 momentum = momentum_of(start_.model, state);
-  seen.momentum_change = std::max(seen.momentum_change, glm::length(momentum - first_momentum_) / sum_of_momenta_);
+  look_at_momentum(state);
   seen.angular_momentum_change = glm::length(now.angular_momentum - first_.angular_momentum) / sum_of_angular_momenta_;
   seen.last_energy = (now.energy() - first_.energy()) / first_.kinetic;
   seen.most_energy = std::max(seen.most_energy, seen.last_energy);

@@ -34,11 +34,11 @@ class Witness {
   /// `start` must outlive the witness.
   explicit Witness(const ModelAndState& start);
 
-  /// Proves that bodies are apart in this state, and at seven times on the straight way from the one before.
+  /// Measures momentum. Proves that bodies are apart in this state, and at seven times on the straight way from the one before.
   void look_at_places(const State& state);
-  /// Proves it in this state alone.
+  /// Does the same in this state alone.
   void look_at_place(const State& state);
-  /// Measures momentum and energy, and looks for vertices inside other bodies. This takes longer.
+  /// Measures energy and angular momentum, and looks for vertices inside other bodies. This takes longer.
   void look_at_motion(const State& state);
 
   /// Returns whether the bodies' boxes are apart.
@@ -47,6 +47,8 @@ class Witness {
   Seen seen;
 
  private:
+  void look_at_momentum(const State& state);
+
   const ModelAndState& start_;
   ApartOracle oracle_;
   ThreadPool pool_{1};

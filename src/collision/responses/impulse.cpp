@@ -74,12 +74,13 @@ std::vector<std::uint32_t> surroundings(const Forest& forest) {
   return around;
 }
 
-// All pairs of triangles of different bodies, if they are not too many.
+// All pairs of triangles of different bodies of which one moves, if they are not too many.
 std::uint32_t room_for_triangle_pairs(const Model& model) {
-  std::uint64_t triangles = 0, pairs = 0;
+  std::uint64_t triangles = 0, moving = 0, pairs = 0;
   for (const ModelBody& body : model.bodies) {
-    pairs += triangles * body.triangle_count;
+    pairs += (body.is_static ? moving : triangles) * body.triangle_count;
     triangles += body.triangle_count;
+    if (!body.is_static) moving += body.triangle_count;
   }
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, most_triangle_pairs));
 }
@@ -128,8 +129,8 @@ class Impulse final : public Response {
                                                                       .least_push = {none, none, none},
                                                                       .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<glm::uvec2>("contact_sum", physics::energy_of(bodies_.body_count));
-    arrays.make<double>("contact_total", physics::energy_of(bodies_.body_count));
+    arrays.make<glm::uvec2>("contact_sum", physics::jam_energy_of(bodies_.body_count));
+    arrays.make<double>("contact_total", physics::jam_energy_of(bodies_.body_count));
     arrays.make("triangle_around", surroundings(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked", 3 * vertices);

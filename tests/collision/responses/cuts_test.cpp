@@ -89,7 +89,7 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
   }
 }
 
-// Each crumples around the other, and most kicks do not settle from some 2,000 parts on.
+// Each crumples around the other, and most kicks do not settle from some 1,300 parts on.
 TEST_CASE("kicks that do not settle give no energy", "[long]") {
   const bench::Partner sphere{.mesh = generate_mesh("icosphere:4")};
   const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 2});

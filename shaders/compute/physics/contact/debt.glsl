@@ -1,4 +1,4 @@
-// What a body owes for motions that were cut short: they leave its springs with energy that nothing has paid for.
+// What a body owes: motions that were cut short leave its springs with energy, and contacts that did not settle may give some.
 #ifndef DEBT_GLSL
 #define DEBT_GLSL
 #include "../language.glsl"

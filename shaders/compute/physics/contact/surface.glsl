@@ -45,7 +45,7 @@ struct ContactList {
   uint is_tried;             // 1: the step is not empty, though it may be undone
   uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
   uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
-  uint has_cuts;             // 1: motions were cut short in this step
+  uint has_dues;             // 1: motions were cut short in this step, or contacts that ended unsettled gave energy
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
@@ -88,7 +88,7 @@ const uint contact_rows = 5u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step.
 const uint fewest_kick_rounds = 9u;
 const uint most_kick_rounds = 129u;
-// From this one on contacts that have not settled jam, and lose friction. Their impulses along and across the normal raise each other.
+// From this one on contacts that have not settled lose friction. Their impulses along and across the normal raise each other.
 const uint friction_rounds = 65u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
@@ -98,7 +98,7 @@ const uint energy_given = 3u;
 const uint energy_taken = 4u;
 const uint friction_work = 5u;
 const uint contact_sums = 6u;
-FN uint energy_of(uint b) { return contact_sums + b; }  // behind them, what jammed contacts gave each body
+FN uint jam_energy_of(uint b) { return contact_sums + b; }  // behind them, what contacts gave each body that ended unsettled
 
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
