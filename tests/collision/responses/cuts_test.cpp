@@ -89,6 +89,29 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
   }
 }
 
+// The light one catches on an edge of the heavy one, and both go on turning.
+TEST_CASE("bodies that spin while they hook into each other gain no energy") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("cube:1"), "heavy"), soft(generate_mesh("cube:5"), "light")};
+  setups[0].description.total_mass = 100;
+  setups[0].description.total_stiffness = 1e7;
+  setups[0].description.position = {0, 0.16, -0.1};
+  setups[0].description.rotation = {264, 224, 3};
+  setups[0].description.velocity = {36, 0, 0};
+  setups[0].description.spin = {30, 30, 0};
+  setups[1].description.total_stiffness = 1e5;
+  setups[1].description.position = {3.6, 0.1, -0.26};
+  setups[1].description.rotation = {153, 213, 308};
+  setups[1].description.velocity = {-23, 0, 0};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const auto device = make_cpu_device(1, 64);
+  const double stiffest = std::sqrt(1e5);  // [1/s] of either body
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1.3 / stiffest}),
+                        {.response = {"impulse"}, .gap = 0.01});
+  const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 1.2);
+  CHECK(seen.report.reverted_vertices > 10000);
+  CHECK(seen.most - seen.first < 1e-3 * seen.first);
+}
+
 // Each crumples around the other, and most kicks do not settle from some 1,300 parts on.
 TEST_CASE("kicks that do not settle give no energy", "[long]") {
   const bench::Partner sphere{.mesh = generate_mesh("icosphere:4")};

@@ -1,9 +1,12 @@
-// The way in the step that a place in the world has in common with all of its body's cluster [m].
+// The way in the step that a place in the world has in common with all of its body's cluster [m]. Distances stay, so that springs get no
+// energy: a place goes along with the centre, and turns by Cayley's map of the spin, which is a rotation.
 dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   uint first = cluster[b].first;
   if (cluster[first].bodies == 0u) return dvec3(0);
   RigidMotion of_cluster = cluster[first].motion;
-  return time_step * velocity_at(of_cluster, from);
+  dvec3 half_turn = (double(0.5) * time_step) * LOAD3(of_cluster.spin, 0u);
+  dvec3 across = cross(half_turn, from - LOAD3(of_cluster.centre, 0u));
+  return time_step * LOAD3(of_cluster.velocity, 0u) + (across + cross(half_turn, across)) * (double(2) / (double(1) + dot(half_turn, half_turn)));
 }
 
 // The same as far as cuts leave it alone.
