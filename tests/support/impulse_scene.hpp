@@ -28,9 +28,22 @@ inline BodySetup soft(TriangleMesh mesh, const char* name) {
 struct Energies {
   double first = 0, most = 0, last = 0;  // [J]
   glm::dvec3 momentum{0.0};              // the last one, less what gravity and what does not move have given [Ns]
-  glm::dvec3 angular_momentum_change{0.0};
+  glm::dvec3 turning_change{0.0};        // of the angular momentum about the centre of all masses [kg m^2/s]
   StepReport report;
 };
+
+inline glm::dvec3 angular_momentum_about_centre(const Model& model, const State& state, const Measurement& measured) {
+  const std::vector<glm::dvec3> places = state.world_positions(model);
+  glm::dvec3 sum(0.0);
+  double mass = 0;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const ModelBody& body = model.bodies[model.body_index(i)];
+    if (body.is_static) continue;
+    sum += body.vertex_mass * places[i];
+    mass += body.vertex_mass;
+  }
+  return measured.angular_momentum - glm::cross(sum / mass, measured.momentum);
+}
 
 inline Energies energies_of(Simulation& simulation, const ModelAndState& start, const glm::dvec3& gravity, double duration) {
   ThreadPool pool(1);
@@ -49,7 +62,8 @@ inline Energies energies_of(Simulation& simulation, const ModelAndState& start, 
   for (const ModelBody& body : start.model.bodies)
     if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
   seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
-  seen.angular_momentum_change = now.angular_momentum - before.angular_momentum;
+  seen.turning_change = angular_momentum_about_centre(start.model, simulation.state(), now) -
+                        angular_momentum_about_centre(start.model, start.state, before);
   return seen;
 }
 

@@ -58,7 +58,7 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained});
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.is_cut)});
   return numbers;
 }
 
@@ -103,7 +103,7 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
 }
 
 inline std::vector<double> numbers_of(const physics::Debt& debt) {
-  return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2]};
+  return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2], double(debt.is_for_cuts)};
 }
 
 // Its motion means nothing if it has no bodies.

@@ -31,7 +31,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
 
-const uint last_round = 5u;
+const uint last_round = 6u;
 
 // The last debt is that of all bodies together, and the last cluster counts bodies in clusters.
 bool is_needed() {
@@ -55,23 +55,58 @@ double energy_of_cut(uint i, uint b, double part) {
   return given + double(0.5) * stiffness * dot(missing, missing);
 }
 
-// Cuts move a vertex and leave its velocity, so its angular momentum changes.
-void sum_what_is_missing(uvec4 part, uint item) {
-  dvec3 missing = dvec3(0);
-  for (uint i = part.y; i < part.z; ++i) {
-    double part_of_way = double(uintBitsToFloat(cut[i]));
-    if (part_of_way < double(1))
-      missing += cross(rotate_back(pose[part.x], (double(1) - part_of_way) * LOAD3(way, force_of(i))), velocity_of_vertex(i));
-  }
-  STORE3(part_sum[item].missing, 0u, missing)
+dvec3 momentum_of(uint b) {
+  Moments m = moments_of_body(b);
+  return rotate(pose[b], LOAD3(m.velocity, 0u)) / body[b].inverse_mass;
 }
 
-// With what cuts took.
+double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_mass; }
+
+// The velocity that the body and those near it that move have together, in its frame [m/s].
+dvec3 velocity_of_flight(uint b) {
+  dvec3 momentum = momentum_of(b);
+  double mass = mass_of(b);
+  for (uint k = 0u; k < control[0].near_pair_count; ++k) {
+    uvec2 pair = near_pair[k];
+    if (pair.x != b && pair.y != b) continue;
+    uint other = pair.x == b ? pair.y : pair.x;
+    if (status[other].activity != moving) continue;
+    momentum += momentum_of(other);
+    mass += mass_of(other);
+  }
+  return rotate_back(pose[b], momentum / mass);
+}
+
+// Cuts move a vertex and leave its velocity, so its angular momentum changes. What flies along together and stays behind does not turn, so
+// the flight does not count.
+void sum_lost_turning(uvec4 part, uint item) {
+  dvec3 lost = dvec3(0), flight = dvec3(0);
+  uint is_cut = 0u;
+  for (uint i = part.y; i < part.z; ++i) {
+    double part_of_way = double(uintBitsToFloat(cut[i]));
+    if (!(part_of_way < double(1))) continue;
+    if (is_cut == 0u) flight = velocity_of_flight(part.x);
+    is_cut = 1u;
+    lost += cross(rotate_back(pose[part.x], (double(1) - part_of_way) * LOAD3(way, force_of(i))), velocity_of_vertex(i) - flight);
+  }
+  STORE3(part_sum[item].lost_turning, 0u, lost)
+  part_sum[item].is_cut = is_cut;
+}
+
+// In this step.
+bool was_cut_short(uint b) {
+  uvec2 range = vertex_part_range[b];
+  bool was_cut = false;
+  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].is_cut != 0u;
+  return was_cut;
+}
+
+// As if cuts had left the body's angular momentum.
 Moments restored_moments_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Moments m = moments_of_body(b);
   dvec3 turning = LOAD3(m.turning, 0u);
-  for (uint k = range.x; k < range.x + range.y; ++k) turning += LOAD3(part_sum[k].missing, 0u);
+  for (uint k = range.x; k < range.x + range.y; ++k) turning += LOAD3(part_sum[k].lost_turning, 0u);
   STORE3(m.turning, 0u, turning)
   return m;
 }
@@ -84,12 +119,13 @@ void sum_energies_of(uvec4 part, uint item) {
   uint b = part.x;
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b);
   double deformation = double(0), all_rigid = double(0), gained = double(0);
+  bool was_cut = was_cut_short(b);
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 place = place_of(i), along = velocity_at(rigid, place), beside = velocity_of_vertex(i) - along;
     dvec3 along_restored = velocity_at(restored, place);
     deformation += dot(beside, beside);
     all_rigid += dot(along_restored, along_restored);
-    gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
+    if (was_cut) gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
     double part_of_way = double(uintBitsToFloat(cut[i]));
     if (part_of_way < double(1)) gained += energy_of_cut(i, b, part_of_way);
   }
@@ -108,7 +144,7 @@ bool is_near_one_that_moves(uint b) {
   return is_near;
 }
 
-// Without what others may pay. What contacts gave that ended unsettled is due, too.
+// Without what others may pay. What unsettled contacts gave is due, too.
 Means own_means_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Means m;
@@ -124,22 +160,16 @@ Means own_means_of(uint b) {
 
 bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
 
-// In this step. A body that still owes but flies freely is not held by anything, so its rigid motion stays.
-bool was_cut_short(uint b) {
-  uvec2 range = vertex_part_range[b];
-  bool was_cut = false;
-  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].gained != double(0);
-  return was_cut;
-}
-
+// A body that still owes but flies freely is not held by anything, so its rigid motion stays.
 Means means_of(uint b) {
   Means m = own_means_of(b);
   if (!(m.due > m.deformation) || !was_cut_short(b) || is_in_cluster(b) || is_near_one_that_moves(b)) m.rigid = double(0);
   return m;
 }
 
-// Whether motions of the body were cut short, now or before, so that it owes for them.
-bool is_hooked(uint b) { return status[b].activity == moving && own_means_of(b).due > contact_total[jam_energy_of(b)]; }
+// Whether motions of the body were cut short in this step, or before and it still owes for them.
+bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
+bool is_hooked(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
@@ -251,6 +281,7 @@ void pay(uvec4 part) {
 
 void note_debt(uint b) {
   Means means = means_of(b);
+  debt[b].is_for_cuts = was_caught(b) ? 1u : 0u;
   if (is_in_cluster(b)) {
     Cluster c = cluster[cluster[b].first];
     debt[b].energy = owed_after(means) * part_still_due(c);
@@ -275,13 +306,13 @@ void note_debts() {
 }
 
 void pay_for_cuts(uint item, uint number) {
-  if (number == 2u && item == 0u) find_clusters();
+  if (number == 3u && item == 0u) find_clusters();
   if (number == last_round && item == 0u) note_debts();
   uvec4 part = vertex_part[item];
   if (status[part.x].activity != moving) return;
   if (number == 0u) sum_moments_of(part, item);
-  if (number == 0u) sum_what_is_missing(part, item);
-  if (number == 1u) sum_energies_of(part, item);
-  if (number == 3u) pay(part);
-  if (number == 4u && item == vertex_part_range[part.x].x) note_debt(part.x);
+  if (number == 1u) sum_lost_turning(part, item);
+  if (number == 2u) sum_energies_of(part, item);
+  if (number == 4u) pay(part);
+  if (number == 5u && item == vertex_part_range[part.x].x) note_debt(part.x);
 }

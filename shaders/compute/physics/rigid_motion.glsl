@@ -23,10 +23,12 @@ struct Moments {
 // A part of a body in a sum over its vertices.
 struct PartSums {
   Moments moments;
-  double missing[3];   // angular momentum over the mass of a vertex that cuts took, because they moved places and not velocities
-  double deformation;  // kinetic energy of the velocities less the rigid motion [J]
-  double rigid;        // kinetic energy of the rigid motion [J]
-  double gained;       // that cuts added to springs [J]
+  double lost_turning[3];  // of x cross w, by cuts, which move places and leave velocities
+  double deformation;      // kinetic energy of the velocities less the rigid motion [J]
+  double rigid;            // kinetic energy of the rigid motion, with the turning that cuts took [J]
+  double gained;           // that cuts added to springs, and that the turning which comes back has more [J]
+  uint is_cut;             // 1: motions of vertices were cut short in this step
+  uint padding;
 };
 
 FN Moments no_moments() {

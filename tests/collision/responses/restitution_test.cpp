@@ -46,7 +46,7 @@ Parting part_after_impact(const ModelAndState& start, double stiffness, const gl
   const Energies seen = energies_of(simulation, start, gravity, 80 / std::sqrt(stiffness));
   return {.kept = glm::length(mean_velocity(start.model, simulation.state(), body)) / before,
           .momentum_change = glm::length(seen.momentum),
-          .angular_momentum_change = glm::length(seen.angular_momentum_change),
+          .angular_momentum_change = glm::length(seen.turning_change),
           .most_energy = seen.most / seen.first,
           .report = seen.report};
 }
