@@ -122,7 +122,7 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
-                    "move too far in a step, or are pressed too hard; try {}, or stiffer bodies{}",
+                    "move too far in a step, or are pressed too hard; try {}, a larger gap or stiffer bodies{}",
                     report.reverted_vertices, shorter_steps(report),
                     precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
   return told;
