@@ -143,7 +143,7 @@ TEST_CASE("a light body that still owes for motions cut short flies on with all 
                         {.response = {"impulse"}, .elasticity = 0.5, .gap = 0.01});  // with the usual gap nothing is cut
   const bench::Seen seen = bench::watch(simulation, meeting.start, {.steps = 200, .stride = 8});
   CHECK(seen.report.reverted_vertices > 20);
-  CHECK(seen.momentum_change < 1e-14);
+  CHECK(seen.momentum_change < 1e-13);  // of rounding, which is 1.4e-14 with AVX2
 }
 
 TEST_CASE("spheres meet at extremes of mass, radius and place, and momentum is kept") {
