@@ -255,8 +255,8 @@ void find_clusters() {
 // What a body keeps of its rigid motion beyond that of its cluster, which is none if the body is alone.
 double kept_of_rigid(uint b, IN(Means) means) {
   if (!is_in_cluster(b)) return kept_of_rigid_motion(means);
-  Cluster c = cluster[cluster[b].first];
-  return kept_beyond(c);
+  uint first = cluster[b].first;
+  return kept_beyond(cluster[first].kinetic, cluster[first].due);
 }
 
 // The velocity that all bodies of a cluster have in common, in the body's frame [m/s].
@@ -283,8 +283,8 @@ void note_debt(uint b) {
   Means means = means_of(b);
   debt[b].is_for_cuts = was_caught(b) ? 1u : 0u;
   if (is_in_cluster(b)) {
-    Cluster c = cluster[cluster[b].first];
-    debt[b].energy = owed_after(means) * part_still_due(c);
+    uint first = cluster[b].first;
+    debt[b].energy = owed_after(means) * part_still_due(cluster[first].kinetic, cluster[first].due);
     return;
   }
   double lost = (double(1) - kept_of_rigid_motion(means)) * double(body[b].vertex_count) / body[b].inverse_mass;

@@ -72,7 +72,8 @@
 #define LOWER_TO(target, value) if ((value) < ATOMIC_LOAD(target)) atomicMin(target, value);
 #define RAISE_TO(target, value) if ((value) > ATOMIC_LOAD(target)) atomicMax(target, value);
 
-// Flat arrays of doubles hold three numbers a vector, because std430 and C++ disagree on arrays of dvec3.
+// Flat arrays of doubles hold three numbers a vector, because std430 and C++ disagree on arrays of dvec3. In a local struct their places are
+// constants, never a loop's number: NVIDIA's driver 580 keeps such a struct in memory then, and stores its doubles as floats there.
 #define LOAD3(array, first) dvec3((array)[(first)], (array)[(first) + 1u], (array)[(first) + 2u])
 #define STORE3(array, first, value)          \
   {                                          \

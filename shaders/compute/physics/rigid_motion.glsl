@@ -33,7 +33,11 @@ struct PartSums {
 
 FN Moments no_moments() {
   Moments m;
-  for (uint k = 0u; k < 3u; ++k) m.place[k] = m.velocity[k] = m.turning[k] = m.spread[k] = m.spread[k + 3u] = double(0);
+  STORE3(m.place, 0u, dvec3(0))
+  STORE3(m.velocity, 0u, dvec3(0))
+  STORE3(m.turning, 0u, dvec3(0))
+  STORE3(m.spread, 0u, dvec3(0))
+  STORE3(m.spread, 3u, dvec3(0))
   return m;
 }
 
@@ -48,13 +52,14 @@ FN void add_vertex(INOUT(Moments) m, dvec3 x, dvec3 w) {
 }
 
 FN void add_moments(INOUT(Moments) m, IN(Moments) more) {
-  for (uint k = 0u; k < 3u; ++k) {
-    m.place[k] += more.place[k];
-    m.velocity[k] += more.velocity[k];
-    m.turning[k] += more.turning[k];
-    m.spread[k] += more.spread[k];
-    m.spread[k + 3u] += more.spread[k + 3u];
-  }
+  dvec3 place = LOAD3(m.place, 0u) + LOAD3(more.place, 0u), velocity = LOAD3(m.velocity, 0u) + LOAD3(more.velocity, 0u);
+  dvec3 turning = LOAD3(m.turning, 0u) + LOAD3(more.turning, 0u);
+  dvec3 squares = LOAD3(m.spread, 0u) + LOAD3(more.spread, 0u), products = LOAD3(m.spread, 3u) + LOAD3(more.spread, 3u);
+  STORE3(m.place, 0u, place)
+  STORE3(m.velocity, 0u, velocity)
+  STORE3(m.turning, 0u, turning)
+  STORE3(m.spread, 0u, squares)
+  STORE3(m.spread, 3u, products)
 }
 
 // Returns the spin that gives the angular momentum. Of several it returns the smallest. `squares` and `products` are the spread about

@@ -2,7 +2,7 @@
 // - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. The
-//   motion is one affine map of space, so triangles that make nothing but this motion stay apart.
+//   motion is a rotation and a shift of all of space, so triangles that make nothing but this motion stay apart.
 #ifndef CLUSTER_GLSL
 #define CLUSTER_GLSL
 #include "../rigid_motion.glsl"
@@ -21,11 +21,11 @@ struct Cluster {
 };
 
 // What bodies keep of their rigid motions beyond the cluster's, and the part that is still due after it.
-FN double kept_beyond(IN(Cluster) c) {
-  if (c.due == double(0)) return double(1);
-  return c.kinetic > c.due ? sqrt(double(1) - c.due / c.kinetic) : double(0);
+FN double kept_beyond(double kinetic, double due) {
+  if (due == double(0)) return double(1);
+  return kinetic > due ? sqrt(double(1) - due / kinetic) : double(0);
 }
-FN double part_still_due(IN(Cluster) c) { return c.due > c.kinetic ? double(1) - c.kinetic / c.due : double(0); }
+FN double part_still_due(double kinetic, double due) { return due > kinetic ? double(1) - kinetic / due : double(0); }
 
 SHARED_END
 #endif
