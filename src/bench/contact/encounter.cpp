@@ -1,6 +1,7 @@
 #include "bench/contact/encounter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
@@ -32,6 +33,8 @@ StepReport since(const StepReport& earlier, StepReport report) {
   report.steps -= earlier.steps;
   report.substeps -= earlier.substeps;
   report.time -= earlier.time;
+  report.reverted_vertices -= earlier.reverted_vertices;
+  report.held_parts -= earlier.held_parts;
   return report;
 }
 
@@ -58,6 +61,7 @@ SeenEncounter watch_encounter(Simulation& simulation, const Model& model, const 
   const StepReport closely = since(unwatched, simulation.report());
   const bool parted = part_at_last(simulation, witness, patience.to_part, stop);
   witness.seen.report = since(unwatched, simulation.report());
+  if (witness.seen.report.breakdown) witness.seen.momentum_change = witness.seen.most_energy = NAN;
   return {.seen = witness.seen, .close_steps = closely.steps, .close_parts = closely.steps + closely.substeps, .parted = parted};
 }
 
