@@ -106,7 +106,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     CAPTURE(name);
     const bool sums_springs = name.ends_with("_stage") || name == "refresh_force";
     const bool goes_in_rounds =
-        name == "solve_contacts" || name == "certify" || name == "pay_for_cuts" || name == "restore_impacts";
+        name == "solve_contacts" || name == "certify" || name == "pay_dues" || name == "restore_impacts";
     const auto signature = [&](Device& device) {
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
       return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000)) : device.kernel(name));

@@ -1,6 +1,6 @@
 // One thread serves one vertex after the integrator. It finds the way that the vertex went, its box, and the part of it that stays in the
-// cage. If a step was undone, it takes the kick back. It empties the sums of the
-// kick, and finds what bodies owe for contacts that ended unsettled.
+// cage. If a step was undone, it takes the kick back. It empties the sums of the kick, and finds what bodies owe for contacts that ended
+// unsettled.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -60,9 +60,9 @@ void add_contact_sums() {
 
 // What contacts that ended unsettled have given the body beyond what they took. It has to pay for that.
 void find_energy_due(uint b) {
-  double energy = was_made() ? max(quantum_of_energy() * whole_of(contact_sum[jam_energy_of(b)]), double(0)) : double(0);
-  contact_total[jam_energy_of(b)] = energy;
-  contact_sum[jam_energy_of(b)] = uvec2(0u);
+  double energy = was_made() ? max(quantum_of_energy() * whole_of(contact_sum[unsettled_energy_of(b)]), double(0)) : double(0);
+  contact_total[unsettled_energy_of(b)] = energy;
+  contact_sum[unsettled_energy_of(b)] = uvec2(0u);
   if (energy > double(0)) ATOMIC_STORE(contact_list[0].has_dues, 1u);
 }
 

@@ -214,8 +214,8 @@ void share_energy(uvec4 who, double energy) {
   bool meets_ground = who.w == no_vertex;
   bool first_moves = inverse_mass_of(who.x) != double(0), second_moves = !meets_ground && inverse_mass_of(who.w) != double(0);
   double share_of_it = first_moves && second_moves ? double(0.5) * energy : energy;
-  if (first_moves) add_energy(jam_energy_of(uint(rest_position[who.x].w)), share_of_it);
-  if (second_moves) add_energy(jam_energy_of(uint(rest_position[who.w].w)), share_of_it);
+  if (first_moves) add_energy(unsettled_energy_of(uint(rest_position[who.x].w)), share_of_it);
+  if (second_moves) add_energy(unsettled_energy_of(uint(rest_position[who.w].w)), share_of_it);
 }
 
 // An impulse gives as much energy as it would along the mean of the velocities before and after.

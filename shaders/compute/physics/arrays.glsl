@@ -64,7 +64,7 @@ ARRAY(body_motion, BoxBits, body, step, "of the expected velocities of its verti
 ARRAY(room, Room, body, step, "how much further than expected its vertices may go; without bounds and pushes between steps")
 ARRAY(pressed, uint, body, carried, "number of the latest part of a step in which a contact gave it an impulse, 0: none")
 ARRAY(ground, Ground, ground, fixed, "half-spaces that bodies stay out of; one that nothing reaches where there are none")
-ARRAY(contact_sum, uvec2, run, step, "[6 + body] sums in quanta, as 64 bits in two halves: impulse on bodies, which is what static bodies and grounds gave, then energy that contacts gave, that they took, and what friction took of both; then what contacts gave each body that ended unsettled; 0 between steps")
+ARRAY(contact_sum, uvec2, run, step, "[6 + body] sums in quanta, as 64 bits in two halves: impulse on bodies, which is what static bodies and grounds gave, then energy that contacts gave, that they took, and what friction took of both; then what contacts that ended unsettled gave each body; 0 between steps")
 ARRAY(contact_total, double, run, carried, "[6 + body] the same of all steps so far [Ns], [J]; of each body what this step gave, if it is more than 0")
 ARRAY(start, double, vertex, step, "[vertex][6] where the vertex is at the step's start [m], and its velocity before the kick [m/s], in the world")
 ARRAY(unkicked, double, vertex, step, "[vertex][3] velocity before the kick, in the body's frame [m/s]")

@@ -129,8 +129,8 @@ class Impulse final : public Response {
                                                                       .least_push = {none, none, none},
                                                                       .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<glm::uvec2>("contact_sum", physics::jam_energy_of(bodies_.body_count));
-    arrays.make<double>("contact_total", physics::jam_energy_of(bodies_.body_count));
+    arrays.make<glm::uvec2>("contact_sum", physics::unsettled_energy_of(bodies_.body_count));
+    arrays.make<double>("contact_total", physics::unsettled_energy_of(bodies_.body_count));
     arrays.make("triangle_around", surroundings(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked", 3 * vertices);
@@ -277,7 +277,7 @@ class Impulse final : public Response {
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity}},
         bodies_.vertex_count));
-    passes.push_back(round_pass("pay_for_cuts", {{"from_half", from_half}, {"part_count", part_count_}}));
+    passes.push_back(round_pass("pay_dues", {{"from_half", from_half}, {"part_count", part_count_}}));
     return passes;
   }
 

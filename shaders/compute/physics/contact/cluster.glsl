@@ -1,8 +1,9 @@
 // Bodies that owe for motions cut short against each other.
 // - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
-// - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. The
-//   motion is a rotation and a shift of all of space, so triangles that make nothing but this motion stay apart.
+// - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. Each
+//   place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles that make
+//   nothing but this motion stay apart.
 #ifndef CLUSTER_GLSL
 #define CLUSTER_GLSL
 #include "../rigid_motion.glsl"

@@ -9,7 +9,7 @@ REAL_BEGIN
 // Rows in `contact`:
 // row 0: the normal, from the second body to the first, and the least change of velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
-// row 2: the goal of the change of velocity across the normal [m/s], and the friction, of which a contact loses some that does not settle
+// row 2: the goal of the change of velocity across the normal [m/s], and the friction, which shrinks while the contact does not settle
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
 //        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
 //        until then its last number is the contact's settled_speed(), and after the last round it is below 0 if the contact has not settled

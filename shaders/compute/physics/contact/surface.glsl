@@ -98,7 +98,7 @@ const uint energy_given = 3u;
 const uint energy_taken = 4u;
 const uint friction_work = 5u;
 const uint contact_sums = 6u;
-FN uint jam_energy_of(uint b) { return contact_sums + b; }  // behind them, what contacts gave each body that ended unsettled
+FN uint unsettled_energy_of(uint b) { return contact_sums + b; }  // behind them, what contacts that ended unsettled gave each body
 
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 

@@ -154,7 +154,7 @@ Means own_means_of(uint b) {
     m.rigid += part_sum[k].rigid;
     m.due += part_sum[k].gained;
   }
-  m.due = max(debt[b].energy + m.due, double(0)) + contact_total[jam_energy_of(b)];
+  m.due = max(debt[b].energy + m.due, double(0)) + contact_total[unsettled_energy_of(b)];
   return m;
 }
 
@@ -305,7 +305,7 @@ void note_debts() {
   }
 }
 
-void pay_for_cuts(uint item, uint number) {
+void pay_dues(uint item, uint number) {
   if (number == 3u && item == 0u) find_clusters();
   if (number == last_round && item == 0u) note_debts();
   uvec4 part = vertex_part[item];
