@@ -401,6 +401,7 @@ ContactResult bench_contact(const ContactOptions& options, const Progress& progr
   if (tasks.empty())
     throw Error(ErrorKind::command_line, "--only", "impacts are measured on the CPU alone", "use --device cpu or all");
   const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);
+  std::ranges::stable_sort(alone, {}, &Task::cost);  // so that a run that ends early has measured the most
   const auto on_gpu = std::ranges::find(tasks, DeviceKind::gpu, [](const Task& task) { return task.place.device; });
   if (on_gpu != tasks.end()) static_cast<void>(open(on_gpu->place));  // throws before anything is measured
   double total = 0, done = 0;
