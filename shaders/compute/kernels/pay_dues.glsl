@@ -62,14 +62,22 @@ dvec3 momentum_of(uint b) {
 
 double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_mass; }
 
+// Of the bodies near it the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums need one.
+uint next_partner(uint b, uint from) {
+  uint found = no_vertex;
+  for (uint k = 0u; k < control[0].near_pair_count; ++k) {
+    uvec2 pair = near_pair[k];
+    uint other = pair.x == b ? pair.y : pair.x;
+    if ((pair.x == b || pair.y == b) && other >= from) found = min(found, other);
+  }
+  return found;
+}
+
 // The velocity that the body and those near it that move have together, in its frame [m/s].
 dvec3 velocity_of_flight(uint b) {
   dvec3 momentum = momentum_of(b);
   double mass = mass_of(b);
-  for (uint k = 0u; k < control[0].near_pair_count; ++k) {
-    uvec2 pair = near_pair[k];
-    if (pair.x != b && pair.y != b) continue;
-    uint other = pair.x == b ? pair.y : pair.x;
+  for (uint other = next_partner(b, 0u); other != no_vertex; other = next_partner(b, other + 1u)) {
     if (status[other].activity != moving) continue;
     momentum += momentum_of(other);
     mass += mass_of(other);
