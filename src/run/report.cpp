@@ -56,7 +56,7 @@ std::string told_growth_of(const RunProgress& progress, const Model& model) {
   const double growth = progress.largest_growth - 1;
   std::string told;
   if (energy_had(progress, model) < smallest_energy(model))
-    told = fmt::format("the energy has grown from nothing by {:.3g} J", growth * smallest_energy(model));
+    told = fmt::format("the energy has grown by {:.3g} J, from less than rounding may be", growth * smallest_energy(model));
   else if (is_driven_from_rest(model))
     told = fmt::format("the energy has grown by {:.3g} of the most in motion", growth);
   else
