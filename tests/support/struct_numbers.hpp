@@ -99,7 +99,8 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(list.latest_count),
           double(list.is_tried),
           double(list.has_dues),
-          double(std::bit_cast<float>(list.fastest))};
+          double(std::bit_cast<float>(list.fastest)),
+          double(std::bit_cast<float>(list.heaviest))};
 }
 
 inline std::vector<double> numbers_of(const physics::Debt& debt) {

@@ -28,7 +28,6 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
-PARAMETER(double, heaviest_vertex)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/common_way.glsl"
 #include "parts/quantum.glsl"

@@ -98,6 +98,4 @@ void expect_motion(uint i) {
     bound(i, b, k, float(lower[int(k)]));
     bound(i, b, k, float(upper[int(k)]));
   }
-  uint speed = floatBitsToUint(float(length(mean)));
-  if (surface[b].inverse_mass != double(0)) RAISE_TO(contact_list[0].fastest, speed)
 }

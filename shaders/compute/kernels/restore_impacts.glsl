@@ -25,7 +25,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
-PARAMETER(double, impact_unit)
+PARAMETER(double, least_speed)
 
 const uint last_round = 2u;
 
@@ -66,7 +66,8 @@ void judge_impact(uint a, uint b) {
     return;
   }
   double restitution = restitution_of_pair(restitution_of(a), restitution_of(b));
-  dvec3 given = impact_unit * dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
+  double unit = impact_unit(surface[a].inverse_mass, is_movable(b) ? surface[b].inverse_mass : double(0), least_speed);
+  dvec3 given = unit * dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
   double size = length(given);
   if (restitution < double(0) || size == double(0)) return;
   double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));

@@ -66,7 +66,7 @@ void end_step_part(bool is_made) {
 // Empties what the next step adds to, and counts this one.
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
-    contact_list[0].fastest = 0u;
+    contact_list[0].fastest = contact_list[0].heaviest = 0u;
     bool was_made = control[0].time_step > double(0);
     if (contact_list[0].is_tried != 0u) contact_list[0].latest_count = was_made && !lists_are_full() ? contact_list[0].contact_count : 0u;
     end_step_part(control[0].non_finite_step == 0u && was_made);

@@ -30,7 +30,6 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, least_speed)
-PARAMETER(double, heaviest_vertex)
 #include "parts/full_lists.glsl"
 #include "parts/quantum.glsl"
 #include "parts/round_sums.glsl"

@@ -9,6 +9,7 @@
 #include "../physics/contact/parts.glsl"
 READ(control)
 READ(rest_position)
+READ(surface)
 READ(step_parts)
 READ(contact_vertex)
 READ_AS(contact, real4, contact_row)
@@ -20,7 +21,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contacts_at_once)
-PARAMETER(double, impact_unit)  // [Ns]
+PARAMETER(double, least_speed)
 #include "parts/full_lists.glsl"
 
 void sum_impact(uint c) {
@@ -31,7 +32,8 @@ void sum_impact(uint c) {
   if (who.y != no_vertex) b = uint(rest_position[weight.y * weight.x > real(0) ? who.z : who.y].w);
   real side = (weight.x > real(0)) == (a < b) ? real(1) : real(-1);  // on the body that comes first
   real3 given = impulse.x * real3(contact_row[contact_rows * c]) + real3(impulse.y, impulse.z, impulse.w);
-  dvec3 all = dvec3(real3(side * given)) / impact_unit;
+  double of_b = b < body_count ? surface[b].inverse_mass : double(0);
+  dvec3 all = dvec3(real3(side * given)) / impact_unit(surface[a].inverse_mass, of_b, least_speed);
   uint at = impact_of(min(a, b), max(a, b), body_count);
   for (uint k = 0u; k < 3u; ++k) ADD_EXACTLY(impact_sum[3u * at + k], nearest_whole(all[int(k)]))
   ATOMIC_STORE(impact_part[at], step_parts[0].parts + 1u);

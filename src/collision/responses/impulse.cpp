@@ -103,7 +103,6 @@ class Impulse final : public Response {
       surfaces.push_back(surface_of(setting.model, body, setting.description));
       largest_body_ = std::max(largest_body_, body.radius);
       if (body.is_static) continue;
-      heaviest_vertex_ = std::max(heaviest_vertex_, body.vertex_mass);
       smallest_gap_ = std::min(smallest_gap_, surfaces.back().gap * surfaces.back().edge);
     }
     find_nearness(surfaces);
@@ -163,7 +162,7 @@ class Impulse final : public Response {
     std::vector<Pass> passes;
     if (restores_)
       passes.push_back(
-          round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"impact_unit", impact_unit()}}));
+          round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
@@ -197,8 +196,7 @@ class Impulse final : public Response {
     passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
                                                    {"contact_capacity", contact_capacity},
                                                    {"triangle_pair_capacity", triangle_pair_capacity_},
-                                                   {"least_speed", least_speed()},
-                                                   {"heaviest_vertex", heaviest_vertex_}}));
+                                                   {"least_speed", least_speed()}}));
     return passes;
   }
 
@@ -260,7 +258,6 @@ class Impulse final : public Response {
                                           {{"from_half", from_half},
                                            {"ground_count", ground_count_},
                                            {"least_speed", least_speed()},
-                                           {"heaviest_vertex", heaviest_vertex_},
                                            {"largest_body", largest_body_}},
                                           bodies_.vertex_count)};
     if (restores_)
@@ -268,7 +265,7 @@ class Impulse final : public Response {
                                  {{"contact_capacity", contact_capacity},
                                   {"triangle_pair_capacity", triangle_pair_capacity_},
                                   {"contacts_at_once", items_at_once_},
-                                  {"impact_unit", impact_unit()}},
+                                  {"least_speed", least_speed()}},
                                  items_at_once_));
     if (has_pairs_)
       passes.push_back(
@@ -300,9 +297,6 @@ class Impulse final : public Response {
     bodies_.arrays.make<std::uint32_t>("impact_part", pairs + 1);
     restores_ = true;
   }
-
-  // Directions of impulses on bodies are found from whole numbers of this [Ns].
-  double impact_unit() const { return heaviest_vertex_ * least_speed() / 1024; }
 
   // A contact that gave an impulse in the latest step, as physics/contact/contact.glsl says.
   struct GivenImpulse {
@@ -367,7 +361,7 @@ class Impulse final : public Response {
   const TreeSearch& trees_;
   bool has_pairs_, divides_steps_, restores_ = false;
   std::uint32_t triangle_pair_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
-  double heaviest_vertex_ = 0, smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
+  double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
 };

@@ -429,5 +429,43 @@ TEST_CASE("the impulses of contacts are what bodies got from each other and from
   }
 }
 
+// Two spheres that meet, and maybe a heavy one that flies by far away.
+ModelAndState meeting_in_front_of(bool has_passer) {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "left"), soft(generate_mesh("icosphere:1"), "right")};
+  for (const double side : {-1.0, 1.0}) {
+    BodyDescription& body = setups[side < 0 ? 0 : 1].description;
+    body.position = {1.1 * side, 0.15 * side, 0.05};
+    body.velocity = {-3 * side, 0, 0};
+  }
+  if (has_passer) {
+    setups.push_back(soft(generate_mesh("icosphere:1"), "passer"));
+    setups[2].description.position = {0, 1e8, 0};
+    setups[2].description.velocity = {1e6, 0, 0};
+    setups[2].description.total_mass = 1e15;
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("a body that touches nothing changes nothing for others, however heavy and fast it is") {
+  for (const std::optional<double> restitution : {std::optional<double>(), std::optional(0.5)}) {
+    std::vector<std::vector<double>> motions;
+    std::vector<double> energies;
+    for (const bool has_passer : {false, true}) {
+      const ModelAndState start = meeting_in_front_of(has_passer);
+      const auto device = make_cpu_device(1, 64);
+      Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.01}),
+                            {.response = {"impulse"}, .elasticity = 0.5, .restitution = restitution});
+      simulation.advance(60);
+      const std::size_t of_both = 2 * physics::motion_size * start.model.bodies[0].vertex_count;
+      motions.push_back(simulation.state().motion);
+      motions.back().resize(of_both);
+      energies.push_back(simulation.report().response.energy_taken);
+    }
+    CHECK(energies[0] > 1);
+    CHECK(energies[1] == energies[0]);
+    CHECK(motions[1] == motions[0]);
+  }
+}
+
 }  // namespace
 }  // namespace pliant

@@ -7,6 +7,15 @@ WRITE(contact_weight)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, keeps_impulses)  // 1: take_up_impulses runs
 
+// Contacts give impulses in quanta of what these vertices have.
+void count_vertex(uint i) {
+  double inverse_mass = surface[uint(rest_position[i].w)].inverse_mass;
+  if (inverse_mass == double(0)) return;
+  uint mass = floatBitsToUint(float(double(1) / inverse_mass)), speed = floatBitsToUint(float(length(LOAD3(expected, force_of(i)))));
+  RAISE_TO(contact_list[0].heaviest, mass)
+  RAISE_TO(contact_list[0].fastest, speed)
+}
+
 // Lists a contact of up to four vertices. `least` is the change of velocity that it asks for along the normal, and `goal` the one that
 // friction aims at across it [m/s]. A contact that `resumes` begins with its impulse of the last step.
 void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real3) goal, real friction, real settled,
@@ -19,6 +28,9 @@ void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real
   contact_row[contact_rows * at + 2u] = real4(goal, friction);
   contact_row[contact_rows * at + 3u] = real4(0, 0, 0, settled);
   impulse_row[at] = real4(resumes && keeps_impulses != 0u ? 1 : 0, 0, 0, 0);
-  for (int k = 0; k < 4; ++k)
-    if (who[k] != no_vertex) atomicAdd(contact_weight[who[k]], uint(float(abs(weight[k])) / weight_unit() + 1.0f));
+  for (int k = 0; k < 4; ++k) {
+    if (who[k] == no_vertex) continue;
+    atomicAdd(contact_weight[who[k]], uint(float(abs(weight[k])) / weight_unit() + 1.0f));
+    count_vertex(who[k]);
+  }
 }

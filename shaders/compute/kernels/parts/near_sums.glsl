@@ -54,7 +54,7 @@ bool asks_much(uint c) {
   real4 goal = contact_row[contact_rows * c + 2u], impulse = impulse_row[c];
   real change = abs(contact_row[contact_rows * c].w) + length(real3(goal));
   real most = real(4) * real(largest_speed());
-  return !(change <= most && length(impulse) <= most * real(heaviest_vertex));
+  return !(change <= most && length(impulse) <= most * real(heaviest_vertex()));
 }
 
 // All threads of the one group call it before the first round.

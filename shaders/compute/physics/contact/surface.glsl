@@ -40,12 +40,14 @@ struct ContactList {
   uint uncertified;          // pairs of triangles that were not proven to stay apart
   uint rounds_that_cut;      // of proofs, up to the last one that cut motions short
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
-  uint fastest;              // largest length of the expected velocities [m/s], as bits of a float
+  uint fastest;              // largest length of the expected velocities of vertices with contacts [m/s], as bits of a float
+  uint heaviest;             // largest mass of these vertices [kg], as bits of a float
   uint latest_count;         // contacts of the latest step, which the lists hold until the next. None if it was undone
   uint is_tried;             // 1: the step is not empty, though it may be undone
   uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
   uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
   uint has_dues;             // 1: motions were cut short in this step, or contacts that ended unsettled gave energy
+  uint padding;
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
