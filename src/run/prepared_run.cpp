@@ -100,7 +100,8 @@ void warn_of_masses(PreparedRun& run) {
   }
   if (heaviest != nullptr && heaviest->vertex_mass > most * lightest->vertex_mass)
     run.warnings.push_back(
-        fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded",
+        fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded while "
+                    "heavy ones have contacts, too",
                     heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name));
 }
 
