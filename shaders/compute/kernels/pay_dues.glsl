@@ -47,7 +47,8 @@ uint moments_half() { return other_half(from_half); }
 
 // The energy that springs and gravity have more because the vertex went only this part of its way [J]. They would have given it the
 // change of its velocity over the step. No displacement of one vertex by d takes more than N k d^2 / 2 beyond that.
-double energy_of_cut(uint i, uint b, double part) {
+double energy_of_cut(uint i, uint b) {
+  double part = double(uintBitsToFloat(cut[i]));
   dvec3 change = velocity_of_vertex(i) - LOAD3(motion, velocity_of(in_half(from_half, vertex_count, i)));
   dvec3 missing = (double(1) - part) * LOAD3(way, force_of(i));
   double stiffness = double(body[b].vertex_count) * body[b].unit_force * body[b].inverse_unit;
@@ -62,23 +63,40 @@ dvec3 momentum_of(uint b) {
 
 double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_mass; }
 
-// Of the bodies near it the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums need one.
+bool is_cut_short(uint i) { return uintBitsToFloat(cut[i]) < 1.0f; }
+
+void note_cuts(uvec4 part, uint item) {
+  uint is_cut = 0u;
+  for (uint i = part.y; i < part.z; ++i) is_cut |= is_cut_short(i) ? 1u : 0u;
+  part_sum[item].is_cut = is_cut;
+}
+
+// Whether motions of a body that moves were cut short in this step.
+bool was_cut_short(uint b) {
+  uvec2 range = vertex_part_range[b];
+  bool was_cut = false;
+  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].is_cut != 0u;
+  return was_cut;
+}
+
+// Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
+// need one.
 uint next_partner(uint b, uint from) {
   uint found = no_vertex;
   for (uint k = 0u; k < control[0].near_pair_count; ++k) {
     uvec2 pair = near_pair[k];
     uint other = pair.x == b ? pair.y : pair.x;
-    if ((pair.x == b || pair.y == b) && other >= from) found = min(found, other);
+    if ((pair.x == b || pair.y == b) && other >= from && status[other].activity != immovable) found = min(found, other);
   }
   return found;
 }
 
-// The velocity that the body and those near it that move have together, in its frame [m/s].
+// The velocity that the body and those near it that were cut short, too, have together, in its frame [m/s].
 dvec3 velocity_of_flight(uint b) {
   dvec3 momentum = momentum_of(b);
   double mass = mass_of(b);
   for (uint other = next_partner(b, 0u); other != no_vertex; other = next_partner(b, other + 1u)) {
-    if (status[other].activity != moving) continue;
+    if (status[other].activity != moving || !was_cut_short(other)) continue;
     momentum += momentum_of(other);
     mass += mass_of(other);
   }
@@ -88,28 +106,19 @@ dvec3 velocity_of_flight(uint b) {
 // Cuts move a vertex and leave its velocity, so its angular momentum changes. What flies along together and stays behind does not turn, so
 // the flight does not count.
 void sum_lost_turning(uvec4 part, uint item) {
-  dvec3 lost = dvec3(0), flight = dvec3(0);
-  uint is_cut = 0u;
-  for (uint i = part.y; i < part.z; ++i) {
-    double part_of_way = double(uintBitsToFloat(cut[i]));
-    if (!(part_of_way < double(1))) continue;
-    if (is_cut == 0u) flight = velocity_of_flight(part.x);
-    is_cut = 1u;
-    lost += cross(rotate_back(pose[part.x], (double(1) - part_of_way) * LOAD3(way, force_of(i))), velocity_of_vertex(i) - flight);
+  dvec3 lost = dvec3(0);
+  if (part_sum[item].is_cut != 0u) {
+    dvec3 flight = velocity_of_flight(part.x);
+    for (uint i = part.y; i < part.z; ++i) {
+      if (!is_cut_short(i)) continue;
+      dvec3 missing = (double(1) - double(uintBitsToFloat(cut[i]))) * LOAD3(way, force_of(i));
+      lost += cross(rotate_back(pose[part.x], missing), velocity_of_vertex(i) - flight);
+    }
   }
   STORE3(part_sum[item].lost_turning, 0u, lost)
-  part_sum[item].is_cut = is_cut;
 }
 
-// In this step.
-bool was_cut_short(uint b) {
-  uvec2 range = vertex_part_range[b];
-  bool was_cut = false;
-  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].is_cut != 0u;
-  return was_cut;
-}
-
-// As if cuts had left the body's angular momentum.
+// The body's moments if cuts had left its angular momentum as it was.
 Moments restored_moments_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Moments m = moments_of_body(b);
@@ -134,23 +143,14 @@ void sum_energies_of(uvec4 part, uint item) {
     deformation += dot(beside, beside);
     all_rigid += dot(along_restored, along_restored);
     if (was_cut) gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
-    double part_of_way = double(uintBitsToFloat(cut[i]));
-    if (part_of_way < double(1)) gained += energy_of_cut(i, b, part_of_way);
+    if (is_cut_short(i)) gained += energy_of_cut(i, b);
   }
   part_sum[item].deformation = double(0.5) * deformation / body[b].inverse_mass;
   part_sum[item].rigid = double(0.5) * all_rigid / body[b].inverse_mass;
   part_sum[item].gained = gained;
 }
 
-bool is_near_one_that_moves(uint b) {
-  bool is_near = false;
-  for (uint k = 0u; k < control[0].near_pair_count; ++k) {
-    uvec2 pair = near_pair[k];
-    uint other = pair.x == b ? pair.y : pair.x;
-    if (pair.x == b || pair.y == b) is_near = is_near || status[other].activity != immovable;
-  }
-  return is_near;
-}
+bool is_near_one_that_can_move(uint b) { return next_partner(b, 0u) != no_vertex; }
 
 // Without what others may pay. What unsettled contacts gave is due, too.
 Means own_means_of(uint b) {
@@ -171,13 +171,13 @@ bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
 // A body that still owes but flies freely is not held by anything, so its rigid motion stays.
 Means means_of(uint b) {
   Means m = own_means_of(b);
-  if (!(m.due > m.deformation) || !was_cut_short(b) || is_in_cluster(b) || is_near_one_that_moves(b)) m.rigid = double(0);
+  if (!(m.due > m.deformation) || !was_cut_short(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
   return m;
 }
 
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
-bool is_hooked(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
+bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
@@ -194,7 +194,7 @@ void join_bodies() {
     for (uint k = 0u; k < control[0].near_pair_count; ++k) {
       uvec2 pair = near_pair[k];
       uint first = min(cluster[pair.x].first, cluster[pair.y].first);
-      if (cluster[pair.x].first == cluster[pair.y].first || !is_hooked(pair.x) || !is_hooked(pair.y)) continue;
+      if (cluster[pair.x].first == cluster[pair.y].first || !owes_for_cuts(pair.x) || !owes_for_cuts(pair.y)) continue;
       cluster[pair.x].first = cluster[pair.y].first = first;
       changed = true;
     }
@@ -256,7 +256,7 @@ void find_clusters() {
   for (uint b = 0u; b <= body_count; ++b) begin_cluster(b);
   join_bodies();
   for (uint b = 0u; b < body_count; ++b)
-    if (is_hooked(b)) add_to_cluster(b);
+    if (owes_for_cuts(b)) add_to_cluster(b);
   for (uint b = 0u; b < body_count; ++b) end_cluster(b);
 }
 
@@ -319,6 +319,7 @@ void pay_dues(uint item, uint number) {
   uvec4 part = vertex_part[item];
   if (status[part.x].activity != moving) return;
   if (number == 0u) sum_moments_of(part, item);
+  if (number == 0u) note_cuts(part, item);
   if (number == 1u) sum_lost_turning(part, item);
   if (number == 2u) sum_energies_of(part, item);
   if (number == 4u) pay(part);
