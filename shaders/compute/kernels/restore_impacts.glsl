@@ -41,8 +41,9 @@ bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return from_half; }
 #include "parts/rigid_motion_by_parts.glsl"
+#include "parts/impact_unit.glsl"
 
-bool is_movable(uint b) { return b < body_count && surface[b].inverse_mass > double(0); }
+bool is_movable(uint b) { return inverse_vertex_mass(b) > double(0); }
 
 // The mean velocity of a body's vertices in the world [m/s]. Static bodies and grounds have none.
 dvec3 mean_velocity(uint b) {
@@ -52,7 +53,7 @@ dvec3 mean_velocity(uint b) {
   for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_sum[k].moments.velocity, 0u);
   return rotate(pose[b], sum / double(body[b].vertex_count));
 }
-double inverse_mass_of(uint b) { return is_movable(b) ? surface[b].inverse_mass / double(body[b].vertex_count) : double(0); }
+double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) / double(body[b].vertex_count) : double(0); }
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
 
 void judge_impact(uint a, uint b) {
@@ -66,8 +67,8 @@ void judge_impact(uint a, uint b) {
     return;
   }
   double restitution = restitution_of_pair(restitution_of(a), restitution_of(b));
-  double unit = impact_unit(surface[a].inverse_mass, is_movable(b) ? surface[b].inverse_mass : double(0), least_speed);
-  dvec3 given = unit * dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
+  dvec3 given = impact_unit(a, b) *
+                dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
   double size = length(given);
   if (restitution < double(0) || size == double(0)) return;
   double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));

@@ -23,6 +23,7 @@ PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contacts_at_once)
 PARAMETER(double, least_speed)
 #include "parts/full_lists.glsl"
+#include "parts/impact_unit.glsl"
 
 void sum_impact(uint c) {
   uvec4 who = contact_vertex[c];
@@ -32,8 +33,7 @@ void sum_impact(uint c) {
   if (who.y != no_vertex) b = uint(rest_position[weight.y * weight.x > real(0) ? who.z : who.y].w);
   real side = (weight.x > real(0)) == (a < b) ? real(1) : real(-1);  // on the body that comes first
   real3 given = impulse.x * real3(contact_row[contact_rows * c]) + real3(impulse.y, impulse.z, impulse.w);
-  double of_b = b < body_count ? surface[b].inverse_mass : double(0);
-  dvec3 all = dvec3(real3(side * given)) / impact_unit(surface[a].inverse_mass, of_b, least_speed);
+  dvec3 all = dvec3(real3(side * given)) / impact_unit(a, b);
   uint at = impact_of(min(a, b), max(a, b), body_count);
   for (uint k = 0u; k < 3u; ++k) ADD_EXACTLY(impact_sum[3u * at + k], nearest_whole(all[int(k)]))
   ATOMIC_STORE(impact_part[at], step_parts[0].parts + 1u);

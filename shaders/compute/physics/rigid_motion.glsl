@@ -7,12 +7,13 @@ SHARED_BEGIN
 
 // velocity_at() is the velocity at a place.
 struct RigidMotion {
-  double centre[3];    // as placements [body's unit]
+  double centre[3];    // [length]
   double velocity[3];  // [m/s]
-  double spin[3];      // [m/s per body's unit]
+  double spin[3];      // [m/s per length]
 };
 
-// Sums over vertices. The place x and the velocity w of a vertex are relative to those of the body's first vertex.
+// Sums over vertices. The place x of a vertex is relative to that of the body's first one. In stages lengths are in the body's unit, and
+// the velocity w is relative to the first vertex's. At a step's start and end lengths are in metres, and w is the velocity itself.
 struct Moments {
   double place[3];     // of x
   double velocity[3];  // of w
@@ -23,10 +24,10 @@ struct Moments {
 // A part of a body in a sum over its vertices.
 struct PartSums {
   Moments moments;
-  double lost_turning[3];  // of x cross w, by cuts, which move places and leave velocities
+  double lost_turning[3];  // what cuts took from the sum of x cross w, less the flight's [m^2/s]
   double deformation;      // kinetic energy of the velocities less the rigid motion [J]
-  double rigid;            // kinetic energy of the rigid motion, with the turning that cuts took [J]
-  double gained;           // that cuts added to springs, and that the turning which comes back has more [J]
+  double rigid;            // kinetic energy of the rigid motion, with the spin that cuts took [J]
+  double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint is_cut;             // 1: motions of vertices were cut short in this step
   uint padding;
 };

@@ -7,7 +7,7 @@ SHARED_BEGIN
 struct Debt {
   double energy;     // that is still owed [J]
   double lost[3];    // momentum that the body gave for it to what does not move, in the latest step [Ns]
-  uint is_for_cuts;  // 1: not only for contacts
+  uint is_for_cuts;  // 1: cuts made some of it
   uint padding;
 };
 

@@ -13,9 +13,6 @@ struct Impact {
   double kept;      // the part of its deformation velocities that each of the two keeps
 };
 
-// Impulses of an impact are counted in so much, by the inverse masses of both bodies' vertices, 0 for what does not move [Ns].
-FN double impact_unit(double a, double b, double least_speed) { return least_speed / (double(1024) * max(a, b)); }
-
 // An impact ends after so many parts of steps without an impulse.
 const uint impact_ends_after = 16u;
 
