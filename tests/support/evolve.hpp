@@ -2,14 +2,13 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <concepts>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/larger.hpp"
 #include "device/device.hpp"
 #include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
@@ -78,12 +77,6 @@ inline State evolve(Device& device, const ModelAndState& start, const Method& me
 
 /// The stiffest mode's angular frequency [1/s].
 inline double stiffest_omega(const Model& model) { return stiffest_frequency(model.bodies.front()); }
-
-/// The larger of two numbers, or infinite if one is NaN. No NaN slips through a largest error that is found this way.
-template <std::floating_point T>
-T larger(T a, T b) {
-  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::infinity() : std::max(a, b);
-}
 
 /// Root of the sum over vertices of |a - b|^2.
 inline double distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {

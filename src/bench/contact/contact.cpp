@@ -149,6 +149,7 @@ ApartRow measure_apart(Device& device, const Pairing& pair, double edges_a_step,
           .touching = seen.touching,
           .inside = seen.inside,
           .parted = encounter.parted,
+          .broke_down = seen.report.breakdown.has_value(),
           .momentum_change = seen.momentum_change,
           .momentum_change_alone = changed_alone / sum_of_momenta(model, meeting.start.state),
           .angular_momentum_change = seen.angular_momentum_change,
@@ -362,7 +363,7 @@ void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
 // --- all
 
 std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
-  std::uint64_t steps = 0, parts = 0, touching = 0, inside = 0, without_contact = 0, not_parted = 0;
+  std::uint64_t steps = 0, parts = 0, touching = 0, inside = 0, without_contact = 0, not_parted = 0, broke_down = 0;
   std::vector<double> ratios;  // of changes of momentum in fp32, with contacts and alone
   for (const ContactRow& any : rows)
     if (const auto* row = std::get_if<ApartRow>(&any)) {
@@ -372,8 +373,9 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
       inside += row->inside;
       without_contact += row->contact_parts == 0 ? 1 : 0;
       not_parted += row->parted ? 0 : 1;
-      if (row->precision == 32 && row->momentum_change_alone > 0)
-        ratios.push_back(row->momentum_change / row->momentum_change_alone);
+      broke_down += row->broke_down ? 1 : 0;
+      const double ratio = row->momentum_change / row->momentum_change_alone;
+      if (row->precision == 32 && std::isfinite(ratio)) ratios.push_back(ratio);
     }
   if (steps == 0) return {};
   std::ranges::sort(ratios);
@@ -381,6 +383,7 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
       fmt::format("apart: {} steps in {} parts: {} pairs of triangles not apart, {} vertices inside another body", steps, parts,
                   touching, inside),
       fmt::format("apart: {} cases without contact, {} in which bodies have not parted by the end", without_contact, not_parted)};
+  if (broke_down > 0) notes.push_back(fmt::format("apart: {} cases broke down", broke_down));
   if (!ratios.empty())
     notes.push_back(
         fmt::format("apart: in fp32 momentum changes by {:.2f} times as much as without contacts (median), at most {:.2f}",

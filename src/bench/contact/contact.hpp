@@ -49,6 +49,7 @@ struct ApartRow {
   std::size_t touching = 0;         // pairs of triangles that were not apart
   std::size_t inside = 0;           // vertices inside another body
   bool parted = false;              // the bodies' boxes are apart again in the end
+  bool broke_down = false;          // the run ended before, with a non-finite number or too much energy
   double momentum_change = 0;       // over the sum of m |v|
   double momentum_change_alone =
       0;  // the same of bodies as deformed as at most, in as long a time without contacts, by whole steps

@@ -1,10 +1,10 @@
 #include "bench/contact/encounter.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
+
+#include "core/larger.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -61,7 +61,6 @@ SeenEncounter watch_encounter(Simulation& simulation, const Model& model, const 
   const StepReport closely = since(unwatched, simulation.report());
   const bool parted = part_at_last(simulation, witness, patience.to_part, stop);
   witness.seen.report = since(unwatched, simulation.report());
-  if (witness.seen.report.breakdown) witness.seen.momentum_change = witness.seen.most_energy = NAN;
   return {.seen = witness.seen, .close_steps = closely.steps, .close_parts = closely.steps + closely.substeps, .parted = parted};
 }
 
@@ -70,7 +69,7 @@ double most_change_of_momentum(Simulation& simulation, const Model& model, std::
   double most = 0;
   for (std::uint64_t step = 0; step < steps && !stop.stop_requested(); ++step) {
     simulation.advance(1);
-    most = std::max(most, glm::length(momentum_of(model, simulation.state()) - first));
+    most = larger(most, glm::length(momentum_of(model, simulation.state()) - first));
   }
   return most;
 }

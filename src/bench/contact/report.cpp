@@ -12,7 +12,10 @@ std::string line(const ApartRow& row) {
       "{:<22} {:<6} {:>4} {:>8} {:>7} {:>6} {:>6} {:>6} {:>8} {:>7} {:>5} {:>8} {:>6} {:>6} {:>9.1e} {:>9.1e} {:>9.1e} {:>9.1e} "
       "{:>9.1e}\n",
       row.bodies, name_of(row.device), row.precision, row.vertices, row.edges_a_step, row.steps, row.parts, row.parts_in_all,
-      row.contact_parts, row.cut_vertices, row.held_parts, row.touching, row.inside, row.parted ? "yes" : "no",
+      row.contact_parts, row.cut_vertices, row.held_parts, row.touching, row.inside,
+      row.broke_down ? "broke"
+      : row.parted   ? "yes"
+                     : "no",
       row.momentum_change, row.momentum_change_alone, row.angular_momentum_change, row.most_energy, row.last_energy);
 }
 
@@ -62,6 +65,7 @@ Json row_json(const ApartRow& row) {
           {"touching", row.touching},
           {"inside", row.inside},
           {"parted", row.parted},
+          {"broke_down", row.broke_down},
           {"momentum_change", row.momentum_change},
           {"momentum_change_alone", row.momentum_change_alone},
           {"angular_momentum_change", row.angular_momentum_change},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/contact/apart.hpp"
+#include "core/larger.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
@@ -106,8 +107,8 @@ RestSeen watch_rest(Device& device, const RestingPlace& place, const RestWatch& 
     simulation.advance(1);
     std::vector<glm::dvec3> now = simulation.state().world_positions(model);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      seen.most_a_step = std::max(seen.most_a_step, glm::length(now[i] - before[i]) / seen.edge);
-      seen.drift = std::max(seen.drift, glm::length(now[i] - first[i]) / seen.edge);
+      seen.most_a_step = larger(seen.most_a_step, glm::length(now[i] - before[i]) / seen.edge);
+      seen.drift = larger(seen.drift, glm::length(now[i] - first[i]) / seen.edge);
     }
     before = std::move(now);
   }

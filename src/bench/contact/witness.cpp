@@ -1,8 +1,9 @@
 #include "bench/contact/witness.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "core/larger.hpp"
 
 namespace pliant::bench {
 
@@ -47,7 +48,7 @@ Witness::Witness(const ModelAndState& start)
 
 void Witness::look_at_momentum(const State& state) {
   const double change = glm::length(momentum_of(start_.model, state) - first_momentum_);
-  seen.momentum_change = std::max(seen.momentum_change, change / sum_of_momenta_);
+  seen.momentum_change = larger(seen.momentum_change, change / sum_of_momenta_);
 }
 
 void Witness::look_at_places(const State& state) {
@@ -70,7 +71,7 @@ void Witness::look_at_motion(const State& state) {
   look_at_momentum(state);
   seen.angular_momentum_change = glm::length(now.angular_momentum - first_.angular_momentum) / sum_of_angular_momenta_;
   seen.last_energy = (now.energy() - first_.energy()) / first_.kinetic;
-  seen.most_energy = std::max(seen.most_energy, seen.last_energy);
+  seen.most_energy = larger(seen.most_energy, seen.last_energy);
   if (now.elastic <= most_elastic_) return;
   most_elastic_ = now.elastic;
   seen.most_deformed = state;

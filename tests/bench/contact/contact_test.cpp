@@ -3,10 +3,12 @@
 #include "bench/contact/contact.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "bench/contact/apart.hpp"
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/report.hpp"
+#include "bench/contact/witness.hpp"
 #include "mesh/generators.hpp"
 #include "support/json.hpp"
 
@@ -42,6 +44,16 @@ TEST_CASE("two bodies meet as fast and as far from each other as asked for, with
   CHECK(of_left.x == Approx(-10 * of_right.x));
   CHECK(left.radius == Approx(1));
   CHECK(right.radius == Approx(1));
+}
+
+TEST_CASE("momentum that is not a number counts as the largest change of all") {
+  const Meeting meeting = two_spheres(0.5);
+  Witness witness(meeting.start);
+  State broken = meeting.start.state;
+  broken.motion.back() = NAN;
+  witness.look_at_place(broken);
+  witness.look_at_place(meeting.start.state);
+  CHECK(witness.seen.momentum_change == INFINITY);
 }
 
 TEST_CASE("the suite contact finds bodies apart, momentum kept, and no energy made", "[long]") {
