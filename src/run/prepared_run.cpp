@@ -89,7 +89,7 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
                     run.plan.time_step, run.scene.simulation.duration));
 }
 
-// Impulses are counted in quanta that the heaviest vertex sets.
+// Impulses are counted in quanta that the heaviest vertex in contact sets.
 void warn_of_masses(PreparedRun& run) {
   constexpr double most = 1e9;
   const ModelBody *heaviest = nullptr, *lightest = nullptr;
@@ -101,7 +101,7 @@ void warn_of_masses(PreparedRun& run) {
   if (heaviest != nullptr && heaviest->vertex_mass > most * lightest->vertex_mass)
     run.warnings.push_back(
         fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded while "
-                    "heavy ones have contacts, too",
+                    "a heavy one is in contact, too",
                     heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name));
 }
 

@@ -53,15 +53,13 @@ double energy_had(const RunProgress& progress, const Model& model) {
 }
 
 std::string told_growth_of(const RunProgress& progress, const Model& model) {
-  const double growth = progress.largest_growth - 1;
-  std::string told;
+  const double growth = progress.largest_growth - 1, time = progress.time_of_growth;
   if (energy_had(progress, model) < smallest_energy(model))
-    told = fmt::format("the energy has grown by {:.3g} J, from less than rounding may be", growth * smallest_energy(model));
-  else if (is_driven_from_rest(model))
-    told = fmt::format("the energy has grown by {:.3g} of the most in motion", growth);
-  else
-    told = fmt::format("the energy has grown {:.3g}-fold", 1 + growth);
-  return told + fmt::format(" at {:.6g} s", progress.time_of_growth);
+    return fmt::format("the energy has grown by {:.3g} J at {:.6g} s, and was too small at the start to compare with",
+                       growth * smallest_energy(model), time);
+  if (is_driven_from_rest(model))
+    return fmt::format("the energy has grown by {:.3g} of the most in motion at {:.6g} s", growth, time);
+  return fmt::format("the energy has grown {:.3g}-fold at {:.6g} s", 1 + growth, time);
 }
 
 std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
