@@ -92,6 +92,7 @@ bool stands(IN(Case) c) {
 
 void cut_short(IN(Case) c, uint cut_round) {
   atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
+  for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
   Closest at = closest_points(c.motion.start);
   if (cut_round >= plane_rounds || !(at.distance > real(32) * c.motion.margin)) {
     stop_all(c, cut_round);

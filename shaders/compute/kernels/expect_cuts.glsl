@@ -97,5 +97,5 @@ void expect_cuts(uint i) {
   bound_way(i, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint row = 1u; row <= plane_rounds; ++row) cut[cut_in(row, vertex_count, i)] = floatBitsToUint(1.0f);
-  cut[stop_of(vertex_count, i)] = cut_rounds;
+  cut[stop_of(vertex_count, i)] = at_no_cut;
 }

@@ -66,9 +66,13 @@ double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_m
 bool is_cut_short(uint i) { return uintBitsToFloat(cut[i]) < 1.0f; }
 
 void note_cuts(uvec4 part, uint item) {
-  uint is_cut = 0u;
-  for (uint i = part.y; i < part.z; ++i) is_cut |= is_cut_short(i) ? 1u : 0u;
-  part_sum[item].is_cut = is_cut;
+  bool is_cut = false, is_at_a_cut = false;
+  for (uint i = part.y; i < part.z; ++i) {
+    is_cut = is_cut || is_cut_short(i);
+    is_at_a_cut = is_at_a_cut || cut[stop_of(vertex_count, i)] != at_no_cut;
+  }
+  part_sum[item].is_cut = is_cut ? 1u : 0u;
+  part_sum[item].is_at_a_cut = is_cut || is_at_a_cut ? 1u : 0u;
 }
 
 // Whether motions of a body that moves were cut short in this step.
@@ -77,6 +81,14 @@ bool was_cut_short(uint b) {
   bool was_cut = false;
   for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].is_cut != 0u;
   return was_cut;
+}
+
+// Whether they were, or those of what the body would have met.
+bool was_at_a_cut(uint b) {
+  uvec2 range = vertex_part_range[b];
+  bool was_at_one = false;
+  for (uint k = range.x; k < range.x + range.y; ++k) was_at_one = was_at_one || part_sum[k].is_at_a_cut != 0u;
+  return was_at_one;
 }
 
 // Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
@@ -91,12 +103,12 @@ uint next_partner(uint b, uint from) {
   return found;
 }
 
-// The velocity that the body and those near it that were cut short, too, have together, in its frame [m/s].
+// The velocity that the body and those near it that were at a cut, too, have together, in its frame [m/s].
 dvec3 velocity_of_flight(uint b) {
   dvec3 momentum = momentum_of(b);
   double mass = mass_of(b);
   for (uint other = next_partner(b, 0u); other != no_vertex; other = next_partner(b, other + 1u)) {
-    if (status[other].activity != moving || !was_cut_short(other)) continue;
+    if (status[other].activity != moving || !was_at_a_cut(other)) continue;
     momentum += momentum_of(other);
     mass += mass_of(other);
   }

@@ -29,7 +29,7 @@ struct PartSums {
   double rigid;            // kinetic energy of the rigid motion, with the spin that cuts took [J]
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint is_cut;             // 1: motions of vertices were cut short in this step
-  uint padding;
+  uint is_at_a_cut;        // 1: they were, or those of triangles that its own would meet
 };
 
 FN Moments no_moments() {

@@ -78,7 +78,9 @@ const uint plane_rounds = 4u;
 const uint cut_rounds = 32u;
 
 // `cut` has a row of parts from before the first round, and one from each that cuts at planes. The last row has the round in which a vertex
-// was stopped, or cut_rounds.
+// was stopped, or at_a_cut if only others of its triangles or of the ones that these would meet were cut, or at_no_cut.
+const uint at_a_cut = cut_rounds;
+const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
 FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, vertex_count, i); }
 const uint cut_rows = plane_rounds + 2u;
