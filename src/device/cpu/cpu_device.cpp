@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <new>
 #include <unordered_map>
 #include <utility>
 
@@ -38,6 +41,30 @@ std::string title_of(cpu::Isa isa) {
 
 constexpr std::uint32_t whole_bodies = 0xffffffffu;
 
+// Bytes that begin as zero. Large ones take no memory, and no time, before they are used: so a list may have room for the worst
+// case.
+class Storage {
+ public:
+  explicit Storage(std::size_t bytes) : size_((bytes + line - 1) / line * line), bytes_(std::calloc(size_ + line, 1)) {
+    if (bytes_ == nullptr) throw std::bad_alloc();
+  }
+  std::size_t size() const { return size_; }
+  // Starts at a cache line.
+  std::byte* data() const {
+    const auto address = reinterpret_cast<std::uintptr_t>(bytes_.get());
+    return static_cast<std::byte*>(bytes_.get()) + (line - address % line);
+  }
+
+ private:
+  static constexpr std::size_t line = 64;  // [bytes]
+  struct Free {
+    void operator()(void* bytes) const { std::free(bytes); }
+  };
+
+  std::size_t size_;
+  std::unique_ptr<void, Free> bytes_;
+};
+
 class CpuDevice final : public Device {
  public:
   CpuDevice(unsigned threads, int precision) : pool_(threads), precision_(precision), kernels_(all_kernels_on_cpu(precision)) {
@@ -56,14 +83,14 @@ class CpuDevice final : public Device {
   int precision() const override { return precision_; }
 
   BufferId allocate(std::size_t bytes, std::string_view) override {
-    buffers_.emplace(next_buffer_, Storage((bytes + sizeof(Line) - 1) / sizeof(Line)));
+    buffers_.emplace(next_buffer_, Storage(bytes));
     return next_buffer_++;
   }
   void release(BufferId buffer) override { buffers_.erase(buffer); }
-  std::size_t size_of(BufferId buffer) const override { return buffers_.at(buffer).size() * sizeof(Line); }
+  std::size_t size_of(BufferId buffer) const override { return buffers_.at(buffer).size(); }
   std::size_t allocated_bytes() const override {
     std::size_t bytes = 0;
-    for (const auto& [id, buffer] : buffers_) bytes += buffer.size() * sizeof(Line);
+    for (const auto& [id, buffer] : buffers_) bytes += buffer.size();
     for (const auto& sums : sums_32_) bytes += sums.scratch_bytes();
     for (const auto& sums : sums_64_) bytes += sums.scratch_bytes();
     return bytes;
@@ -123,11 +150,6 @@ class CpuDevice final : public Device {
   std::vector<double> take_times() override { return std::exchange(times_, {}); }
 
  private:
-  struct alignas(64) Line {
-    std::byte bytes[64];
-  };
-  using Storage = std::vector<Line>;
-
   // Vertices `first` to `end` - 1 of a share.
   struct Range {
     std::uint32_t share, first, end;
@@ -212,7 +234,7 @@ class CpuDevice final : public Device {
   std::byte* bytes_of(BufferId buffer) {
     const auto found = buffers_.find(buffer);
     PLIANT_EXPECT(found != buffers_.end());
-    return found->second.data()->bytes;
+    return found->second.data();
   }
 
   ThreadPool pool_;
