@@ -26,6 +26,7 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.triangle_tests = total(control, physics::triangle_tests);
   report.pairs_beyond_capacity = total(control, physics::pairs_beyond_capacity);
   report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
+  report.unsettled_contacts = total(control, physics::unsettled_contacts);
 }
 
 void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Tally>& tallies) {

@@ -32,17 +32,20 @@ struct Energies {
   StepReport report;
 };
 
-inline glm::dvec3 angular_momentum_about_centre(const Model& model, const State& state, const Measurement& measured) {
-  const std::vector<glm::dvec3> places = state.world_positions(model);
-  glm::dvec3 sum(0.0);
+// Of the first bodies, but for static ones, about their common centre [kg m^2/s].
+inline glm::dvec3 angular_momentum_about_centre(const Model& model, const State& state, std::uint32_t bodies = UINT32_MAX) {
+  const std::vector<glm::dvec3> places = state.world_positions(model), velocities = state.world_velocities(model);
+  glm::dvec3 centre(0.0), momentum(0.0), turning(0.0);
   double mass = 0;
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    const ModelBody& body = model.bodies[model.body_index(i)];
-    if (body.is_static) continue;
-    sum += body.vertex_mass * places[i];
-    mass += body.vertex_mass;
+  for (std::uint32_t i = 0; i < places.size() && model.body_index(i) < bodies; ++i) {
+    if (model.body_of(i).is_static) continue;
+    const double m = model.body_of(i).vertex_mass;
+    mass += m;
+    centre += m * places[i];
+    momentum += m * velocities[i];
+    turning += m * glm::cross(places[i], velocities[i]);
   }
-  return measured.angular_momentum - glm::cross(sum / mass, measured.momentum);
+  return turning - glm::cross(centre / mass, momentum);
 }
 
 inline Energies energies_of(Simulation& simulation, const ModelAndState& start, const glm::dvec3& gravity, double duration) {
@@ -62,9 +65,28 @@ inline Energies energies_of(Simulation& simulation, const ModelAndState& start, 
   for (const ModelBody& body : start.model.bodies)
     if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
   seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
-  seen.turning_change = angular_momentum_about_centre(start.model, simulation.state(), now) -
-                        angular_momentum_about_centre(start.model, start.state, before);
+  seen.turning_change =
+      angular_momentum_about_centre(start.model, simulation.state()) - angular_momentum_about_centre(start.model, start.state);
   return seen;
+}
+
+// How the energy changes in a run without gravity, over the kinetic energy at the start.
+struct EnergySwing {
+  double least = 0;      // less than at the start, so below 0
+  double most_rise = 0;  // from the least so far. Infinite if the energy is not a number
+};
+
+inline EnergySwing energy_swing_of(Simulation& simulation, const ModelAndState& start, int looks, int parts_between) {
+  bench::Witness witness(start);
+  EnergySwing swing;
+  for (int look = 0; look < looks; ++look) {
+    for (int part = 0; part < parts_between; ++part) simulation.advance_part();
+    witness.look_at_motion(simulation.state());
+    const double now = witness.seen.last_energy;
+    swing.least = std::min(swing.least, now);
+    swing.most_rise = larger(swing.most_rise, now - swing.least);
+  }
+  return swing;
 }
 
 // Checks that a run ends in the same bits on one thread, on three, and when it was saved after `saved_at` steps and goes on in

@@ -84,6 +84,7 @@ void stop_all(IN(Case) c, uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], cut_round);
 }
 
+// What flies along with its cluster meets nothing by that. Rounding would take 1e5 parts of steps to move it by the margin.
 bool stands(IN(Case) c) {
   bool all = true;
   for (uint k = 0u; k < 6u; ++k) all = all && c.part[k] == real(0);

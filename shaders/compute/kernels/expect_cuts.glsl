@@ -45,8 +45,8 @@ double part_to(double from, double along, double lower, double upper) {
 double part_above(uint g, dvec3 from, dvec3 gone, double gap) {
   dvec3 normal = LOAD3(ground[g].normal, 0u);
   double height = dot(normal, from) - ground[g].offset, sinks = -dot(normal, gone);
-  double room = height - double(0.02) * gap;
-  return sinks > room ? double(0.99) * max(room, double(0)) / sinks : double(1);
+  double room = max(height - double(0.02) * gap, double(0));
+  return sinks > room ? double(0.99) * room / sinks : double(1);
 }
 
 // What contacts have done in this step.

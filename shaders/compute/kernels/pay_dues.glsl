@@ -31,7 +31,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
 
-const uint last_round = 6u;
+const uint last_round = 7u;
 
 // The last debt is that of all bodies together, and the last cluster counts bodies in clusters.
 bool is_needed() {
@@ -190,6 +190,8 @@ Means means_of(uint b) {
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
 bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
+void note_owing(uint b, uint item) { part_sum[item].owes = item == vertex_part_range[b].x && owes_for_cuts(b) ? 1u : 0u; }
+bool owes(uint b) { return vertex_part_range[b].y != 0u && part_sum[vertex_part_range[b].x].owes != 0u; }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
@@ -206,7 +208,7 @@ void join_bodies() {
     for (uint k = 0u; k < control[0].near_pair_count; ++k) {
       uvec2 pair = near_pair[k];
       uint first = min(cluster[pair.x].first, cluster[pair.y].first);
-      if (cluster[pair.x].first == cluster[pair.y].first || !owes_for_cuts(pair.x) || !owes_for_cuts(pair.y)) continue;
+      if (cluster[pair.x].first == cluster[pair.y].first || !owes(pair.x) || !owes(pair.y)) continue;
       cluster[pair.x].first = cluster[pair.y].first = first;
       changed = true;
     }
@@ -268,7 +270,7 @@ void find_clusters() {
   for (uint b = 0u; b <= body_count; ++b) begin_cluster(b);
   join_bodies();
   for (uint b = 0u; b < body_count; ++b)
-    if (owes_for_cuts(b)) add_to_cluster(b);
+    if (owes(b)) add_to_cluster(b);
   for (uint b = 0u; b < body_count; ++b) end_cluster(b);
 }
 
@@ -326,14 +328,15 @@ void note_debts() {
 }
 
 void pay_dues(uint item, uint number) {
-  if (number == 3u && item == 0u) find_clusters();
-  if (number == last_round && item == 0u) note_debts();
   uvec4 part = vertex_part[item];
+  if (number == 3u) note_owing(part.x, item);
+  if (number == 4u && item == 0u) find_clusters();
+  if (number == last_round && item == 0u) note_debts();
   if (status[part.x].activity != moving) return;
   if (number == 0u) sum_moments_of(part, item);
   if (number == 0u) note_cuts(part, item);
   if (number == 1u) sum_lost_turning(part, item);
   if (number == 2u) sum_energies_of(part, item);
-  if (number == 4u) pay(part);
-  if (number == 5u && item == vertex_part_range[part.x].x) note_debt(part.x);
+  if (number == 5u) pay(part);
+  if (number == 6u && item == vertex_part_range[part.x].x) note_debt(part.x);
 }

@@ -32,7 +32,7 @@ PARAMETER(uint, contact_capacity)
 #include "parts/cut_before.glsl"
 #include "parts/place.glsl"
 
-// If lists were too short, or proofs are missing, bodies keep their place. Those that are near none could move, but this is rare.
+// If lists were too short, or proofs are missing, bodies make no motion of their own. Those that are near none could, but this is rare.
 bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
 double part_left(uint i) { return holds_all() ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }

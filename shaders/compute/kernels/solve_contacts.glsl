@@ -47,6 +47,9 @@ bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1
 // If no contact presses in the first two rounds, none does in the others.
 bool goes_on(uint kick_round) { return kick_round == 1u ? presses() : !is_kick(kick_round); }
 
+// Of a contact's vertices, or of their places.
+bool meets_ground(uvec4 who) { return who.y == no_vertex; }
+
 double inverse_mass_of(uint i) { return surface[uint(rest_position[i].w)].inverse_mass; }
 
 // Returns row 3. Every vertex shares its mass among its contacts.
@@ -71,7 +74,7 @@ uvec4 sums_of(uvec4 place, uint buffer_index) {
 
 // What the impulses of the rounds so far changed the velocity of the contact's points against each other by [m/s].
 real3 relative_change(uvec4 place, real4 weight, real4 resistance, uint buffer_index) {
-  if (place.y == no_vertex) return resistance.x * impulse_at(sum_of_place(place.x, buffer_index));  // against a ground
+  if (meets_ground(place)) return resistance.x * impulse_at(sum_of_place(place.x, buffer_index));
   real3 x, y, z, w;
   impulses_at(sums_of(place, buffer_index), x, y, z, w);
   x *= weight.x > real(0) ? resistance.x : resistance.y;
@@ -83,7 +86,7 @@ real3 relative_change(uvec4 place, real4 weight, real4 resistance, uint buffer_i
 
 // Adds an impulse to the vertices of a contact [quanta].
 void push_vertices(uvec4 place, real4 weight, real3 impulse, uint buffer_index) {
-  if (place.y == no_vertex)
+  if (meets_ground(place))
     push_off(sum_of_place(place.x, buffer_index), impulse);
   else
     push_apart(sums_of(place, buffer_index), weight.y * impulse, weight.z * impulse, weight.w * impulse);
@@ -93,7 +96,7 @@ void push_vertices(uvec4 place, real4 weight, real3 impulse, uint buffer_index) 
 void clear_sums(uvec4 place, uint buffer_index) {
   if (sums_are_near) return;
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.x));
-  if (place.y == no_vertex) return;
+  if (meets_ground(place)) return;
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.y));
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.z));
   clear_impulse(impulse_sum_of(buffer_index, vertex_count, place.w));
@@ -135,6 +138,11 @@ void store(uint c) {
   impulse_row[c] = held.impulse;
 }
 
+void note_end(uint c, bool is_unsettled) {
+  contact_row[contact_rows * c + 3u].w = is_unsettled ? real(-1) : real(0);
+  if (is_unsettled) atomicAdd(control[0].count[unsettled_contacts], 1u);
+}
+
 void answer(uint c, uint kick_round, bool ends) {
   real4 had = held.ahead, before = held.impulse;
   real3 change = relative_change(held.place, held.weight, held.resistance, buffer_of(kick_round));
@@ -143,7 +151,7 @@ void answer(uint c, uint kick_round, bool ends) {
   real4 change_of_impulse = held.impulse - had;
   bool changes = dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w;
   if (ends) {
-    contact_row[contact_rows * c + 3u].w = changes && kick_round + 1u == most_kick_rounds ? real(-1) : real(0);
+    note_end(c, changes && kick_round + 1u == most_kick_rounds);
     return;
   }
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
@@ -195,7 +203,7 @@ dvec3 mean_velocity_of(uint i, uint kick_round) {
 // The same of the contact's points against each other.
 dvec3 mean_velocity_at(uvec4 who, real4 weight, uint kick_round) {
   dvec3 first = mean_velocity_of(who.x, kick_round);
-  if (who.y == no_vertex) return first;  // against a ground
+  if (meets_ground(who)) return first;
   return double(weight.y) * (mean_velocity_of(who.y, kick_round) - first) +
          double(weight.z) * (mean_velocity_of(who.z, kick_round) - first) +
          double(weight.w) * (mean_velocity_of(who.w, kick_round) - first);
@@ -210,8 +218,7 @@ bool ended_unsettled(uint c) { return contact_row[contact_rows * c + 3u].w < rea
 
 // Half of what a contact gave stands for either body, or all of it for one that meets what does not move.
 void share_energy(uvec4 who, double energy) {
-  bool meets_ground = who.w == no_vertex;
-  bool first_moves = inverse_mass_of(who.x) != double(0), second_moves = !meets_ground && inverse_mass_of(who.w) != double(0);
+  bool first_moves = inverse_mass_of(who.x) != double(0), second_moves = !meets_ground(who) && inverse_mass_of(who.w) != double(0);
   double share_of_it = first_moves && second_moves ? double(0.5) * energy : energy;
   if (first_moves) add_energy(unsettled_energy_of(uint(rest_position[who.x].w)), share_of_it);
   if (second_moves) add_energy(unsettled_energy_of(uint(rest_position[who.w].w)), share_of_it);

@@ -30,6 +30,8 @@ struct PartSums {
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint is_cut;             // 1: motions of vertices were cut short in this step
   uint is_at_a_cut;        // 1: they were, or those of triangles that its own would meet
+  uint owes;               // 1: the body owes for cuts. Its first part says so
+  uint padding;
 };
 
 FN Moments no_moments() {

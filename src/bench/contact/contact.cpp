@@ -374,8 +374,8 @@ std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
       without_contact += row->contact_parts == 0 ? 1 : 0;
       not_parted += row->parted ? 0 : 1;
       broke_down += row->broke_down ? 1 : 0;
-      const double ratio = row->momentum_change / row->momentum_change_alone;
-      if (row->precision == 32 && std::isfinite(ratio)) ratios.push_back(ratio);
+      if (row->precision == 32 && row->momentum_change_alone > 0)
+        ratios.push_back(row->momentum_change / row->momentum_change_alone);
     }
   if (steps == 0) return {};
   std::ranges::sort(ratios);

@@ -128,8 +128,8 @@ class Impulse final : public Response {
                                                                       .least_push = {none, none, none},
                                                                       .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<glm::uvec2>("contact_sum", physics::unsettled_energy_of(bodies_.body_count));
-    arrays.make<double>("contact_total", physics::unsettled_energy_of(bodies_.body_count));
+    arrays.make<glm::uvec2>("contact_sum", physics::contact_sum_count(bodies_.body_count));
+    arrays.make<double>("contact_total", physics::contact_sum_count(bodies_.body_count));
     arrays.make("triangle_around", surroundings(setting.forest));
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked", 3 * vertices);

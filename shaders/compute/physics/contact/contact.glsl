@@ -12,7 +12,8 @@ REAL_BEGIN
 // row 2: the goal of the change of velocity across the normal [m/s], and the friction, which shrinks while the contact does not settle
 // row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
 //        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
-//        until then its last number is the contact's settled_speed(), and after the last round it is below 0 if the contact has not settled
+//        until then its last number is the contact's settled_speed(), and after the last round it is below 0 if most_kick_rounds were not
+//        enough to settle the contact, and else 0
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 
 // Lengths of a pair of bodies [m], and the time step [s].

@@ -78,7 +78,7 @@ const uint plane_rounds = 4u;
 const uint cut_rounds = 32u;
 
 // `cut` has a row of parts from before the first round, and one from each that cuts at planes. The last row has the round in which a vertex
-// was stopped, or at_a_cut if only others of its triangles or of the ones that these would meet were cut, or at_no_cut.
+// was stopped. Of one that was not, it has at_a_cut if a pair of triangles that it belongs to was cut short, and at_no_cut otherwise.
 const uint at_a_cut = cut_rounds;
 const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
@@ -103,6 +103,7 @@ const uint energy_taken = 4u;
 const uint friction_work = 5u;
 const uint contact_sums = 6u;
 FN uint unsettled_energy_of(uint b) { return contact_sums + b; }  // behind them, what contacts that ended unsettled gave each body
+FN uint contact_sum_count(uint body_count) { return contact_sums + body_count; }
 
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
