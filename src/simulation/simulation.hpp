@@ -52,9 +52,8 @@ struct StepReport {
   std::uint64_t contact_steps = 0;      // steps with a contact, or parts of steps if they fall into such
   std::uint64_t contact_pairs_max = 0;  // most touching triangle pairs, or impulses, in one of them
   std::uint64_t reverted_vertices = 0;
-  std::uint64_t substeps = 0;  // parts that steps of a fixed length fell into, beyond one each
-  std::uint64_t held_parts =
-      0;  // parts of steps in which bodies made no motion of their own, as contacts were too many or not proven apart
+  std::uint64_t substeps = 0;    // parts that steps of a fixed length fell into, beyond one each
+  std::uint64_t held_parts = 0;  // parts of steps in which no body moved, because contacts were too many or not proven apart
   std::uint64_t unsettled_contacts = 0;  // sum over the run of those that still changed in a kick's last round
   ResponseReport response;               // what contacts gave and took
   std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body

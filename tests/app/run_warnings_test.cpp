@@ -287,7 +287,7 @@ TEST_CASE("a run whose energy grows a thousandfold while its steps fall into par
                                 Catch::Contains("try a shorter time step"));
   const auto summary = summary_in(folder.path);
   CHECK(summary["non_finite"] == false);
-  CHECK(summary["steps"].get<double>() < 100);
+  CHECK(summary["steps"].get<double>() < 1000);
   CHECK(summary["contacts"]["substeps"].get<double>() > 0);
   CHECK(summary["energy"]["final"].get<double>() >= 1000 * summary["energy"]["initial"].get<double>());
 }

@@ -59,7 +59,8 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
   numbers.insert(numbers.end(), std::begin(sums.lost_turning), std::end(sums.lost_turning));
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.is_cut), double(sums.is_at_a_cut)});
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.is_cut), double(sums.is_at_a_cut),
+                                double(sums.is_held), double(sums.holding)});
   return numbers;
 }
 
@@ -110,7 +111,7 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
 
 // Its motion means nothing if it has no bodies.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_met)};
+  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_low), double(cluster.stop)};
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);
   numbers.insert(numbers.end(), motion.begin(), motion.end());

@@ -14,7 +14,8 @@ READ(way)
 READ(cage)
 READ(control)
 READ(rest_position)
-READ(cluster)
+READ(surface)
+SHARED_WRITE(cluster)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
@@ -28,8 +29,15 @@ uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triang
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
 
+// Whether a round before this one stopped the body's cluster. Then all of its bodies keep their places.
+bool is_stopped(uint b, uint cut_round) {
+  return cluster[body_count].bodies != 0u && ATOMIC_LOAD(cluster[cluster[b].first].stop) < cut_round;
+}
+bool is_stopped_now(uint b, uint cut_round) { return is_stopped(b, cut_round) && !is_stopped(b, cut_round - 1u); }
+
 bool has_changed(uint i, uint cut_round) {
-  if (cut_round == 0u || ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
+  if (cut_round == 0u || is_stopped_now(uint(rest_position[i].w), cut_round)) return true;
+  if ( ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
   return cut_round <= plane_rounds && cut[cut_in(cut_round, vertex_count, i)] < cut_before(i, cut_round - 1u);
 }
 
@@ -47,9 +55,11 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   double far = abs(origin.x) + abs(origin.y) + abs(origin.z) + double(4) * largest_body;
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
-    c.part[k] = real(uintBitsToFloat(cut_before(who[k], cut_round)));
+    uint b = uint(rest_position[who[k]].w);
+    bool is_free = !is_stopped(b, cut_round);
+    c.part[k] = is_free ? real(uintBitsToFloat(cut_before(who[k], cut_round))) : real(0);
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
-    dvec3 together = common_way(uint(rest_position[who[k]].w), place);
+    dvec3 together = is_free ? common_way(b, place) : dvec3(0);
     c.motion.start[k] = real3(from);
     c.motion.end[k] = real3(from + together + double(c.part[k]) * LOAD3(way, force_of(who[k])));
     c.together[k] = real3(together);
@@ -84,16 +94,42 @@ void stop_all(IN(Case) c, uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], cut_round);
 }
 
-// What flies along with its cluster meets nothing by that. Rounding would take 1e5 parts of steps to move it by the margin.
-bool stands(IN(Case) c) {
+// Whether no corner makes a motion of its own.
+bool all_stopped(IN(Case) c) {
   bool all = true;
   for (uint k = 0u; k < 6u; ++k) all = all && c.part[k] == real(0);
   return all;
 }
 
+bool flies(IN(Case) c, uint k) { return c.together[k] != real3(0); }
+uint cluster_of(IN(Case) c, uint k) { return cluster[uint(rest_position[c.vertex[k]].w)].first; }
+
+// Whether the triangles stay as they are to each other. What flies along in one cluster meets nothing by that. Rounding would take 1e5
+// parts of steps to move it by the margin.
+bool stands(IN(Case) c) {
+  return all_stopped(c) && ((!flies(c, 0u) && !flies(c, 3u)) || cluster_of(c, 0u) == cluster_of(c, 3u));
+}
+
+void stop_clusters(IN(Case) c, uint cut_round) {
+  if (flies(c, 0u)) atomicMin(cluster[cluster_of(c, 0u)].stop, cut_round);
+  if (flies(c, 3u)) atomicMin(cluster[cluster_of(c, 3u)].stop, cut_round);
+}
+
+bool can_move(uint i) { return surface[uint(rest_position[i].w)].inverse_mass != double(0); }
+
+void note_what_holds(IN(Case) c) {
+  if (can_move(c.vertex[0]) && can_move(c.vertex[3])) return;
+  for (uint k = 0u; k < 6u; ++k) ATOMIC_STORE(cut[held_of(vertex_count, c.vertex[k])], 1u);
+}
+
 void cut_short(IN(Case) c, uint cut_round) {
   atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
+  note_what_holds(c);
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
+  if (all_stopped(c)) {
+    stop_clusters(c, cut_round);
+    return;
+  }
   Closest at = closest_points(c.motion.start);
   if (cut_round >= plane_rounds || !(at.distance > real(32) * c.motion.margin)) {
     stop_all(c, cut_round);

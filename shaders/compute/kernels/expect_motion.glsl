@@ -59,7 +59,7 @@ dvec3 most_push(uint b) {
 void stay_above_grounds(uint b, dvec3 place) {
   for (uint g = 0u; g < ground_count; ++g)
     if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < gap_above(ground[g], surface[b]))
-      ATOMIC_STORE(cluster[cluster[b].first].is_met, 1u);
+      ATOMIC_STORE(cluster[cluster[b].first].is_low, 1u);
 }
 
 void expect_motion(uint i) {

@@ -68,10 +68,10 @@ void limit_step(uint item) {
     double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
     if (speed * longest > most) longest = most / speed;
     if (speed * longest > distance) {
-      longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
+    if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
     keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }
   if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));

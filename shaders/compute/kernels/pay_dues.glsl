@@ -1,7 +1,7 @@
 // A kernel in rounds. One thread serves some vertices of a body that had motions cut short or contacts that gave energy, or still owes. A
 // vertex that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its
 // momentum and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each
-// other. A body whose motions are cut short near no other one that moves is held by what does not move, and pays with its rigid motion.
+// other. A body that is cut short at what does not move, near no other one that moves, pays with its rigid motion.
 // What bodies can't pay, they owe. What cuts take from a body's angular momentum comes back as spin.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
@@ -66,13 +66,15 @@ double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_m
 bool is_cut_short(uint i) { return uintBitsToFloat(cut[i]) < 1.0f; }
 
 void note_cuts(uvec4 part, uint item) {
-  bool is_cut = false, is_at_a_cut = false;
+  bool is_cut = false, is_at_a_cut = false, is_held = false;
   for (uint i = part.y; i < part.z; ++i) {
     is_cut = is_cut || is_cut_short(i);
     is_at_a_cut = is_at_a_cut || cut[stop_of(vertex_count, i)] != at_no_cut;
+    is_held = is_held || (is_cut_short(i) && cut[held_of(vertex_count, i)] != 0u);
   }
   part_sum[item].is_cut = is_cut ? 1u : 0u;
   part_sum[item].is_at_a_cut = is_cut || is_at_a_cut ? 1u : 0u;
+  part_sum[item].is_held = is_held ? 1u : 0u;
 }
 
 // Whether motions of a body that moves were cut short in this step.
@@ -83,7 +85,15 @@ bool was_cut_short(uint b) {
   return was_cut;
 }
 
-// Whether they were, or those of what the body would have met.
+// Whether they were at what does not move.
+bool was_held(uint b) {
+  uvec2 range = vertex_part_range[b];
+  bool was = false;
+  for (uint k = range.x; k < range.x + range.y; ++k) was = was || part_sum[k].is_held != 0u;
+  return was;
+}
+
+// Whether they were cut short, or those of what the body would have met.
 bool was_at_a_cut(uint b) {
   uvec2 range = vertex_part_range[b];
   bool was_at_one = false;
@@ -180,27 +190,35 @@ Means own_means_of(uint b) {
 
 bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
 
-// A body that still owes but flies freely is not held by anything, so its rigid motion stays.
+// A body that nothing holds keeps its rigid motion, though it owes: its vertices may have left their cages in free flight.
 Means means_of(uint b) {
   Means m = own_means_of(b);
-  if (!(m.due > m.deformation) || !was_cut_short(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
+  if (!(m.due > m.deformation) || !was_held(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
   return m;
 }
 
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
 bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
-void note_owing(uint b, uint item) { part_sum[item].owes = item == vertex_part_range[b].x && owes_for_cuts(b) ? 1u : 0u; }
-bool owes(uint b) { return vertex_part_range[b].y != 0u && part_sum[vertex_part_range[b].x].owes != 0u; }
+void note_holding(uint b, uint item) {
+  part_sum[item].holding = item != vertex_part_range[b].x ? no_holding : owes_for_cuts(b) ? is_owing : was_at_a_cut(b) ? is_holding : no_holding;
+}
+uint holding_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[vertex_part_range[b].x].holding : no_holding; }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
   cluster[b].mass = cluster[b].kinetic = cluster[b].due = double(0);
   cluster[b].first = b;
-  cluster[b].bodies = cluster[b].is_met = 0u;
+  cluster[b].bodies = cluster[b].is_low = 0u;
+  cluster[b].stop = at_no_cut;
 }
 
-// Bodies that owe and are near each other belong together.
+bool belong_together(uint a, uint b) {
+  uint first = holding_of(a), second = holding_of(b);
+  return min(first, second) != no_holding && max(first, second) == is_owing;
+}
+
+// A body that owes belongs together with those near it that owe, too, or that were at a cut.
 void join_bodies() {
   bool changed = true;
   while (changed) {
@@ -208,7 +226,7 @@ void join_bodies() {
     for (uint k = 0u; k < control[0].near_pair_count; ++k) {
       uvec2 pair = near_pair[k];
       uint first = min(cluster[pair.x].first, cluster[pair.y].first);
-      if (cluster[pair.x].first == cluster[pair.y].first || !owes(pair.x) || !owes(pair.y)) continue;
+      if (cluster[pair.x].first == cluster[pair.y].first || !belong_together(pair.x, pair.y)) continue;
       cluster[pair.x].first = cluster[pair.y].first = first;
       changed = true;
     }
@@ -270,7 +288,7 @@ void find_clusters() {
   for (uint b = 0u; b <= body_count; ++b) begin_cluster(b);
   join_bodies();
   for (uint b = 0u; b < body_count; ++b)
-    if (owes(b)) add_to_cluster(b);
+    if (holding_of(b) != no_holding) add_to_cluster(b);
   for (uint b = 0u; b < body_count; ++b) end_cluster(b);
 }
 
@@ -329,7 +347,7 @@ void note_debts() {
 
 void pay_dues(uint item, uint number) {
   uvec4 part = vertex_part[item];
-  if (number == 3u) note_owing(part.x, item);
+  if (number == 3u) note_holding(part.x, item);
   if (number == 4u && item == 0u) find_clusters();
   if (number == last_round && item == 0u) note_debts();
   if (status[part.x].activity != moving) return;

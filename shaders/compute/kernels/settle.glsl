@@ -32,15 +32,18 @@ PARAMETER(uint, contact_capacity)
 #include "parts/cut_before.glsl"
 #include "parts/place.glsl"
 
-// If lists were too short, or proofs are missing, bodies make no motion of their own. Those that are near none could, but this is rare.
+// If lists were too short, or proofs are missing, bodies keep their places. Those that are near none could move, but this is rare.
 bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
-double part_left(uint i) { return holds_all() ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
+bool is_stopped(uint b) { return cluster[body_count].bodies != 0u && cluster[cluster[b].first].stop != at_no_cut; }
+bool keeps_place(uint b) { return holds_all() || is_stopped(b); }
+
+double part_left(uint i, uint b) { return keeps_place(b) ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
 
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 rest = dvec3(vec3(rest_position[i])), first = LOAD3(motion, displacement_of(before));
-  dvec3 together = rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
+  dvec3 together = keeps_place(b) ? dvec3(0) : rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
   dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
   world_position[after] = part == double(0) && together == dvec3(0)
@@ -92,7 +95,7 @@ void settle(uint i) {
   dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);
   STORE3(surplus, oldest, last)
   STORE3(surplus, latest, next)
-  double part = part_left(i);
+  double part = part_left(i, b);
   last_cut[i] = part < double(1) ? 1u : 0u;
   if (part < double(1)) cut_short(i, b, part, gone);
 }

@@ -21,6 +21,11 @@ struct Moments {
   double spread[6];    // of the products xx, yy, zz, xy, yz, zx
 };
 
+// What a body has to do with motions that are cut short.
+const uint no_holding = 0u;
+const uint is_holding = 1u;  // it or what it would have met was cut short in this step, and it owes nothing
+const uint is_owing = 2u;
+
 // A part of a body in a sum over its vertices.
 struct PartSums {
   Moments moments;
@@ -30,8 +35,8 @@ struct PartSums {
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint is_cut;             // 1: motions of vertices were cut short in this step
   uint is_at_a_cut;        // 1: they were, or those of triangles that its own would meet
-  uint owes;               // 1: the body owes for cuts. Its first part says so
-  uint padding;
+  uint is_held;            // 1: some were cut short at what does not move
+  uint holding;            // what the body has to do with cuts, as below. Its first part says so
 };
 
 FN Moments no_moments() {

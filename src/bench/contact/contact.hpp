@@ -45,7 +45,7 @@ struct ApartRow {
   std::uint64_t parts_in_all = 0;   // until bodies had parted, later ones proven once in 16
   std::uint64_t contact_parts = 0;  // parts with an impulse
   std::uint64_t cut_vertices = 0;   // whose motion was cut short
-  std::uint64_t held_parts = 0;     // in which bodies made no motion of their own
+  std::uint64_t held_parts = 0;     // in which nothing moved
   std::size_t touching = 0;         // pairs of triangles that were not apart
   std::size_t inside = 0;           // vertices inside another body
   bool parted = false;              // the bodies' boxes are apart again in the end

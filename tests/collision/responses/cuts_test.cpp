@@ -155,6 +155,25 @@ TEST_CASE("a heavy body that passes by turns none of those that hook into each o
   CHECK(glm::length(simulation.state().world_velocities(start.model).back() - heavy_before) < 1e-6);
 }
 
+// The boxes of the small ones and of the third overlap, but the bodies don't touch. If what is held stayed behind in the world
+// because of that, the flight would stretch the bodies.
+TEST_CASE("bodies that hook into each other gain no energy where another one flies beside them") {
+  const glm::dvec3 flight(0, 20, 6);
+  std::vector<BodySetup> setups = pocket_setups(flight);
+  setups.push_back(soft(generate_mesh("icosphere:2"), "third"));
+  setups[2].description.position = {-0.4, 1.6, 1.6};
+  setups[2].description.velocity = flight;
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
+                        {.response = {"impulse"}, .gap = 0.01});
+  const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 0.5);
+  CHECK(seen.report.reverted_vertices > 100);
+  CHECK(seen.most - seen.first < 0.01);  // [J]
+  CHECK(glm::length(seen.momentum) < 1e-2);
+  CHECK(glm::length(seen.turning_change) < 5e-3);
+}
+
 // The light one catches on an edge of the heavy one, and both go on turning.
 TEST_CASE("bodies that spin while they hook into each other gain no energy for good") {
   std::vector<BodySetup> setups = {soft(generate_mesh("cube:1"), "heavy"), soft(generate_mesh("cube:5"), "light")};
@@ -190,6 +209,41 @@ TEST_CASE("kicks that do not settle give no energy", "[long]") {
   CHECK(simulation.report().unsettled_contacts > 0);
   CHECK(swing.least < -0.5);
   CHECK(swing.most_rise < 1e-3);
+}
+
+// Some vertices are cut by hand, as if they had left their cages, or were held by what does not move.
+TEST_CASE("a body that was cut short gives its momentum to what does not move, and only if that held it") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "ball"), soft(generate_mesh("cube:1"), "slab")};
+  setups[0].description.velocity = {5, 0, 0};
+  setups[0].description.position = {0, 2.1, 0};
+  setups[1].description.kind = BodyKind::immovable;
+  setups[1].description.scale = 2;
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const bool is_held : {false, true}) {
+    Bench cpu(make_cpu_device(1, 64), start, {"verlet", 0.02}, by_impulses);
+    cpu.device->run(std::vector{cpu.stepper.first_passes().front(), cpu.collider.bounding_pass(0)});
+    cpu.bodies.prepare_search();
+    auto& cut = cpu.bodies.arrays.get<std::uint32_t>("cut");
+    for (const Pass& pass : step_passes(cpu.bodies, cpu.stepper, cpu.collider, 0, nullptr)) {
+      cpu.device->run({&pass, 1});
+      if (pass.name != "expect_cuts") continue;
+      std::vector<std::uint32_t> rows = cut.download();
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        rows[i] = 0;
+        rows[physics::held_of(cpu.bodies.vertex_count, i)] = is_held ? 1 : 0;
+      }
+      cut.upload(rows);
+    }
+    const bool owes = cpu.bodies.arrays.get<physics::Debt>("debt").download().back().energy > 0;
+    CHECK(owes == !is_held);  // it has no other motion to pay with
+    const double momentum = bench::momentum_of(start.model, cpu.bodies.download(1)).x;
+    if (is_held)
+      CHECK(momentum < 4.9);
+    else
+      CHECK(momentum == Approx(5).epsilon(1e-13));
+    const ResponseReport given = cpu.collider.response()->report();
+    CHECK(given.outside_impulse.x == Approx(momentum - 5).margin(1e-13));
+  }
 }
 
 // Where a tolerance governs steps, one that is queued when the time is reached is empty.

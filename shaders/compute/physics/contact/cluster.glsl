@@ -17,8 +17,8 @@ struct Cluster {
   double due;          // that deformations could not pay [J]
   uint first;          // its first body, where these sums stand
   uint bodies;
-  uint is_met;         // 1: its motion is not used in this step, because it is near what does not share it
-  uint padding;
+  uint is_low;         // 1: its motion is not used in this step, because it is near a ground
+  uint stop;           // the round of proofs in which it was stopped as a whole, or at_no_cut
 };
 
 // What bodies keep of their rigid motions beyond the cluster's, and the part that is still due after it.

@@ -83,7 +83,9 @@ const uint at_a_cut = cut_rounds;
 const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
 FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, vertex_count, i); }
-const uint cut_rows = plane_rounds + 2u;
+// Behind them stands whether a vertex was cut short at what does not move: 1 or 0.
+FN uint held_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 2u, vertex_count, i); }
+const uint cut_rows = plane_rounds + 3u;
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
