@@ -58,7 +58,7 @@ std::string told_growth_of(const RunProgress& progress, const Model& model) {
     return fmt::format("the energy has grown by {:.3g} J at {:.6g} s, and was too small at the start to compare with",
                        growth * smallest_energy(model), time);
   if (is_driven_from_rest(model))
-    return fmt::format("the energy has grown by {:.3g} of the most in motion at {:.6g} s", growth, time);
+    return fmt::format("the energy has grown by {:.3g} times the most energy in motion at {:.6g} s", growth, time);
   return fmt::format("the energy has grown {:.3g}-fold at {:.6g} s", 1 + growth, time);
 }
 

@@ -321,7 +321,7 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
     body.where = place_of(table);
     TableReader::section(table, "body." + body.name, body);
     if (std::ranges::find(bodies, body.name, &BodyDescription::name) != bodies.end())
-      fail(table, "body." + body.name, "the name is taken", "give each body a name of its own");
+      fail(table, "body." + body.name, "the name is taken", "give each body a name of its own; without one it is called by its index");
     bodies.push_back(std::move(body));
   }
 }

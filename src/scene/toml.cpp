@@ -47,7 +47,7 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
     return Error(ErrorKind::input, fmt::format("{}:{}", file.string(), line), what,
                  extension_of(file) == ".obj"
                      ? "a mesh is no scene: show it by pliant view, or name it as the mesh of a body in a scene"
-                     : "correct the TOML, where texts stand in quotes");
+                     : "correct the TOML: texts stand in quotes, numbers are below 1e308, and the file is UTF-8");
   };
   try {
     return toml::parse(text, file.string());

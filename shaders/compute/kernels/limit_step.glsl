@@ -1,7 +1,7 @@
 // One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
-// the bodies and a quarter edge. Bodies that may touch, and those that were pressed a while ago, have a bound of their own. The thread also
-// finds how much further than expected bodies that are far from each other may move without meeting, and how bodies that meet may push each
-// other.
+// the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a bound of their
+// own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, and how bodies
+// that meet may push each other.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/parts.glsl"
