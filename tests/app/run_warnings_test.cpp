@@ -276,7 +276,7 @@ TEST_CASE("a run that can't meet its tolerance is not called non-finite, and its
 }
 
 TEST_CASE("a run whose energy grows a thousandfold while its steps fall into parts says so and exits with 5") {
-  // 1.74 times the bound: the energy takes some 25 steps to grow so far, so that no number overflows first.
+  // 1.74 times the bound: the energy takes some 130 steps to grow so far, so that no number overflows first.
   const ScratchFolder folder;
   const ProgramResult result =
       run_program("run " + small_scene(folder, "damping_law = \"none\"\n").string() +

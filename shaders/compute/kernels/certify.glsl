@@ -25,19 +25,27 @@ PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/common_way.glsl"
 #include "parts/cut_before.glsl"
 
-uint items_in_a_round() { return min(contact_list[0].triangle_pair_count, triangle_pair_capacity); }
+// If the list of pairs is full, no body moves.
+uint items_in_a_round() {
+  uint count = contact_list[0].triangle_pair_count;
+  return count <= triangle_pair_capacity ? count : 0u;
+}
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
 
-// Whether a round before this one stopped the body's cluster. Then all of its bodies keep their places.
-bool is_stopped(uint b, uint cut_round) {
-  return cluster[body_count].bodies != 0u && ATOMIC_LOAD(cluster[cluster[b].first].stop) < cut_round;
+uint cluster_of(uint i) { return cluster[uint(rest_position[i].w)].first; }
+
+// Whether the vertex flies along with a cluster that no round before this one has stopped.
+bool flies(uint i, uint cut_round) {
+  return has_common_way(uint(rest_position[i].w)) && ATOMIC_LOAD(cluster[cluster_of(i)].stop) >= cut_round;
 }
-bool is_stopped_now(uint b, uint cut_round) { return is_stopped(b, cut_round) && !is_stopped(b, cut_round - 1u); }
+
+// Whether its cluster was stopped by a round before this one, so that it keeps its place.
+bool keeps_place(uint i, uint cut_round) { return has_common_way(uint(rest_position[i].w)) && !flies(i, cut_round); }
 
 bool has_changed(uint i, uint cut_round) {
-  if (cut_round == 0u || is_stopped_now(uint(rest_position[i].w), cut_round)) return true;
-  if ( ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
+  if (cut_round == 0u || (keeps_place(i, cut_round) && flies(i, cut_round - 1u))) return true;
+  if (ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
   return cut_round <= plane_rounds && cut[cut_in(cut_round, vertex_count, i)] < cut_before(i, cut_round - 1u);
 }
 
@@ -55,11 +63,10 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   double far = abs(origin.x) + abs(origin.y) + abs(origin.z) + double(4) * largest_body;
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
-    uint b = uint(rest_position[who[k]].w);
-    bool is_free = !is_stopped(b, cut_round);
-    c.part[k] = is_free ? real(uintBitsToFloat(cut_before(who[k], cut_round))) : real(0);
+    bool is_kept = keeps_place(who[k], cut_round);
+    c.part[k] = is_kept ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
-    dvec3 together = is_free ? common_way(b, place) : dvec3(0);
+    dvec3 together = is_kept ? dvec3(0) : common_way(uint(rest_position[who[k]].w), place);
     c.motion.start[k] = real3(from);
     c.motion.end[k] = real3(from + together + double(c.part[k]) * LOAD3(way, force_of(who[k])));
     c.together[k] = real3(together);
@@ -101,18 +108,24 @@ bool all_stopped(IN(Case) c) {
   return all;
 }
 
-bool flies(IN(Case) c, uint k) { return c.together[k] != real3(0); }
-uint cluster_of(IN(Case) c, uint k) { return cluster[uint(rest_position[c.vertex[k]].w)].first; }
+bool are_apart_now(IN(Case) c) {
+  Motion none = c.motion;
+  none.margin *= real(0.5);
+  for (uint k = 0u; k < 6u; ++k) none.end[k] = none.start[k];
+  return stays_apart(none);
+}
 
-// Whether the triangles stay as they are to each other. What flies along in one cluster meets nothing by that. Rounding would take 1e5
-// parts of steps to move it by the margin.
-bool stands(IN(Case) c) {
-  return all_stopped(c) && ((!flies(c, 0u) && !flies(c, 3u)) || cluster_of(c, 0u) == cluster_of(c, 3u));
+// Whether the triangles stay as they are to each other. If they fly along in one cluster, rounding moves them a little in each step.
+bool stands(IN(Case) c, uint cut_round) {
+  if (!all_stopped(c)) return false;
+  bool first_flies = flies(c.vertex[0], cut_round), second_flies = flies(c.vertex[3], cut_round);
+  if (!first_flies && !second_flies) return true;
+  return cluster_of(c.vertex[0]) == cluster_of(c.vertex[3]) && are_apart_now(c);
 }
 
 void stop_clusters(IN(Case) c, uint cut_round) {
-  if (flies(c, 0u)) atomicMin(cluster[cluster_of(c, 0u)].stop, cut_round);
-  if (flies(c, 3u)) atomicMin(cluster[cluster_of(c, 3u)].stop, cut_round);
+  if (flies(c.vertex[0], cut_round)) atomicMin(cluster[cluster_of(c.vertex[0])].stop, cut_round);
+  if (flies(c.vertex[3], cut_round)) atomicMin(cluster[cluster_of(c.vertex[3])].stop, cut_round);
 }
 
 bool can_move(uint i) { return surface[uint(rest_position[i].w)].inverse_mass != double(0); }
@@ -162,7 +175,7 @@ void certify(uint item, uint cut_round) {
   for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k], cut_round);
   if (!changed) return;
   Case c = case_of(who, cut_round);
-  if (stands(c) || stays_apart(c.motion)) return;
+  if (stands(c, cut_round) || stays_apart(c.motion)) return;
   if (cut_round + 1u == cut_rounds)
     atomicAdd(contact_list[0].uncertified, 1u);
   else

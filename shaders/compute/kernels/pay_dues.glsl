@@ -43,7 +43,15 @@ uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return other_half(from_half); }
+#include "parts/common_way.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
+
+// What a vertex lacks of its cluster's motion, if that was stopped [m]. It strains no spring.
+dvec3 missing_together(uint i, uint b) {
+  if (!has_common_way(b) || cluster[cluster[b].first].stop == at_no_cut) return dvec3(0);
+  dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
+  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
+}
 
 // The energy that springs and gravity have more because the vertex went only this part of its way [J]. They would have given it the
 // change of its velocity over the step. No displacement of one vertex by d takes more than N k d^2 / 2 beyond that.
@@ -52,7 +60,7 @@ double energy_of_cut(uint i, uint b) {
   dvec3 change = velocity_of_vertex(i) - LOAD3(motion, velocity_of(in_half(from_half, vertex_count, i)));
   dvec3 missing = (double(1) - part) * LOAD3(way, force_of(i));
   double stiffness = double(body[b].vertex_count) * body[b].unit_force * body[b].inverse_unit;
-  double given = dot(rotate(pose[b], change), missing) / (body[b].inverse_mass * control[0].time_step);
+  double given = dot(rotate(pose[b], change), missing + missing_together(i, b)) / (body[b].inverse_mass * control[0].time_step);
   return given + double(0.5) * stiffness * dot(missing, missing);
 }
 
@@ -200,8 +208,12 @@ Means means_of(uint b) {
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
 bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
+uint find_holding(uint b) {
+  if (owes_for_cuts(b)) return is_owing;
+  return was_at_a_cut(b) ? is_holding : no_holding;
+}
 void note_holding(uint b, uint item) {
-  part_sum[item].holding = item != vertex_part_range[b].x ? no_holding : owes_for_cuts(b) ? is_owing : was_at_a_cut(b) ? is_holding : no_holding;
+  if (item == vertex_part_range[b].x) part_sum[item].holding = find_holding(b);
 }
 uint holding_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[vertex_part_range[b].x].holding : no_holding; }
 

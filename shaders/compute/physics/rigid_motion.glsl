@@ -23,7 +23,7 @@ struct Moments {
 
 // What a body has to do with motions that are cut short.
 const uint no_holding = 0u;
-const uint is_holding = 1u;  // it or what it would have met was cut short in this step, and it owes nothing
+const uint is_holding = 1u;  // it or what it would have met was cut short in this step, and it owes nothing for cuts
 const uint is_owing = 2u;
 
 // A part of a body in a sum over its vertices.
@@ -36,7 +36,7 @@ struct PartSums {
   uint is_cut;             // 1: motions of vertices were cut short in this step
   uint is_at_a_cut;        // 1: they were, or those of triangles that its own would meet
   uint is_held;            // 1: some were cut short at what does not move
-  uint holding;            // what the body has to do with cuts, as below. Its first part says so
+  uint holding;            // what the body has to do with cuts, as above. Its first part says so
 };
 
 FN Moments no_moments() {

@@ -9,8 +9,10 @@ dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   return time_step * LOAD3(of_cluster.velocity, 0u) + (across + cross(half_turn, across)) * (double(2) / (double(1) + dot(half_turn, half_turn)));
 }
 
-// The same as far as cuts leave it alone, if proofs do not stop the cluster.
-dvec3 common_way(uint b, dvec3 from) {
-  if (cluster[body_count].bodies == 0u || cluster[cluster[b].first].is_low != 0u) return dvec3(0);
-  return way_of_cluster(b, control[0].time_step, from);
+// Whether the body is in a cluster whose motion cuts leave alone.
+bool has_common_way(uint b) {
+  return cluster[body_count].bodies != 0u && cluster[cluster[b].first].bodies != 0u && cluster[cluster[b].first].is_low == 0u;
 }
+
+// The same, if it is so and proofs do not stop the cluster.
+dvec3 common_way(uint b, dvec3 from) { return has_common_way(b) ? way_of_cluster(b, control[0].time_step, from) : dvec3(0); }

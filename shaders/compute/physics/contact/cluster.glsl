@@ -1,4 +1,4 @@
-// Bodies that owe for motions cut short against each other.
+// Bodies that owe for motions cut short, and those near them that were at a cut.
 // - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. Each
