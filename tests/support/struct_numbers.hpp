@@ -111,7 +111,7 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
 
 // Its motion means nothing if it has no bodies.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_low), double(cluster.stop)};
+  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_low)};
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);
   numbers.insert(numbers.end(), motion.begin(), motion.end());

@@ -15,7 +15,7 @@ READ(cage)
 READ(control)
 READ(rest_position)
 READ(surface)
-SHARED_WRITE(cluster)
+READ(cluster)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
@@ -37,7 +37,7 @@ uint cluster_of(uint i) { return cluster[uint(rest_position[i].w)].first; }
 
 // Whether the vertex flies along with a cluster that no round before this one has stopped.
 bool flies(uint i, uint cut_round) {
-  return has_common_way(uint(rest_position[i].w)) && ATOMIC_LOAD(cluster[cluster_of(i)].stop) >= cut_round;
+  return has_common_way(uint(rest_position[i].w)) && ATOMIC_LOAD(cut[cluster_stop_of(vertex_count, cluster_of(i))]) >= cut_round;
 }
 
 // Whether its cluster was stopped by a round before this one, so that it keeps its place.
@@ -127,8 +127,8 @@ bool are_proven(Case c, uint cut_round) {
 }
 
 void stop_clusters(IN(Case) c, uint cut_round) {
-  if (flies(c.vertex[0], cut_round)) atomicMin(cluster[cluster_of(c.vertex[0])].stop, cut_round);
-  if (flies(c.vertex[3], cut_round)) atomicMin(cluster[cluster_of(c.vertex[3])].stop, cut_round);
+  if (flies(c.vertex[0], cut_round)) atomicMin(cut[cluster_stop_of(vertex_count, cluster_of(c.vertex[0]))], cut_round);
+  if (flies(c.vertex[3], cut_round)) atomicMin(cut[cluster_stop_of(vertex_count, cluster_of(c.vertex[3]))], cut_round);
 }
 
 bool can_move(uint i) { return surface[uint(rest_position[i].w)].inverse_mass != double(0); }

@@ -80,7 +80,10 @@ void expect_cuts(uint i) {
   if (i == 0u) add_contact_sums();
   for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint b = uint(rest_position[i].w);
-  if (i == 0u || uint(rest_position[i - 1u].w) != b) find_energy_due(b);
+  if (i == 0u || uint(rest_position[i - 1u].w) != b) {
+    find_energy_due(b);
+    cut[cluster_stop_of(vertex_count, b)] = at_no_cut;
+  }
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);

@@ -6,7 +6,6 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
-#include "../physics/contact/surface.glsl"
 READ(control)
 READ(body)
 WRITE(step_parts)
@@ -27,10 +26,7 @@ PARAMETER(uint, from_half)
 void measure_motion(uint i) {
   if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
   uint b = uint(rest_position[i].w);
-  if (i == body[b].first_vertex) {
-    cluster[b].is_low = 0u;
-    cluster[b].stop = at_no_cut;
-  }
+  if (i == body[b].first_vertex) cluster[b].is_low = 0u;
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));

@@ -48,7 +48,7 @@ uint moments_half() { return other_half(from_half); }
 
 // What a vertex lacks of its cluster's motion, if that was stopped [m]. It strains no spring.
 dvec3 missing_together(uint i, uint b) {
-  if (!has_common_way(b) || cluster[cluster[b].first].stop == at_no_cut) return dvec3(0);
+  if (!has_common_way(b) || cut[cluster_stop_of(vertex_count, cluster[b].first)] == at_no_cut) return dvec3(0);
   dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
   return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
 }
@@ -222,7 +222,6 @@ void begin_cluster(uint b) {
   cluster[b].mass = cluster[b].kinetic = cluster[b].due = double(0);
   cluster[b].first = b;
   cluster[b].bodies = cluster[b].is_low = 0u;
-  cluster[b].stop = at_no_cut;
 }
 
 bool belong_together(uint a, uint b) {

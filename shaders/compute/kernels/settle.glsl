@@ -35,7 +35,7 @@ PARAMETER(uint, contact_capacity)
 // If lists were too short, or proofs are missing, bodies keep their places. Those that are near none could move, but this is rare.
 bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
-bool keeps_place(uint b) { return holds_all() || (has_common_way(b) && cluster[cluster[b].first].stop != at_no_cut); }
+bool keeps_place(uint b) { return holds_all() || (has_common_way(b) && cut[cluster_stop_of(vertex_count, cluster[b].first)] != at_no_cut); }
 
 double part_left(uint i, uint b) { return keeps_place(b) ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
 

@@ -193,7 +193,9 @@ TEST_CASE("bodies that fly along together keep their places to the bit in a step
   std::vector<glm::vec4> before = cpu.bodies.world_positions.download(cpu.bodies.first_of_half(0), cpu.bodies.vertex_count);
   const auto is_stopped = [&] {
     const auto clusters = cpu.bodies.arrays.get<physics::Cluster>("cluster").download();
-    return clusters.back().bodies > 0 && clusters[0].bodies > 0 && clusters[0].stop != physics::at_no_cut;
+    const auto cut = cpu.bodies.arrays.get<std::uint32_t>("cut").download();
+    return clusters.back().bodies > 0 && clusters[0].bodies > 0 &&
+           cut[physics::cluster_stop_of(cpu.bodies.vertex_count, 0)] != physics::at_no_cut;
   };
   int stops = 0;
   for (std::uint32_t step = 0; step < 250; ++step) {

@@ -18,7 +18,7 @@ struct Cluster {
   uint first;          // its first body, where these sums stand
   uint bodies;
   uint is_low;         // 1: its motion is not used in this step, because it is near a ground
-  uint stop;           // the round of proofs in which it was stopped as a whole, or at_no_cut
+  uint padding;
 };
 
 // What bodies keep of their rigid motions beyond the cluster's, and the part that is still due after it.
