@@ -59,8 +59,7 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
   numbers.insert(numbers.end(), std::begin(sums.lost_turning), std::end(sums.lost_turning));
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.is_cut), double(sums.is_at_a_cut),
-                                double(sums.is_held), double(sums.holding)});
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.cuts), double(sums.holding)});
   return numbers;
 }
 

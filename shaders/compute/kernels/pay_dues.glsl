@@ -74,40 +74,26 @@ double mass_of(uint b) { return double(body[b].vertex_count) / body[b].inverse_m
 bool is_cut_short(uint i) { return uintBitsToFloat(cut[i]) < 1.0f; }
 
 void note_cuts(uvec4 part, uint item) {
-  bool is_cut = false, is_at_a_cut = false, is_held = false;
+  uint cuts = 0u;
   for (uint i = part.y; i < part.z; ++i) {
-    is_cut = is_cut || is_cut_short(i);
-    is_at_a_cut = is_at_a_cut || cut[stop_of(vertex_count, i)] != at_no_cut;
-    is_held = is_held || (is_cut_short(i) && cut[held_of(vertex_count, i)] != 0u);
+    if (cut[stop_of(vertex_count, i)] != at_no_cut) cuts |= at_a_cut_bit;
+    if (!is_cut_short(i)) continue;
+    cuts |= cut_short_bit | at_a_cut_bit;
+    if (cut[held_of(vertex_count, i)] != 0u) cuts |= held_bit;
   }
-  part_sum[item].is_cut = is_cut ? 1u : 0u;
-  part_sum[item].is_at_a_cut = is_cut || is_at_a_cut ? 1u : 0u;
-  part_sum[item].is_held = is_held ? 1u : 0u;
+  part_sum[item].cuts = cuts;
 }
 
-// Whether motions of a body that moves were cut short in this step.
-bool was_cut_short(uint b) {
+// What happened to the body's motions in this step, if it moves.
+uint cuts_of(uint b) {
   uvec2 range = vertex_part_range[b];
-  bool was_cut = false;
-  for (uint k = range.x; k < range.x + range.y; ++k) was_cut = was_cut || part_sum[k].is_cut != 0u;
-  return was_cut;
+  uint cuts = 0u;
+  for (uint k = range.x; k < range.x + range.y; ++k) cuts |= part_sum[k].cuts;
+  return cuts;
 }
-
-// Whether they were at what does not move.
-bool was_held(uint b) {
-  uvec2 range = vertex_part_range[b];
-  bool was = false;
-  for (uint k = range.x; k < range.x + range.y; ++k) was = was || part_sum[k].is_held != 0u;
-  return was;
-}
-
-// Whether they were cut short, or those of what the body would have met.
-bool was_at_a_cut(uint b) {
-  uvec2 range = vertex_part_range[b];
-  bool was_at_one = false;
-  for (uint k = range.x; k < range.x + range.y; ++k) was_at_one = was_at_one || part_sum[k].is_at_a_cut != 0u;
-  return was_at_one;
-}
+bool was_cut_short(uint b) { return (cuts_of(b) & cut_short_bit) != 0u; }
+bool was_at_a_cut(uint b) { return (cuts_of(b) & at_a_cut_bit) != 0u; }
+bool was_held(uint b) { return (cuts_of(b) & held_bit) != 0u; }
 
 // Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
 // need one.
@@ -137,7 +123,7 @@ dvec3 velocity_of_flight(uint b) {
 // the flight does not count.
 void sum_lost_turning(uvec4 part, uint item) {
   dvec3 lost = dvec3(0);
-  if (part_sum[item].is_cut != 0u) {
+  if ((part_sum[item].cuts & cut_short_bit) != 0u) {
     dvec3 flight = velocity_of_flight(part.x);
     for (uint i = part.y; i < part.z; ++i) {
       if (!is_cut_short(i)) continue;

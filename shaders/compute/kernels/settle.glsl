@@ -35,14 +35,14 @@ PARAMETER(uint, contact_capacity)
 // If lists were too short, or proofs are missing, bodies keep their places. Those that are near none could move, but this is rare.
 bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
-bool keeps_place(uint b) { return holds_all() || (has_common_way(b) && cut[cluster_stop_of(vertex_count, cluster[b].first)] != at_no_cut); }
+bool stays(uint b) { return holds_all() || (has_common_way(b) && cut[cluster_stop_of(vertex_count, cluster[b].first)] != at_no_cut); }
 
-double part_left(uint i, uint b) { return keeps_place(b) ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
+double part_left(uint i, uint b) { return stays(b) ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
 
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 rest = dvec3(vec3(rest_position[i])), first = LOAD3(motion, displacement_of(before));
-  dvec3 together = keeps_place(b) ? dvec3(0) : rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
+  dvec3 together = stays(b) ? dvec3(0) : rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
   dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
   world_position[after] = part == double(0) && together == dvec3(0)

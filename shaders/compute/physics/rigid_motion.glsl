@@ -21,6 +21,11 @@ struct Moments {
   double spread[6];    // of the products xx, yy, zz, xy, yz, zx
 };
 
+// Of a body's motions in a step: some were cut short, or those of what they would have met. Some were cut short at what does not move.
+const uint cut_short_bit = 1u;
+const uint at_a_cut_bit = 2u;
+const uint held_bit = 4u;
+
 // What a body has to do with motions that are cut short.
 const uint no_holding = 0u;
 const uint is_holding = 1u;  // it or what it would have met was cut short in this step, and it owes nothing for cuts
@@ -33,9 +38,7 @@ struct PartSums {
   double deformation;      // kinetic energy of the velocities less the rigid motion [J]
   double rigid;            // kinetic energy of the rigid motion, with the spin that cuts took [J]
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
-  uint is_cut;             // 1: motions of vertices were cut short in this step
-  uint is_at_a_cut;        // 1: they were, or those of triangles that its own would meet
-  uint is_held;            // 1: some were cut short at what does not move
+  uint cuts;               // bits, as above
   uint holding;            // what the body has to do with cuts, as above. Its first part says so
 };
 
