@@ -66,11 +66,11 @@ void find_energy_due(uint b) {
 }
 
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
-void bound_way(uint i, dvec3 from, dvec3 together, dvec3 own) {
+void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
   dvec3 by_cluster = from + together, to = by_cluster + own;
   dvec3 lower = min(min(from, by_cluster), to), upper = max(max(from, by_cluster), to);
-  dvec3 farthest = max(abs(lower), abs(upper));
-  double far = double(2) * (farthest.x + farthest.y + farthest.z) + double(4) * largest_body;
+  dvec3 farthest = max(abs(lower), abs(upper)), all = double(2) * farthest + abs(LOAD3(pose[b].origin, 0u));
+  double far = all.x + all.y + all.z + double(4) * largest_body;
   dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
   cage[way_box_of(i)] = vec4(vec3(lower - slack), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(upper + slack), 0);
@@ -100,7 +100,7 @@ void expect_cuts(uint i) {
     if (is_movable) part_of_low = min(part_of_low, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
   cut[held_of(vertex_count, i)] = part_of_low < double(1) ? 1u : 0u;
   part = min(part, part_of_low);
-  bound_way(i, from, together, part * own);
+  bound_way(i, b, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint row = 1u; row <= plane_rounds; ++row) cut[cut_in(row, vertex_count, i)] = floatBitsToUint(1.0f);
   cut[stop_of(vertex_count, i)] = at_no_cut;

@@ -15,6 +15,7 @@ void judge_step(uint item) {
     judge(p, control[0].time_step);
   if (p.verdict == step_rejected) {
     control[0].count[contact_pairs] = 0u;
+    control[0].count[unsettled_contacts] = 0u;
     control[0].time_step = double(0);
   }
   pace[item] = p;

@@ -37,6 +37,7 @@ void meet_ground(uint i, uint g) {
 }
 
 void meet_grounds(uint i) {
-  if (surface[uint(rest_position[i].w)].inverse_mass == double(0) || control[0].time_step == double(0)) return;
+  if (control[0].non_finite_step != 0u || control[0].time_step == double(0)) return;
+  if (surface[uint(rest_position[i].w)].inverse_mass == double(0)) return;
   for (uint g = 0u; g < ground_count; ++g) meet_ground(i, g);
 }

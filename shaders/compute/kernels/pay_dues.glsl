@@ -30,6 +30,8 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, contact_capacity)
 
 const uint last_round = 7u;
 
@@ -44,11 +46,13 @@ bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return other_half(from_half); }
 #include "parts/common_way.glsl"
+#include "parts/full_lists.glsl"
+#include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
 
-// What a vertex lacks of its cluster's motion, if that was stopped [m]. It strains no spring.
+// What a vertex lacks of its cluster's motion, if that was not made [m]. It strains no spring.
 dvec3 missing_together(uint i, uint b) {
-  if (!has_common_way(b) || cut[cluster_stop_of(vertex_count, cluster[b].first)] == at_no_cut) return dvec3(0);
+  if (!has_common_way(b) || !stays(b)) return dvec3(0);
   dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
   return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
 }
@@ -127,7 +131,7 @@ void sum_lost_turning(uvec4 part, uint item) {
     dvec3 flight = velocity_of_flight(part.x);
     for (uint i = part.y; i < part.z; ++i) {
       if (!is_cut_short(i)) continue;
-      dvec3 missing = (double(1) - double(uintBitsToFloat(cut[i]))) * LOAD3(way, force_of(i));
+      dvec3 missing = (double(1) - double(uintBitsToFloat(cut[i]))) * LOAD3(way, force_of(i)) + missing_together(i, part.x);
       lost += cross(rotate_back(pose[part.x], missing), velocity_of_vertex(i) - flight);
     }
   }

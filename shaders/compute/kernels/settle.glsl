@@ -30,12 +30,8 @@ PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
 #include "parts/common_way.glsl"
 #include "parts/cut_before.glsl"
+#include "parts/stays.glsl"
 #include "parts/place.glsl"
-
-// If lists were too short, or proofs are missing, bodies keep their places. Those that are near none could move, but this is rare.
-bool holds_all() { return contact_list[0].uncertified != 0u || lists_are_full(); }
-
-bool stays(uint b) { return holds_all() || (has_common_way(b) && cut[cluster_stop_of(vertex_count, cluster[b].first)] != at_no_cut); }
 
 double part_left(uint i, uint b) { return stays(b) ? double(0) : double(uintBitsToFloat(cut_before(i, cut_rounds))); }
 
@@ -60,7 +56,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
 void end_step_part(bool is_made) {
   StepParts p = step_parts[0];
   if (is_made) end_part(p);
-  if (is_made && holds_all()) p.held += 1u;
+  if (is_made && all_stay()) p.held += 1u;
   p.longest = no_bound;
   step_parts[0] = p;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -98,13 +99,14 @@ class Impulse final : public Response {
     Arrays& arrays = setting.bodies.arrays;
     const std::size_t vertices = bodies_.vertex_count;
     std::vector<physics::Surface> surfaces;
-    smallest_gap_ = 1e30;
+    smallest_gap_ = std::numeric_limits<double>::infinity();
     for (const ModelBody& body : setting.model.bodies) {
       surfaces.push_back(surface_of(setting.model, body, setting.description));
       largest_body_ = std::max(largest_body_, body.radius);
       if (body.is_static) continue;
       smallest_gap_ = std::min(smallest_gap_, surfaces.back().gap * surfaces.back().edge);
     }
+    if (std::ranges::all_of(setting.model.bodies, &ModelBody::is_static)) smallest_gap_ = 0;
     find_nearness(surfaces);
     arrays.make("surface", surfaces);
     std::vector<physics::Ground> grounds;
@@ -274,7 +276,10 @@ class Impulse final : public Response {
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity}},
         bodies_.vertex_count));
-    passes.push_back(round_pass("pay_dues", {{"from_half", from_half}, {"part_count", part_count_}}));
+    passes.push_back(round_pass("pay_dues", {{"from_half", from_half},
+                                             {"part_count", part_count_},
+                                             {"triangle_pair_capacity", triangle_pair_capacity_},
+                                             {"contact_capacity", contact_capacity}}));
     return passes;
   }
 

@@ -6,7 +6,8 @@ dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   RigidMotion of_cluster = cluster[first].motion;
   dvec3 half_turn = (double(0.5) * time_step) * LOAD3(of_cluster.spin, 0u);
   dvec3 across = cross(half_turn, from - LOAD3(of_cluster.centre, 0u));
-  return time_step * LOAD3(of_cluster.velocity, 0u) + (across + cross(half_turn, across)) * (double(2) / (double(1) + dot(half_turn, half_turn)));
+  dvec3 turn = (across + cross(half_turn, across)) * (double(2) / (double(1) + dot(half_turn, half_turn)));
+  return time_step * LOAD3(of_cluster.velocity, 0u) + turn;
 }
 
 // Whether the body is in a cluster whose motion cuts leave alone.
@@ -14,5 +15,5 @@ bool has_common_way(uint b) {
   return cluster[body_count].bodies != 0u && cluster[cluster[b].first].bodies != 0u && cluster[cluster[b].first].is_low == 0u;
 }
 
-// The same, if it is so and proofs do not stop the cluster.
+// What cuts leave alone of its way, if proofs do not stop the cluster [m].
 dvec3 common_way(uint b, dvec3 from) { return has_common_way(b) ? way_of_cluster(b, control[0].time_step, from) : dvec3(0); }

@@ -1,9 +1,10 @@
 // Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
-// `first` on. Pairs are counted beyond the list's end, too.
+// `first` on. Pairs are counted beyond the list's end, too, which says that it is full.
 #include "kept_boxes.glsl"
 
 // Lists pairs of s with those of up to 32 triangles from t on that are set in `near`.
 void list_pairs(uint s, uint t, uint near, uint meeting) {
+  if (ATOMIC_LOAD(contact_list[0].triangle_pair_count) > triangle_pair_capacity) return;  // the count could pass 2^32
   uint at = atomicAdd(contact_list[0].triangle_pair_count, uint(bitCount(near)));
   for (; near != 0u; near &= near - 1u) {
     uint k = uint(findLSB(near));

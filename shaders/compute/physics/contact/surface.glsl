@@ -47,7 +47,6 @@ struct ContactList {
   uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
   uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
   uint has_dues;             // 1: motions were cut short in this step, or contacts that ended unsettled gave energy
-  uint padding;
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
@@ -60,10 +59,14 @@ FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
 
 // How far apart shadows of two triangles have to be on an axis whose components sum to 1 [m]. `size` bounds the corners' coordinates,
 // summed, about one of the corners, and `far` those of that corner in the world and about its body's centre [m]. Shadows err by at most 8
-// roundings of `size`, in numbers of this epsilon. Positions in the world err by some roundings in fp64. The margin is twice that: while
-// triangles stand and fly along together, no proof but half of it is asked for, and rounding takes thousands of steps to use up the rest.
+// roundings of `size`, in numbers of this epsilon. Positions in the world err by some roundings in fp64. The margin is twice that.
 FN double margin_of_rounding(double epsilon, double size, double far) {
   return double(16) * epsilon * size + double(64) * double(1.1e-16) * (far + size);
+}
+
+// Whether what the margin has beyond the shadows' errors is more than positions in the world err by in a million steps.
+FN bool margin_outlasts_rounding(double epsilon, double size, double far) {
+  return double(8) * epsilon * size > double(1e6) * double(4) * double(1.1e-16) * (far + size);
 }
 
 // Properties of a pair are geometric means.
@@ -112,8 +115,9 @@ FN uint contact_sum_count(uint body_count) { return contact_sums + body_count; }
 
 const uint sum_buffers = 3u;  // of impulses: one is read, one added to, one cleared
 
-// Sums of |weight| of a vertex are counted in this unit, so that their order does not matter.
-FN float weight_unit() { return 1.0f / 65536.0f; }
+// Sums of |weight| of a vertex are counted in this unit, so that their order does not matter. All contacts that lists have room for can
+// meet at one vertex.
+FN float weight_unit() { return 1.0f / 8192.0f; }
 
 SHARED_END
 #endif
