@@ -2,6 +2,7 @@
 #include "simulation/overlap.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -11,12 +12,14 @@
 #include "model/inside.hpp"
 #include "physics/collision/certified_triangles.glsl"
 #include "physics/contact/features.glsl"
+#include "physics/contact/separation.glsl"
 #include "simulation/near_boxes.hpp"
 
 namespace pliant {
 namespace {
 
 constexpr std::size_t most_tests = 20'000'000;  // of a vertex against a triangle, some two seconds
+constexpr std::size_t most_measured = 4;        // pairs of bodies
 
 std::span<const glm::dvec3> vertices_of(const ModelBody& body, std::span<const glm::dvec3> positions) {
   return positions.subspan(body.first_vertex, body.vertex_count);
@@ -39,14 +42,60 @@ bool may_touch(const Model& model, std::span<const glm::dvec3> positions, std::u
   return physics::triangles_may_touch(first, second);
 }
 
-bool may_touch(const Model& model, const ModelBody& a, const ModelBody& b, std::span<const glm::dvec3> positions) {
-  const IndexedBox box_a = box_of(a, positions), box_b = box_of(b, positions);
-  if (!are_near(box_a, box_b, 0)) return false;
-  bool touch = false;
-  for_each_near_triangles(model, a, box_a, b, box_b, positions, 0,
-                          [&](std::uint32_t s, std::uint32_t t) { touch = touch || may_touch(model, positions, s, t); });
-  return touch;
-}
+// Finds bodies that proofs of the simulation could not tell apart.
+class Search {
+ public:
+  Search(const Model& model, std::span<const glm::dvec3> positions, int precision)
+      : model_(model), positions_(positions), epsilon_(precision == 64 ? 0x1p-52 : 0x1p-23) {
+    for (const ModelBody& body : model.bodies) largest_ = std::max(largest_, body.radius);
+  }
+
+  // Calls visit(a, b, distance) for each two bodies that may touch, with a distance of 0, or that are nearer than the margin of proofs.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    std::vector<IndexedBox> boxes;
+    double farthest = 0;
+    for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
+      if (model_.bodies[b].triangle_count == 0) continue;
+      IndexedBox& box = boxes.emplace_back(box_of(model_.bodies[b], positions_));
+      box.index = b;
+      for (const glm::dvec3& p : {box.lower, box.upper}) farthest = std::max(farthest, sum_of_sizes(p));
+    }
+    const double most = physics::margin_of_rounding(epsilon_, 24 * largest_, 2 * farthest + 4 * largest_);
+    for_each_near(std::move(boxes), most, [&](const IndexedBox& a, const IndexedBox& b) {
+      const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
+      if (first.is_static && second.is_static) return;
+      double nearest = std::numeric_limits<double>::infinity();
+      for_each_near_triangles(model_, first, a, second, b, positions_, most,
+                              [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
+      if (nearest < most) visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
+    });
+  }
+
+ private:
+  static double sum_of_sizes(const glm::dvec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+
+  // Of two triangles [m]. 0 if they may touch, infinite if proofs can tell that they are apart.
+  double distance(std::uint32_t s, std::uint32_t t) const {
+    physics64::Motion standing;
+    double size = 0;
+    const glm::dvec3 origin = positions_[model_.triangles[s][0]];
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::uint32_t vertex = k < 3 ? model_.triangles[s][k] : model_.triangles[t][k - 3];
+      standing.start[k] = standing.end[k] = positions_[vertex] - origin;
+      size = std::max(size, sum_of_sizes(standing.start[k]));
+    }
+    const double far = 2 * sum_of_sizes(origin) + 4 * largest_;
+    standing.margin = physics::margin_of_rounding(0x1p-52, size, far);
+    if (may_touch(model_, positions_, s, t) && !physics64::stays_apart(standing)) return 0;
+    const double found = physics64::closest_points(standing.start).distance;
+    return found < physics::margin_of_rounding(epsilon_, size, far) ? found : std::numeric_limits<double>::infinity();
+  }
+
+  const Model& model_;
+  std::span<const glm::dvec3> positions_;
+  double epsilon_, largest_ = 0;  // radius of a body at rest [m]
+};
 
 double distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 weight = physics64::closest_on_triangle(p, a, b, c);
@@ -107,15 +156,18 @@ double gap_between(const Model& model, const ModelBody& a, const ModelBody& b, c
 }
 
 std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
-                                    std::span<const std::uint32_t> bodies, const CollisionDescription& collision) {
+                                    const CollisionDescription& collision, int precision) {
   std::optional<Overlap> found;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      const ModelBody &a = model.bodies[bodies[i]], &b = model.bodies[bodies[j]];
-      if ((a.is_static && b.is_static) || !may_touch(model, a, b, positions)) continue;
-      const double depth = std::max(deepest(model, a, b, positions), deepest(model, b, a, positions));
-      if (!found || depth > found->depth) found = {.first = bodies[i], .second = bodies[j], .depth = depth};
-    }
+  std::size_t measured = 0;
+  Search(model, positions, precision).for_each_pair([&](std::uint32_t first, std::uint32_t second, double distance) {
+    if (distance > 0 && (!found || (found->distance > 0 && distance < found->distance)))
+      found = {.first = first, .second = second, .distance = distance};
+    if (distance > 0 || measured == most_measured) return;
+    ++measured;
+    const ModelBody &a = model.bodies[first], &b = model.bodies[second];
+    const double depth = std::max(deepest(model, a, b, positions), deepest(model, b, a, positions));
+    if (!found || found->distance > 0 || depth > found->depth) found = {.first = first, .second = second, .depth = depth};
+  });
   if (!found) return {};
   const ModelBody &first = model.bodies[found->first], &second = model.bodies[found->second];
   found->way_out =

@@ -1,4 +1,5 @@
-// Says how two bodies that intersect lie in each other. It is for messages: it takes a while for large meshes.
+// Finds bodies that intersect, or that are nearer than proofs can tell, and says how two of them lie. It takes a while for large meshes
+// that intersect.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -10,10 +11,11 @@
 
 namespace pliant {
 
-/// Two bodies that intersect.
+/// Two bodies that intersect or are too near each other.
 struct Overlap {
   std::uint32_t first = 0, second = 0;
   double depth = 0;         // from a vertex of one to the surface of the other that it is inside, at least [m]; 0: none is inside
+  double distance = 0;      // of bodies that do not intersect [m]
   glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by their gap [m]
 };
 
@@ -21,9 +23,10 @@ struct Overlap {
 [[nodiscard]] double gap_between(const Model& model, const ModelBody& a, const ModelBody& b,
                                  const CollisionDescription& collision);
 
-/// Returns the two of these bodies that lie deepest in each other, as far as it can tell, or nothing if no two intersect.
+/// Returns two bodies that intersect, and of some such pairs the one that lies deepest in each other. If there is none, it returns the two
+/// nearest ones that cannot be proven to be apart by numbers of this precision (32 or 64), or nothing. Looks at no two static bodies.
 /// `positions` are those of the model's vertices in the world [m].
 [[nodiscard]] std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
-                                                  std::span<const std::uint32_t> bodies, const CollisionDescription& collision);
+                                                  const CollisionDescription& collision, int precision);
 
 }  // namespace pliant

@@ -123,6 +123,8 @@ class Simulation {
   /// The device's buffer of motions: 6 doubles a vertex. The current ones also begin at vertex first_position().
   [[nodiscard]] BufferId motion_buffer() const { return bodies_.motions.id(); }
   [[nodiscard]] const Collider& collider() const { return collider_; }
+  /// Of the device's numbers: 32 or 64.
+  [[nodiscard]] int precision() const { return device_.precision(); }
 
  private:
   [[nodiscard]] const physics::Control& control();  // waits for the queued steps

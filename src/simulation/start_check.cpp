@@ -72,21 +72,26 @@ void expect_out_of_grounds(const Model& model, const State& state, const Collisi
   }
 }
 
-std::string described(const Model& model, const Overlap& overlap) {
+std::string described(const Model& model, const Overlap& overlap, int precision) {
   const std::string names =
-      fmt::format("bodies \"{}\" and \"{}\" intersect", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
-  return overlap.depth > 0 ? fmt::format("{}, at least {:.3g} m deep", names, overlap.depth)
-                           : fmt::format("{}, with no vertex of one inside the other", names);
+      fmt::format("bodies \"{}\" and \"{}\"", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
+  if (overlap.distance > 0)
+    return fmt::format("{} begin {:.3g} m apart, which is too near to prove in fp{} that they stay apart", names, overlap.distance,
+                       precision);
+  return overlap.depth > 0 ? fmt::format("{} intersect, at least {:.3g} m deep", names, overlap.depth)
+                           : fmt::format("{} intersect, with no vertex of one inside the other", names);
 }
 
-std::string way_apart(const Model& model, const Overlap& overlap) {
+std::string way_apart(const Model& model, const Overlap& overlap, int precision) {
   const bool moves_first = model.bodies[overlap.second].is_static;
   const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
   const glm::dvec3 way = without_signs_of_zeros((moves_first ? -1.0 : 1.0) * overlap.way_out);
   const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_static);
+  const char* other_way = overlap.distance > 0 && precision == 32 ? "take --precision 64"
+                          : may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
+                                        : "give one of them a smaller scale";
   return fmt::format("move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}", body.name, way.x, way.y, way.z,
-                     may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
-                                 : "give one of them a smaller scale");
+                     other_way);
 }
 
 double longest_edge(const Model& model, const ModelBody& body) {
@@ -162,11 +167,9 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
   expect_out_of_grounds(model, simulation.state(), collision, place);
-  const Intersections found = simulation.intersections();
-  if (found.pairs == 0) return;
-  // Far from the origin the search's positions, which are in fp32, can meet where bodies don't.
-  const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), found.bodies, collision);
-  if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap), way_apart(model, *overlap));
+  const int precision = simulation.precision();
+  const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), collision, precision);
+  if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));
 }
 
 }  // namespace pliant

@@ -33,8 +33,7 @@ std::size_t not_apart(const Model& model, const std::vector<glm::dvec3>& positio
 TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bodies") {
   const ModelAndState start = cubes({{0.5, {0.6, 0.02, 0}}});  // its corners are 0.15 m deep
   const std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
-  const std::uint32_t both[] = {0, 1};
-  const Overlap overlap = find_overlap(start.model, positions, both, {}).value();
+  const Overlap overlap = find_overlap(start.model, positions, {}, 64).value();
   CHECK(overlap.first == 0);
   CHECK(overlap.second == 1);
   CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
@@ -46,8 +45,7 @@ TEST_CASE("the depth is that of the deepest vertex, and the way out parts the bo
 
 TEST_CASE("of several bodies the two that are deepest in each other are named") {
   const ModelAndState start = cubes({{0.5, {0.7, 0.02, 0}}, {0.5, {-0.6, 0.02, 0}}, {0.5, {0, 0.73, 0}}});
-  const std::uint32_t all[] = {0, 1, 2, 3};
-  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all, {}).value();
+  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), {}, 64).value();
   CHECK(overlap.first == 0);
   CHECK(overlap.second == 2);
   CHECK(overlap.depth == Approx(0.15).epsilon(1e-6));
@@ -68,14 +66,13 @@ TEST_CASE("only bodies that intersect are named, though the boxes of others over
     setups.push_back(triangle({1.8, 2.2, 1}, {2.2, 1.8, 1}, {2.15, 1.95, 1.5}, shift));
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   REQUIRE(not_apart(start.model, start.state.world_positions(start.model)) == 2);
-  const std::uint32_t large[] = {0, 1}, all[] = {0, 1, 2, 3};
-  CHECK_FALSE(find_overlap(apart.model, apart.state.world_positions(apart.model), large, {}).has_value());
-  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), all, {}).value();
+  CHECK_FALSE(find_overlap(apart.model, apart.state.world_positions(apart.model), {}, 64).has_value());
+  const Overlap overlap = find_overlap(start.model, start.state.world_positions(start.model), {}, 64).value();
   CHECK(overlap.second == overlap.first + 2);
   CHECK(overlap.depth == 0);
   for (BodySetup& setup : setups) setup.description.kind = BodyKind::immovable;  // these may intersect
   const ModelAndState still = build_model(setups, glm::dvec3(0.0));
-  CHECK_FALSE(find_overlap(still.model, still.state.world_positions(still.model), all, {}).has_value());
+  CHECK_FALSE(find_overlap(still.model, still.state.world_positions(still.model), {}, 64).has_value());
 }
 
 TEST_CASE("bodies of which one is longer have a way out, too") {
@@ -83,8 +80,7 @@ TEST_CASE("bodies of which one is longer have a way out, too") {
   std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
   for (std::uint32_t i = start.model.bodies[1].first_vertex; i < positions.size(); ++i)
     positions[i].z *= 2;  // longer than the other
-  const std::uint32_t both[] = {0, 1};
-  const Overlap overlap = find_overlap(start.model, positions, both, {}).value();
+  const Overlap overlap = find_overlap(start.model, positions, {}, 64).value();
   CHECK(not_apart(start.model, positions) > 0);
   CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
 }
