@@ -35,18 +35,19 @@ uint items_in_a_round() {
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
 
-uint cluster_of(uint i) { return cluster[uint(rest_position[i].w)].first; }
+uint body_of(uint i) { return uint(rest_position[i].w); }
 
-// Whether the vertex flies along with a cluster that no round before this one has stopped.
+// Whether the vertex has a flight that no round before this one has stopped.
 bool flies(uint i, uint cut_round) {
-  return has_common_way(uint(rest_position[i].w)) && ATOMIC_LOAD(cut[cluster_stop_of(vertex_count, cluster_of(i))]) >= cut_round;
+  uint b = body_of(i);
+  return has_common_way(b) && ATOMIC_LOAD(cut[flight_stop_of(vertex_count, flight_of(b))]) >= cut_round;
 }
 
-// Whether its cluster was stopped by a round before this one, so that it keeps its place.
-bool keeps_place(uint i, uint cut_round) { return has_common_way(uint(rest_position[i].w)) && !flies(i, cut_round); }
+// Whether a round before this one stopped it.
+bool flight_was_stopped(uint i, uint cut_round) { return has_common_way(body_of(i)) && !flies(i, cut_round); }
 
 bool has_changed(uint i, uint cut_round) {
-  if (cut_round == 0u || (keeps_place(i, cut_round) && flies(i, cut_round - 1u))) return true;
+  if (cut_round == 0u || (flight_was_stopped(i, cut_round) && flies(i, cut_round - 1u))) return true;
   if (ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
   return cut_round <= plane_rounds && cut[cut_in(cut_round, vertex_count, i)] < cut_before(i, cut_round - 1u);
 }
@@ -54,7 +55,7 @@ bool has_changed(uint i, uint cut_round) {
 struct Case {
   uint vertex[6];
   real part[6];       // of its way that a vertex goes so far
-  real3 together[6];  // its way with its cluster, which it goes in any case [m]
+  real3 together[6];  // its flight, which it goes in any case [m]
   Motion motion;
   bool outlasts_rounding;  // the margin, while only rounding in fp64 moves the triangles against each other
 };
@@ -62,7 +63,7 @@ struct Case {
 double sum_of_sizes(dvec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
 
 // How far the origin of its body's frame is from the world's, summed over the axes [m].
-double frame_distance_of(uint i) { return sum_of_sizes(LOAD3(pose[uint(rest_position[i].w)].origin, 0u)); }
+double frame_distance_of(uint i) { return sum_of_sizes(LOAD3(pose[body_of(i)].origin, 0u)); }
 
 Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   Case c;
@@ -71,12 +72,14 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   double far = sum_of_sizes(origin) + max(frame_distance_of(who[0]), frame_distance_of(who[3])) + double(4) * largest_body;
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
-    bool is_kept = keeps_place(who[k], cut_round);
-    c.part[k] = is_kept ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
+    uint b = body_of(who[k]);
+    bool is_stopped = flight_was_stopped(who[k], cut_round);
+    c.part[k] = is_stopped && !goes_on_alone(who[k], b) ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
-    dvec3 together = is_kept ? dvec3(0) : common_way(uint(rest_position[who[k]].w), place);
+    dvec3 flight = common_way(b, place), own = LOAD3(way, force_of(who[k])), together = is_stopped ? dvec3(0) : flight;
+    if (is_stopped) own += flight;
     c.motion.start[k] = real3(from);
-    c.motion.end[k] = real3(from + together + double(c.part[k]) * LOAD3(way, force_of(who[k])));
+    c.motion.end[k] = real3(from + together + double(c.part[k]) * own);
     c.together[k] = real3(together);
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
@@ -117,9 +120,9 @@ bool all_stopped(IN(Case) c) {
   return all;
 }
 
-// Whether triangles whose corners make no motions of their own fly along in one cluster, which leaves their distance.
+// Whether triangles whose corners make no motions of their own have one flight, which leaves their distance.
 bool fly_together(IN(Case) c, uint cut_round) {
-  return cluster_of(c.vertex[0]) == cluster_of(c.vertex[3]) && flies(c.vertex[0], cut_round);
+  return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
 // Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other. Then they are as far apart as
@@ -138,12 +141,11 @@ bool are_proven(Case c, uint cut_round) {
   return stays_apart(c.motion);
 }
 
-void stop_clusters(IN(Case) c, uint cut_round) {
-  if (flies(c.vertex[0], cut_round)) atomicMin(cut[cluster_stop_of(vertex_count, cluster_of(c.vertex[0]))], cut_round);
-  if (flies(c.vertex[3], cut_round)) atomicMin(cut[cluster_stop_of(vertex_count, cluster_of(c.vertex[3]))], cut_round);
+void stop_flight(uint i, uint cut_round) {
+  if (flies(i, cut_round)) atomicMin(cut[flight_stop_of(vertex_count, flight_of(body_of(i)))], cut_round);
 }
 
-bool can_move(uint i) { return surface[uint(rest_position[i].w)].inverse_mass != double(0); }
+bool can_move(uint i) { return surface[body_of(i)].inverse_mass != double(0); }
 
 void note_what_holds(IN(Case) c) {
   if (can_move(c.vertex[0]) && can_move(c.vertex[3])) return;
@@ -155,7 +157,8 @@ void cut_short(IN(Case) c, uint cut_round) {
   note_what_holds(c);
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
   if (all_stopped(c)) {
-    stop_clusters(c, cut_round);
+    stop_flight(c.vertex[0], cut_round);
+    stop_flight(c.vertex[3], cut_round);
     return;
   }
   Closest at = closest_points(c.motion.start);

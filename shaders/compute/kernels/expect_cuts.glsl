@@ -4,6 +4,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"
@@ -82,7 +83,7 @@ void expect_cuts(uint i) {
   uint b = uint(rest_position[i].w);
   if (i == 0u || uint(rest_position[i - 1u].w) != b) {
     find_energy_due(b);
-    cut[cluster_stop_of(vertex_count, b)] = at_no_cut;
+    cut[flight_stop_of(vertex_count, b)] = at_no_cut;
   }
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));

@@ -55,11 +55,11 @@ dvec3 most_push(uint b) {
                from_ordered_bits(room[b].most_push[2]));
 }
 
-// A cluster near a ground does not have its motion to itself.
+// A flight near a ground is not used.
 void stay_above_grounds(uint b, dvec3 place) {
   for (uint g = 0u; g < ground_count; ++g)
     if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < gap_above(ground[g], surface[b]))
-      ATOMIC_STORE(cluster[cluster[b].first].is_low, 1u);
+      ATOMIC_STORE(cluster[flight_of(b)].is_low, 1u);
 }
 
 void expect_motion(uint i) {
@@ -80,8 +80,8 @@ void expect_motion(uint i) {
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
     dvec3 most = max(dvec3(double(0.5) * surface[b].edge), abs(way)), beyond = dvec3(reach_beyond(b));
-    dvec3 together = way_of_cluster(b, time_step, position);
-    if (together != dvec3(0)) stay_above_grounds(b, position + together);
+    dvec3 together = may_fly(b) ? way_of_flight(b, time_step, position) : dvec3(0);
+    stay_above_grounds(b, position + together);
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
   }

@@ -1,17 +1,22 @@
 // One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
 // the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a bound of their
-// own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, and how bodies
-// that meet may push each other.
+// own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
+// meet may push each other, and how bodies that are near each other fly along.
 #include "../physics/body.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
+READ(body)
 READ(surface)
+READ(start)
 READ(body_box)
 READ(body_motion)
 READ(pressed)
 WRITE(step_parts)
 WRITE(room)
+WRITE(cluster)
 PARAMETER(uint, body_count)
 
 // The largest that a number of the first box can be above one of the second.
@@ -56,11 +61,40 @@ void push_away(uint a, uint b, double speed) {
   }
 }
 
+// The mean velocity of sixteen vertices, evenly spaced in the body's list [m/s].
+dvec3 mean_velocity(uint b) {
+  dvec3 sum = dvec3(0);
+  for (uint k = 0u; k < 16u; ++k) sum += LOAD3(start, start_velocity_of(body[b].first_vertex + k * body[b].vertex_count / 16u));
+  return sum / double(16);
+}
+
+// Extends the velocities of the first body's flight by the second one's.
+void fly_along(uint a, uint b) {
+  dvec3 velocity = mean_velocity(b);
+  for (uint k = 0u; k < 3u; ++k) {
+    uint bits = ordered_bits(float(velocity[int(k)]));
+    LOWER_TO(cluster[a].least_flight[k], bits)
+    RAISE_TO(cluster[a].most_flight[k], bits)
+  }
+}
+
+bool moves(uint b) { return surface[b].inverse_mass != double(0); }
+
+void find_flight(uint a, uint b) {
+  if (moves(a) && moves(b)) {
+    fly_along(a, b);
+    fly_along(b, a);
+  } else {
+    ATOMIC_STORE(cluster[moves(a) ? a : b].is_beside_static, 1u);
+  }
+}
+
 void limit_step(uint item) {
   uint a = item / body_count, b = item % body_count;
-  if (a > b || (surface[a].inverse_mass == double(0) && surface[b].inverse_mass == double(0))) return;
+  if (a > b || (!moves(a) && !moves(b))) return;
   double longest = step_parts[0].full;
   if (a == b) {
+    fly_along(a, a);
     if (pressed[a] != 0u && step_parts[0].parts + 1u - pressed[a] <= pressed_for) longest = surface[a].longest_pressed;
   } else {
     dvec3 between = way_between(a, b);
@@ -71,6 +105,7 @@ void limit_step(uint item) {
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
+    if (double(2) * speed * step_parts[0].full > distance - edge_of_pair(surface[a], surface[b])) find_flight(a, b);
     if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
     keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }

@@ -7,6 +7,7 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/rigid_motion.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/debt.glsl"
 #include "../physics/contact/surface.glsl"
@@ -50,19 +51,25 @@ uint moments_half() { return other_half(from_half); }
 #include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
 
-// What a vertex lacks of its cluster's motion, if that was not made [m]. It strains no spring.
-dvec3 missing_together(uint i, uint b) {
-  if (!has_common_way(b) || !stays(b)) return dvec3(0);
-  dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
-  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
+dvec3 flight_of_vertex(uint i, uint b) {
+  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)))));
+}
+
+// What a vertex lacks of its flight because its whole body keeps its place [m]. It strains no spring.
+dvec3 missing_together(uint i, uint b) { return has_common_way(b) && stays(b) ? flight_of_vertex(i, b) : dvec3(0); }
+
+// What it lacks of its own way, which is all of its way if its flight was stopped [m].
+dvec3 missing_alone(uint i, uint b) {
+  dvec3 own = LOAD3(way, force_of(i));
+  if (flight_was_stopped(b) && !stays(b)) own += flight_of_vertex(i, b);
+  return (double(1) - double(uintBitsToFloat(cut[i]))) * own;
 }
 
 // The energy that springs and gravity have more because the vertex went only this part of its way [J]. They would have given it the
 // change of its velocity over the step. No displacement of one vertex by d takes more than N k d^2 / 2 beyond that.
 double energy_of_cut(uint i, uint b) {
-  double part = double(uintBitsToFloat(cut[i]));
   dvec3 change = velocity_of_vertex(i) - LOAD3(motion, velocity_of(in_half(from_half, vertex_count, i)));
-  dvec3 missing = (double(1) - part) * LOAD3(way, force_of(i));
+  dvec3 missing = missing_alone(i, b);
   double stiffness = double(body[b].vertex_count) * body[b].unit_force * body[b].inverse_unit;
   double given = dot(rotate(pose[b], change), missing + missing_together(i, b)) / (body[b].inverse_mass * control[0].time_step);
   return given + double(0.5) * stiffness * dot(missing, missing);
@@ -112,7 +119,7 @@ uint next_partner(uint b, uint from) {
 }
 
 // The velocity that the body and those near it that were at a cut, too, have together, in its frame [m/s].
-dvec3 velocity_of_flight(uint b) {
+dvec3 velocity_of_all_at_cuts(uint b) {
   dvec3 momentum = momentum_of(b);
   double mass = mass_of(b);
   for (uint other = next_partner(b, 0u); other != no_vertex; other = next_partner(b, other + 1u)) {
@@ -128,10 +135,10 @@ dvec3 velocity_of_flight(uint b) {
 void sum_lost_turning(uvec4 part, uint item) {
   dvec3 lost = dvec3(0);
   if ((part_sum[item].cuts & cut_short_bit) != 0u) {
-    dvec3 flight = velocity_of_flight(part.x);
+    dvec3 flight = velocity_of_all_at_cuts(part.x);
     for (uint i = part.y; i < part.z; ++i) {
       if (!is_cut_short(i)) continue;
-      dvec3 missing = (double(1) - double(uintBitsToFloat(cut[i]))) * LOAD3(way, force_of(i)) + missing_together(i, part.x);
+      dvec3 missing = missing_alone(i, part.x) + missing_together(i, part.x);
       lost += cross(rotate_back(pose[part.x], missing), velocity_of_vertex(i) - flight);
     }
   }
@@ -185,8 +192,6 @@ Means own_means_of(uint b) {
   m.due = max(debt[b].energy + m.due, double(0)) + contact_total[unsettled_energy_of(b)];
   return m;
 }
-
-bool is_in_cluster(uint b) { return cluster[cluster[b].first].bodies != 0u; }
 
 // A body that nothing holds keeps its rigid motion, though it owes: its vertices may have left their cages in free flight.
 Means means_of(uint b) {

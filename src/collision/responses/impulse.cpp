@@ -153,7 +153,7 @@ class Impulse final : public Response {
     arrays.make<std::uint32_t>("contact_weight", vertices);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
     arrays.make<double>("way", 3 * vertices);
-    arrays.make<std::uint32_t>("cut", physics::cluster_stop_of(bodies_.vertex_count, bodies_.body_count));
+    arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, bodies_.body_count));
     arrays.make<std::uint32_t>("last_cut", vertices);
     make_debts(setting.model);
     if (std::ranges::any_of(surfaces, [](const physics::Surface& surface) { return surface.restitution >= 0; })) make_impacts();

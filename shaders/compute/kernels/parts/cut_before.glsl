@@ -6,3 +6,7 @@ uint cut_before(uint i, uint cut_round) {
   for (uint row = 1u; row <= min(cut_round, plane_rounds); ++row) least = min(least, cut[cut_in(row, vertex_count, i)]);
   return least;
 }
+
+// If its flight was stopped, a vertex goes on alone by such a part of all of its way. But of a cluster no vertex does, nor one that would
+// have left its cage, which holds its way with the flight.
+bool goes_on_alone(uint i, uint b) { return !is_in_cluster(b) && uintBitsToFloat(cut[i]) == 1.0f; }

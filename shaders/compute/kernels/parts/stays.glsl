@@ -1,7 +1,10 @@
-// Which bodies keep their places in a step. Needs the arrays `contact_list` and `cut`.
+// Which motions a step does not make. Needs the arrays `contact_list` and `cut`.
 
-// If lists were too short, or proofs are missing, all do. Those that are near none could move, but this is rare.
+// If lists were too short, or proofs are missing, all bodies keep their places. Those that are near none could move, but this is rare.
 bool all_stay() { return contact_list[0].uncertified != 0u || lists_are_full(); }
 
-// Those of a cluster do, too, if proofs stopped it.
-bool stays(uint b) { return all_stay() || (has_common_way(b) && cut[cluster_stop_of(vertex_count, cluster[b].first)] != at_no_cut); }
+// Whether proofs stopped the body's flight.
+bool flight_was_stopped(uint b) { return has_common_way(b) && cut[flight_stop_of(vertex_count, flight_of(b))] != at_no_cut; }
+
+// The bodies of a cluster whose motion was stopped keep their places.
+bool stays(uint b) { return all_stay() || (is_in_cluster(b) && flight_was_stopped(b)); }

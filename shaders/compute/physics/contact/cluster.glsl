@@ -1,9 +1,11 @@
-// Bodies that owe for motions cut short, and those near them that were at a cut.
+// How bodies fly, and bodies that owe for motions cut short together with those near them that were at a cut.
 // - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. Each
 //   place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles that make
 //   nothing but this motion stay apart.
+// - Cuts leave the mean velocity of other bodies alone, too, so that they do not depend on how fast all fly along. A body and those near it
+//   have one in common.
 #ifndef CLUSTER_GLSL
 #define CLUSTER_GLSL
 #include "../rigid_motion.glsl"
@@ -18,7 +20,11 @@ struct Cluster {
   uint first;          // its first body, where these sums stand
   uint bodies;
   uint is_low;         // 1: its motion is not used in this step, because it is near a ground
-  uint padding;
+
+  // Of the body with this number, if it is in no cluster.
+  uint is_beside_static;  // 1: it is near a body that does not move, and its flight is not used
+  uint least_flight[3];   // mean velocities of it and of those near it, in the world [m/s], as bits that order as floats do
+  uint most_flight[3];    // its flight is between both. None if it is below the least
 };
 
 // What bodies keep of their rigid motions beyond the cluster's, and the part that is still due after it.

@@ -90,8 +90,8 @@ FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, ve
 // The last row says whether a vertex was cut short at what does not move: 1 or 0.
 FN uint held_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 2u, vertex_count, i); }
 const uint cut_rows = plane_rounds + 3u;
-// Behind the rows stands, for the first body of each cluster, the round in which the cluster was stopped as a whole, or at_no_cut.
-FN uint cluster_stop_of(uint vertex_count, uint b) { return cut_rows * vertex_count + b; }
+// Behind the rows stands, for a cluster's first body and for each body in none, the round in which its flight was stopped, or at_no_cut.
+FN uint flight_stop_of(uint vertex_count, uint b) { return cut_rows * vertex_count + b; }
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
