@@ -78,8 +78,7 @@ std::uint32_t check_order_of_contacts(const ModelAndState& start) {
   std::vector<std::vector<double>> motions;
   for (unsigned seed = 0; seed < 3; ++seed) {
     Bench gpu(make_gpu_device(0), start, {"verlet", 0.02}, {.response = {"impulse"}});
-    gpu.device->run(std::vector{gpu.stepper.first_passes().front(), gpu.collider.bounding_pass(0)});
-    gpu.bodies.prepare_search();
+    gpu.begin();
     for (const Pass& pass : gpu.step(0)) {
       if (pass.name == "solve_contacts" && seed > 0) shuffle_contacts(gpu, seed);
       gpu.device->run({&pass, 1});

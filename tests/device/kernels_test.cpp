@@ -256,7 +256,7 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
   gpu.bodies.prepare_search();
   for (std::uint32_t step = 0; step < steps; ++step) {
     CAPTURE(step);
-    const auto cpu_passes = cpu.step(step & 1), gpu_passes = gpu.step(step & 1);
+    const auto cpu_passes = cpu.pulled_step(step & 1), gpu_passes = gpu.pulled_step(step & 1);
     REQUIRE(cpu_passes.size() == gpu_passes.size());
     for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
       compare_pass(cpu, gpu, cpu_passes[k], gpu_passes[k]);

@@ -44,9 +44,19 @@ struct Bench {
     pacer->aim_at(4 * method.time_step);
   }
 
-  /// The passes of a step, with a pull at its end.
+  /// Runs what has to come before the first step.
+  void begin() {
+    device->run(stepper.first_passes());
+    bodies.prepare_search();
+  }
+
   std::vector<Pass> step(std::uint32_t from_half) {
-    std::vector<Pass> passes = step_passes(bodies, stepper, collider, from_half, pacer ? &*pacer : nullptr);
+    return step_passes(bodies, stepper, collider, from_half, pacer ? &*pacer : nullptr);
+  }
+
+  /// The passes of a step, with a pull at its end.
+  std::vector<Pass> pulled_step(std::uint32_t from_half) {
+    std::vector<Pass> passes = step(from_half);
     std::ranges::copy(grip.passes(1 - from_half), std::back_inserter(passes));
     return passes;
   }

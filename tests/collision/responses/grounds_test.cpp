@@ -208,6 +208,15 @@ glm::dvec3 given_to(const Model& model, std::uint32_t body, std::span<const Cont
   return sum;
 }
 
+// Of a body [kg m/s].
+glm::dvec3 momentum_of(const Model& model, const State& state, std::uint32_t body) {
+  const std::vector<glm::dvec3> velocities = state.world_velocities(model);
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t i = 0; i < velocities.size(); ++i)
+    if (model.body_index(i) == body) sum += model.body_of(i).vertex_mass * velocities[i];
+  return sum;
+}
+
 TEST_CASE("the impulses of contacts are what bodies got from each other and from grounds") {
   std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "left"), soft(generate_mesh("icosphere:1"), "right")};
   setups[0].description.position = {-1.01, 1.01, 0};
@@ -224,7 +233,8 @@ TEST_CASE("the impulses of contacts are what bodies got from each other and from
       const TimePlan plan = has_tolerance ? plan_of(Adaptive{.tolerance = 1e-5}, start.model) : plan_of(Method{"verlet", 0.005});
       Simulation simulation(*device, start.model, start.state, plan, by_impulses);
       CHECK(simulation.contact_impulses().empty());
-      glm::dvec3 before(0.0);
+      glm::dvec3 before(0.0), right_before(0.0);
+      double time = 0;
       for (int part = 0; part < 60; ++part) {
         has_tolerance ? void(simulation.advance_toward(10, 1)) : simulation.advance_part();
         const glm::dvec3 outside = simulation.report().response.outside_impulse;
@@ -232,6 +242,11 @@ TEST_CASE("the impulses of contacts are what bodies got from each other and from
         const glm::dvec3 sum = given_to(start.model, 0, contacts) + given_to(start.model, 1, contacts);
         CHECK(glm::length(sum - (outside - before)) < 1e-6);
         before = outside;
+        const glm::dvec3 right = momentum_of(start.model, simulation.state(), 1);
+        const glm::dvec3 by_gravity = (simulation.report().time - time) * gravity;  // a body has 1 kg
+        CHECK(glm::length(right - right_before - by_gravity - given_to(start.model, 1, contacts)) < 1e-5);
+        right_before = right;
+        time = simulation.report().time;
       }
       CHECK(before.y > 0.1);
       CHECK_FALSE(simulation.contact_impulses().empty());
