@@ -18,6 +18,7 @@
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/impact.glsl"
+#include "physics/contact/part_sums.glsl"
 #include "physics/contact/parts.glsl"
 #include "physics/contact/surface.glsl"
 #include "physics/control.glsl"

@@ -59,7 +59,7 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
   numbers.insert(numbers.end(), std::begin(sums.lost_turning), std::end(sums.lost_turning));
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.cuts), double(sums.holding)});
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.cuts), double(sums.involvement)});
   return numbers;
 }
 
@@ -118,7 +118,7 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
   return numbers;
 }
 
-inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, impact.kept}; }
+inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
   return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};

@@ -147,14 +147,14 @@ void stop_flight(uint i, uint cut_round) {
 
 bool can_move(uint i) { return surface[body_of(i)].inverse_mass != double(0); }
 
-void note_what_holds(IN(Case) c) {
+void note_fixed(IN(Case) c) {
   if (can_move(c.vertex[0]) && can_move(c.vertex[3])) return;
-  for (uint k = 0u; k < 6u; ++k) ATOMIC_STORE(cut[held_of(vertex_count, c.vertex[k])], 1u);
+  for (uint k = 0u; k < 6u; ++k) ATOMIC_STORE(cut[at_fixed_of(vertex_count, c.vertex[k])], 1u);
 }
 
 void cut_short(IN(Case) c, uint cut_round) {
   atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
-  note_what_holds(c);
+  note_fixed(c);
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
   if (all_stopped(c)) {
     stop_flight(c.vertex[0], cut_round);

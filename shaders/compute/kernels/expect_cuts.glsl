@@ -99,7 +99,7 @@ void expect_cuts(uint i) {
   double part_of_low = double(1);
   for (uint g = 0u; g < ground_count; ++g)
     if (is_movable) part_of_low = min(part_of_low, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
-  cut[held_of(vertex_count, i)] = part_of_low < double(1) ? 1u : 0u;
+  cut[at_fixed_of(vertex_count, i)] = part_of_low < double(1) ? 1u : 0u;
   part = min(part, part_of_low);
   bound_way(i, b, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;

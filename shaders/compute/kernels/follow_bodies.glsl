@@ -18,10 +18,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
 
-// Sixteen vertices, evenly spaced in the body's list, stand for the body. Any rotation near the body's own is good enough.
-const uint sample_count = 16u;
-
-// The samples' rest positions and where they are in the frame, relative to a point that moves with the body.
+// Rest positions of the vertices that stand for the body, because any rotation near its own is good enough. And where they are in the frame, relative to a point that moves with the body.
 struct Samples {
   dvec3 rest_mean;
   dvec3 moved_mean;
@@ -30,10 +27,10 @@ struct Samples {
   dvec3 correlation_z;
 };
 
-uint sample_vertex(uint b, uint k) { return body[b].first_vertex + k * body[b].vertex_count / sample_count; }
-dvec3 sample_rest(uint b, uint k) { return dvec3(vec3(rest_position[sample_vertex(b, k)])); }
+uint sample_of(uint b, uint k) { return sample_vertex(body[b].first_vertex, body[b].vertex_count, k); }
+dvec3 sample_rest(uint b, uint k) { return dvec3(vec3(rest_position[sample_of(b, k)])); }
 dvec3 sample_displacement(uint b, uint k) {
-  return LOAD3(motion, displacement_of(in_half(other_half(from_half), vertex_count, sample_vertex(b, k))));
+  return LOAD3(motion, displacement_of(in_half(other_half(from_half), vertex_count, sample_of(b, k))));
 }
 
 // Adds a sample. `moved` is relative to a point that moves with the body. take_samples() subtracts the means.

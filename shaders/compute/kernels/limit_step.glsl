@@ -61,11 +61,11 @@ void push_away(uint a, uint b, double speed) {
   }
 }
 
-// The mean velocity of sixteen vertices, evenly spaced in the body's list [m/s].
+// The mean velocity of the vertices that stand for the body [m/s].
 dvec3 mean_velocity(uint b) {
   dvec3 sum = dvec3(0);
-  for (uint k = 0u; k < 16u; ++k) sum += LOAD3(start, start_velocity_of(body[b].first_vertex + k * body[b].vertex_count / 16u));
-  return sum / double(16);
+  for (uint k = 0u; k < sample_count; ++k) sum += LOAD3(start, start_velocity_of(sample_vertex(body[b].first_vertex, body[b].vertex_count, k)));
+  return sum / double(sample_count);
 }
 
 // Extends the velocities of the first body's flight by the second one's.

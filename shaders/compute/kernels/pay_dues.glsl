@@ -6,10 +6,10 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/rigid_motion.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/debt.glsl"
+#include "../physics/contact/part_sums.glsl"
 #include "../physics/contact/surface.glsl"
 READ(control)
 READ(body)
@@ -90,7 +90,7 @@ void note_cuts(uvec4 part, uint item) {
     if (cut[stop_of(vertex_count, i)] != at_no_cut) cuts |= at_a_cut_bit;
     if (!is_cut_short(i)) continue;
     cuts |= cut_short_bit | at_a_cut_bit;
-    if (cut[held_of(vertex_count, i)] != 0u) cuts |= held_bit;
+    if (cut[at_fixed_of(vertex_count, i)] != 0u) cuts |= at_fixed_bit;
   }
   part_sum[item].cuts = cuts;
 }
@@ -104,7 +104,7 @@ uint cuts_of(uint b) {
 }
 bool was_cut_short(uint b) { return (cuts_of(b) & cut_short_bit) != 0u; }
 bool was_at_a_cut(uint b) { return (cuts_of(b) & at_a_cut_bit) != 0u; }
-bool was_held(uint b) { return (cuts_of(b) & held_bit) != 0u; }
+bool was_cut_at_fixed(uint b) { return (cuts_of(b) & at_fixed_bit) != 0u; }
 
 // Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
 // need one.
@@ -196,21 +196,21 @@ Means own_means_of(uint b) {
 // A body that nothing holds keeps its rigid motion, though it owes: its vertices may have left their cages in free flight.
 Means means_of(uint b) {
   Means m = own_means_of(b);
-  if (!(m.due > m.deformation) || !was_held(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
+  if (!(m.due > m.deformation) || !was_cut_at_fixed(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
   return m;
 }
 
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
 bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
-uint find_holding(uint b) {
-  if (owes_for_cuts(b)) return is_owing;
-  return was_at_a_cut(b) ? is_holding : no_holding;
+uint find_involvement(uint b) {
+  if (owes_for_cuts(b)) return owing;
+  return was_at_a_cut(b) ? involved : not_involved;
 }
-void note_holding(uint b, uint item) {
-  if (item == vertex_part_range[b].x) part_sum[item].holding = find_holding(b);
+void note_involvement(uint b, uint item) {
+  if (item == vertex_part_range[b].x) part_sum[item].involvement = find_involvement(b);
 }
-uint holding_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[vertex_part_range[b].x].holding : no_holding; }
+uint involvement_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[vertex_part_range[b].x].involvement : not_involved; }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
@@ -220,8 +220,8 @@ void begin_cluster(uint b) {
 }
 
 bool belong_together(uint a, uint b) {
-  uint first = holding_of(a), second = holding_of(b);
-  return min(first, second) != no_holding && max(first, second) == is_owing;
+  uint first = involvement_of(a), second = involvement_of(b);
+  return min(first, second) != not_involved && max(first, second) == owing;
 }
 
 // A body that owes belongs together with those near it that owe, too, or that were at a cut.
@@ -294,7 +294,7 @@ void find_clusters() {
   for (uint b = 0u; b <= body_count; ++b) begin_cluster(b);
   join_bodies();
   for (uint b = 0u; b < body_count; ++b)
-    if (holding_of(b) != no_holding) add_to_cluster(b);
+    if (involvement_of(b) != not_involved) add_to_cluster(b);
   for (uint b = 0u; b < body_count; ++b) end_cluster(b);
 }
 
@@ -353,7 +353,7 @@ void note_debts() {
 
 void pay_dues(uint item, uint number) {
   uvec4 part = vertex_part[item];
-  if (number == 3u) note_holding(part.x, item);
+  if (number == 3u) note_involvement(part.x, item);
   if (number == 4u && item == 0u) find_clusters();
   if (number == last_round && item == 0u) note_debts();
   if (status[part.x].activity != moving) return;

@@ -2,9 +2,9 @@
 // restitution allows lose their deformation velocities. So they have nothing that would drive them further apart. Both momenta stay.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/rigid_motion.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/impact.glsl"
+#include "../physics/contact/part_sums.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 READ(body)
@@ -63,7 +63,7 @@ void judge_impact(uint a, uint b) {
     for (uint k = 0u; k < 3u; ++k) impact_sum[3u * at + k] = uvec2(0u);
     impact_part[at] = 0u;
     impact[at].approach = double(0);
-    impact[at].kept = double(1);
+    impact[at].parts_too_fast = 0u;
     return;
   }
   double restitution = restitution_of_pair(restitution_of(a), restitution_of(b));
@@ -74,7 +74,7 @@ void judge_impact(uint a, uint b) {
   double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));
   if (impact[at].approach == double(0)) impact[at].approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
   impact[at].approach = max(impact[at].approach, -parts_at);
-  impact[at].kept = parts_at > restitution * impact[at].approach ? double(0) : double(1);
+  impact[at].parts_too_fast = parts_at > restitution * impact[at].approach ? 1u : 0u;
 }
 
 void judge_impacts(uint a) {
@@ -84,21 +84,20 @@ void judge_impacts(uint a) {
   }
 }
 
-double kept_of(uint a) {
-  double kept = double(1);
+bool parts_too_fast(uint a) {
+  bool does = false;
   for (uint b = 0u; b <= body_count; ++b) {
     uint at = impact_of(min(a, b), max(a, b), body_count);
-    if (b != a && goes_on_at(at) && impact[at].approach > double(0)) kept = min(kept, impact[at].kept);
+    if (b != a && goes_on_at(at) && impact[at].approach > double(0)) does = does || impact[at].parts_too_fast != 0u;
   }
-  return kept;
+  return does;
 }
 
 void take_deformation(uvec4 part) {
-  double kept = kept_of(part.x);
-  if (kept == double(1)) return;
+  if (!parts_too_fast(part.x)) return;
   RigidMotion rigid = rigid_motion_of_body(part.x);
   for (uint i = part.y; i < part.z; ++i) {
-    dvec3 along = velocity_at(rigid, place_of(i)), velocity = along + kept * (velocity_of_vertex(i) - along);
+    dvec3 velocity = velocity_at(rigid, place_of(i));
     STORE3(motion, velocity_of(vertex_at(i)), velocity)
   }
 }

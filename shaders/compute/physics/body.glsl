@@ -14,6 +14,10 @@ struct Body {
   uint vertex_count;
 };
 
+// So many vertices, evenly spaced in the body's list, stand for the body where a mean will do. Returns the k-th of them.
+const uint sample_count = 16u;
+FN uint sample_vertex(uint first_vertex, uint vertex_count, uint k) { return first_vertex + k * vertex_count / sample_count; }
+
 // Some vertices of one body: what one work group of a force kernel serves.
 struct Share {
   Body body;

@@ -21,27 +21,6 @@ struct Moments {
   double spread[6];    // of the products xx, yy, zz, xy, yz, zx
 };
 
-// Of a body's motions in a step: some were cut short, or those of what they would have met. Some were cut short at what does not move.
-const uint cut_short_bit = 1u;
-const uint at_a_cut_bit = 2u;
-const uint held_bit = 4u;
-
-// What a body has to do with motions that are cut short.
-const uint no_holding = 0u;
-const uint is_holding = 1u;  // it or what it would have met was cut short in this step, and it owes nothing for cuts
-const uint is_owing = 2u;
-
-// A part of a body in a sum over its vertices.
-struct PartSums {
-  Moments moments;
-  double lost_turning[3];  // what cuts took from the sum of x cross w, less the flight's [m^2/s]
-  double deformation;      // kinetic energy of the velocities less the rigid motion [J]
-  double rigid;            // kinetic energy of the rigid motion, with the spin that cuts took [J]
-  double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
-  uint cuts;               // bits, as above
-  uint holding;            // what the body has to do with cuts, as above. Its first part says so
-};
-
 FN Moments no_moments() {
   Moments m;
   STORE3(m.place, 0u, dvec3(0))

@@ -46,6 +46,21 @@ void find_nearness(std::span<physics::Surface> surfaces) {
       surface.nearness = 1.5 * surface.edge * std::max(0.5 * surface.gap, std::sqrt(surface.gap * largest_static_gap));
 }
 
+std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
+  std::vector<physics::Surface> surfaces;
+  for (const ModelBody& body : setting.model.bodies) surfaces.push_back(surface_of(setting.model, body, setting.description));
+  find_nearness(surfaces);
+  return surfaces;
+}
+
+// Of bodies that move [m]. 0 if none does.
+double smallest_gap(std::span<const physics::Surface> surfaces) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const physics::Surface& surface : surfaces)
+    if (surface.inverse_mass != 0) smallest = std::min(smallest, surface.gap * surface.edge);
+  return std::isinf(smallest) ? 0 : smallest;
+}
+
 // Returns [triangle][4], in leaf order.
 // - Of each edge, from corner k to the next, the third vertex of the triangle across it. Edges of more than two triangles have
 // none.
@@ -96,65 +111,16 @@ class Impulse final : public Response {
         divides_steps_(setting.step_lengths == StepLengths::fixed),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
         items_at_once_(setting.bodies.arrays.device().items_of_lists()) {
-    Arrays& arrays = setting.bodies.arrays;
-    const std::size_t vertices = bodies_.vertex_count;
-    std::vector<physics::Surface> surfaces;
-    smallest_gap_ = std::numeric_limits<double>::infinity();
-    for (const ModelBody& body : setting.model.bodies) {
-      surfaces.push_back(surface_of(setting.model, body, setting.description));
-      largest_body_ = std::max(largest_body_, body.radius);
-      if (body.is_static) continue;
-      smallest_gap_ = std::min(smallest_gap_, surfaces.back().gap * surfaces.back().edge);
-    }
-    if (std::ranges::all_of(setting.model.bodies, &ModelBody::is_static)) smallest_gap_ = 0;
-    find_nearness(surfaces);
-    arrays.make("surface", surfaces);
-    std::vector<physics::Ground> grounds;
-    for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));
-    ground_count_ = static_cast<std::uint32_t>(grounds.size());
-    if (grounds.empty()) grounds.push_back({});
-    arrays.make("ground", grounds);
-    time_step_ = bodies_.control.download().front().time_step;
-    parts_ = &arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
-                                                                         .last = 0,
-                                                                         .left = physics::smallest_parts,
-                                                                         .longest = physics::no_bound,
-                                                                         .steps = 0,
-                                                                         .parts = 0,
-                                                                         .held = 0,
-                                                                         .divides = divides_steps_ ? 1u : 0u}});
-    if (divides_steps_) arrays.set_parameter("parts_of", time_step_);
-    arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
-    const std::uint32_t none = physics::ordered_bits(0.0f);
-    arrays.make("room", std::vector(bodies_.body_count, physics::Room{.to_others = physics::no_bound,
-                                                                      .least_push = {none, none, none},
-                                                                      .most_push = {none, none, none}}));
-    arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<glm::uvec2>("contact_sum", physics::contact_sum_count(bodies_.body_count));
-    arrays.make<double>("contact_total", physics::contact_sum_count(bodies_.body_count));
-    arrays.make("triangle_around", surroundings(setting.forest));
-    arrays.make<double>("start", 6 * vertices);
-    arrays.make<double>("unkicked", 3 * vertices);
-    arrays.make<double>("expected", 3 * vertices);
-    arrays.make<double>("surplus", 6 * vertices);
-    arrays.make<glm::vec4>("cage", 4 * vertices);
-    arrays.make<glm::vec4>("triangle_bounds", 4 * setting.forest.triangles.size());
-    arrays.make<physics::ContactList>("contact_list", 1);
-    arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity_);
-    arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
-    contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity);
-    impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
-    arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
-    if (keeps_impulses()) {
-      arrays.make<std::uint32_t>("kept_slot", kept_slot_count);
-      arrays.make<glm::uvec4>("kept_vertex", contact_capacity);
-      arrays.make_reals("kept_impulse", std::size_t{4} * contact_capacity);
-    }
-    arrays.make<std::uint32_t>("contact_weight", vertices);
-    arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * 3 * vertices);
-    arrays.make<double>("way", 3 * vertices);
-    arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, bodies_.body_count));
-    arrays.make<std::uint32_t>("last_cut", vertices);
+    const std::vector<physics::Surface> surfaces = surfaces_of(setting);
+    for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
+    smallest_gap_ = smallest_gap(surfaces);
+    bodies_.arrays.make("surface", surfaces);
+    make_grounds(setting);
+    make_step_parts();
+    make_motions();
+    bodies_.arrays.make("triangle_around", surroundings(setting.forest));
+    make_lists(setting.forest.triangles.size());
+    make_kept_impulses();
     make_debts(setting.model);
     if (std::ranges::any_of(surfaces, [](const physics::Surface& surface) { return surface.restitution >= 0; })) make_impacts();
   }
@@ -284,6 +250,71 @@ class Impulse final : public Response {
   }
 
  private:
+  void make_grounds(const ResponseSetting& setting) {
+    std::vector<physics::Ground> grounds;
+    for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));
+    ground_count_ = static_cast<std::uint32_t>(grounds.size());
+    if (grounds.empty()) grounds.push_back({});
+    bodies_.arrays.make("ground", grounds);
+  }
+
+  void make_step_parts() {
+    time_step_ = bodies_.control.download().front().time_step;
+    parts_ = &bodies_.arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
+                                                                                 .last = 0,
+                                                                                 .left = physics::smallest_parts,
+                                                                                 .longest = physics::no_bound,
+                                                                                 .steps = 0,
+                                                                                 .parts = 0,
+                                                                                 .held = 0,
+                                                                                 .divides = divides_steps_ ? 1u : 0u}});
+    if (divides_steps_) bodies_.arrays.set_parameter("parts_of", time_step_);
+  }
+
+  // What each body and vertex does and is expected to do in a step.
+  void make_motions() {
+    Arrays& arrays = bodies_.arrays;
+    const std::size_t vertices = bodies_.vertex_count;
+    arrays.make("body_motion", std::vector(bodies_.body_count, physics::BoxBits{.lower = {~0u, ~0u, ~0u}, .upper = {}}));
+    const std::uint32_t none = physics::ordered_bits(0.0f);
+    arrays.make("room", std::vector(bodies_.body_count, physics::Room{.to_others = physics::no_bound,
+                                                                      .least_push = {none, none, none},
+                                                                      .most_push = {none, none, none}}));
+    arrays.make<std::uint32_t>("pressed", bodies_.body_count);
+    arrays.make<double>("start", 6 * vertices);
+    arrays.make<double>("unkicked", 3 * vertices);
+    arrays.make<double>("expected", 3 * vertices);
+    arrays.make<double>("surplus", 6 * vertices);
+    arrays.make<glm::vec4>("cage", 4 * vertices);
+    arrays.make<double>("way", 3 * vertices);
+    arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, bodies_.body_count));
+    arrays.make<std::uint32_t>("last_cut", vertices);
+  }
+
+  // Pairs of triangles, contacts, and sums of what they give.
+  void make_lists(std::size_t triangles) {
+    Arrays& arrays = bodies_.arrays;
+    arrays.make<glm::vec4>("triangle_bounds", 4 * triangles);
+    arrays.make<physics::ContactList>("contact_list", 1);
+    arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity_);
+    arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
+    contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity);
+    impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
+    arrays.make<std::uint32_t>("contact_weight", bodies_.vertex_count);
+    arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * std::size_t{3} * bodies_.vertex_count);
+    arrays.make<glm::uvec2>("contact_sum", physics::contact_sum_count(bodies_.body_count));
+    arrays.make<double>("contact_total", physics::contact_sum_count(bodies_.body_count));
+  }
+
+  void make_kept_impulses() {
+    Arrays& arrays = bodies_.arrays;
+    arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
+    if (!keeps_impulses()) return;
+    arrays.make<std::uint32_t>("kept_slot", kept_slot_count);
+    arrays.make<glm::uvec4>("kept_vertex", contact_capacity);
+    arrays.make_reals("kept_impulse", std::size_t{4} * contact_capacity);
+  }
+
   void make_debts(const Model& model) {
     Arrays& arrays = bodies_.arrays;
     const VertexParts all = vertex_parts(model, [](const ModelBody& body) { return !body.is_static; });
@@ -391,8 +422,7 @@ physics::Ground ground_of(const Ground& ground, const CollisionDescription& desc
           .offset = ground.offset,
           .elasticity = ground.surface.elasticity.value_or(elasticity_of(description)),
           .friction = ground.surface.friction.value_or(description.friction),
-          .gap = ground.surface.gap.value_or(description.gap),
-          .padding = 0};
+          .gap = ground.surface.gap.value_or(description.gap)};
 }
 
 ResponseRow impulse_row() {

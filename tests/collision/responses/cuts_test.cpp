@@ -338,7 +338,7 @@ TEST_CASE("a body that was cut short gives its momentum to what does not move, a
   setups[1].description.kind = BodyKind::immovable;
   setups[1].description.scale = 2;
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
-  for (const bool is_held : {false, true}) {
+  for (const bool is_at_fixed : {false, true}) {
     Bench cpu(make_cpu_device(1, 64), start, {"verlet", 0.02}, by_impulses);
     cpu.begin();
     auto& cut = cpu.bodies.arrays.get<std::uint32_t>("cut");
@@ -348,14 +348,14 @@ TEST_CASE("a body that was cut short gives its momentum to what does not move, a
       std::vector<std::uint32_t> rows = cut.download();
       for (std::uint32_t i = 0; i < 8; ++i) {
         rows[i] = 0;
-        rows[physics::held_of(cpu.bodies.vertex_count, i)] = is_held ? 1 : 0;
+        rows[physics::at_fixed_of(cpu.bodies.vertex_count, i)] = is_at_fixed ? 1 : 0;
       }
       cut.upload(rows);
     }
     const bool owes = cpu.bodies.arrays.get<physics::Debt>("debt").download().back().energy > 0;
-    CHECK(owes == !is_held);  // it has no other motion to pay with
+    CHECK(owes == !is_at_fixed);  // it has no other motion to pay with
     const double momentum = bench::momentum_of(start.model, cpu.bodies.download(1)).x;
-    if (is_held)
+    if (is_at_fixed)
       CHECK(momentum < 4.9);
     else
       CHECK(momentum == Approx(5).epsilon(1e-13));

@@ -10,7 +10,8 @@ FN uint impact_count(uint body_count) { return body_count * (body_count + 1u); }
 
 struct Impact {
   double approach;  // the largest speed at which the centres of mass came [m/s], 0: none yet
-  double kept;      // the part of its deformation velocities that each of the two keeps
+  uint parts_too_fast;  // 1: the two part faster than their restitution lets them
+  uint padding;
 };
 
 // An impact ends after so many parts of steps without an impulse.
