@@ -50,7 +50,8 @@ class Search {
     for (const ModelBody& body : model.bodies) largest_ = std::max(largest_, body.radius);
   }
 
-  // Calls visit(a, b, distance) for each two bodies that may touch, with a distance of 0, or that are nearer than the margin of proofs.
+  // Calls visit(a, b, distance) for each two bodies that may touch, with a distance of 0, or that are nearer than the margin of
+  // proofs.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
     std::vector<IndexedBox> boxes;

@@ -1,5 +1,5 @@
-// Finds bodies that intersect, or that are nearer than proofs can tell, and says how two of them lie. It takes a while for large meshes
-// that intersect.
+// Finds bodies that intersect, or that are nearer than proofs can tell, and says how two of them lie. It takes a while for large
+// meshes that intersect.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -23,9 +23,9 @@ struct Overlap {
 [[nodiscard]] double gap_between(const Model& model, const ModelBody& a, const ModelBody& b,
                                  const CollisionDescription& collision);
 
-/// Returns two bodies that intersect, and of some such pairs the one that lies deepest in each other. If there is none, it returns the two
-/// nearest ones that cannot be proven to be apart by numbers of this precision (32 or 64), or nothing. Looks at no two static bodies.
-/// `positions` are those of the model's vertices in the world [m].
+/// Returns two bodies that intersect, and of some such pairs the one that lies deepest in each other. If there is none, it
+/// returns the two nearest ones that cannot be proven to be apart by numbers of this precision (32 or 64), or nothing. Looks at
+/// no two static bodies. `positions` are those of the model's vertices in the world [m].
 [[nodiscard]] std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
                                                   const CollisionDescription& collision, int precision);
 

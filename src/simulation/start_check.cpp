@@ -76,8 +76,8 @@ std::string described(const Model& model, const Overlap& overlap, int precision)
   const std::string names =
       fmt::format("bodies \"{}\" and \"{}\"", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
   if (overlap.distance > 0)
-    return fmt::format("{} begin {:.3g} m apart, which is too near to prove in fp{} that they stay apart", names, overlap.distance,
-                       precision);
+    return fmt::format("{} begin {:.3g} m apart, which is too near to prove in fp{} that they stay apart", names,
+                       overlap.distance, precision);
   return overlap.depth > 0 ? fmt::format("{} intersect, at least {:.3g} m deep", names, overlap.depth)
                            : fmt::format("{} intersect, with no vertex of one inside the other", names);
 }

@@ -15,8 +15,9 @@ namespace pliant {
 [[nodiscard]] std::vector<std::string> told_rounding(const Model& model, const State& state,
                                                      const CollisionDescription& collision, int precision);
 
-/// Throws Error (input) that blames `place` if bodies intersect, stand in a ground, or are so near each other that no proof can tell that
-/// they are apart, though the scene's response keeps them apart. It names two bodies, how deep they are in each other, and a way out.
+/// Throws Error (input) that blames `place` if bodies intersect, stand in a ground, or are so near each other that no proof can
+/// tell that they are apart, though the scene's response keeps them apart. It names two bodies, how deep they are in each other,
+/// and a way out.
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
 
 }  // namespace pliant

@@ -84,9 +84,9 @@ TEST_CASE("bodies far from the origin are apart if they are so in fp64") {
 TEST_CASE("bodies far from the origin that intersect by less than floats tell there are named") {
   for (int k = 0; k < 20; ++k) {
     const double place = 3e5 + 0.01 * k;  // where floats are 3 cm apart
-    const std::string text = ball + fmt::format("position = [{:.9f}, 0, 0]\n", place) +
-                             fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n",
-                                         place + 1.998);
+    const std::string text =
+        ball + fmt::format("position = [{:.9f}, 0, 0]\n", place) +
+        fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n", place + 1.998);
     CAPTURE(place);
     check_says(error_of([&] { Start(text).check(64); }), {"bodies \"ball\" and \"other\" intersect"});
   }
@@ -101,9 +101,10 @@ std::string beside(double gaps) {
 TEST_CASE("bodies that begin too near each other for proofs are an error, and higher precision is its remedy") {
   for (const double distance : {1e-12, 1e-9, 2e-7}) {
     CAPTURE(distance);
-    Start start(ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.16g}, 0, 0]\n", 2 + distance));
-    check_says(start.error(), {"bodies \"ball\" and \"other\" begin ", "too near to prove in fp32", "move them apart, such as \"other\" by [",
-                               "or take --precision 64"});
+    Start start(ball +
+                fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.16g}, 0, 0]\n", 2 + distance));
+    check_says(start.error(), {"bodies \"ball\" and \"other\" begin ", "too near to prove in fp32",
+                               "move them apart, such as \"other\" by [", "or take --precision 64"});
     CHECK_NOTHROW(start.check(64));
   }
   CHECK_NOTHROW(Start(beside(0.01)).check());

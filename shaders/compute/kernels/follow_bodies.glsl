@@ -18,7 +18,8 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
 
-// Rest positions of the vertices that stand for the body, because any rotation near its own is good enough. And where they are in the frame, relative to a point that moves with the body.
+// Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
+// the frame, relative to a point that moves with the body.
 struct Samples {
   dvec3 rest_mean;
   dvec3 moved_mean;

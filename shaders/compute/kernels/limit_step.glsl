@@ -64,7 +64,10 @@ void push_away(uint a, uint b, double speed) {
 // The mean velocity of the vertices that stand for the body [m/s].
 dvec3 mean_velocity(uint b) {
   dvec3 sum = dvec3(0);
-  for (uint k = 0u; k < sample_count; ++k) sum += LOAD3(start, start_velocity_of(sample_vertex(body[b].first_vertex, body[b].vertex_count, k)));
+  for (uint k = 0u; k < sample_count; ++k) {
+    uint i = sample_vertex(body[b].first_vertex, body[b].vertex_count, k);
+    sum += LOAD3(start, start_velocity_of(i));
+  }
   return sum / double(sample_count);
 }
 

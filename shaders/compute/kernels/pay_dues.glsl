@@ -52,7 +52,8 @@ uint moments_half() { return other_half(from_half); }
 #include "parts/rigid_motion_by_parts.glsl"
 
 dvec3 flight_of_vertex(uint i, uint b) {
-  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)))));
+  dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
+  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
 }
 
 // What a vertex lacks of its flight because its whole body keeps its place [m]. It strains no spring.

@@ -167,7 +167,6 @@ void answer(uint c, uint kick_round, bool ends) {
 void push(uint c, uint kick_round) {
   bool starts = kick_round == 0u, ends = is_last(kick_round);
   if (starts || !has_own_thread) fetch(c, kick_round);
-  if (held.resistance.z == real(0)) return;  // between immovable bodies
   if (!starts) answer(c, kick_round, ends);
   if (ends || !has_own_thread) store(c);
   if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);

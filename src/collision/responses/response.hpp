@@ -39,7 +39,7 @@ class Response {
   virtual ~Response() = default;
   /// Returns passes that run before the step's stages, with the state in this half.
   [[nodiscard]] virtual std::vector<Pass> before_step(std::uint32_t /*from_half*/) const { return {}; }
-  /// Returns how the scene's steps of a fixed length have fallen into parts, or null if each step is one part.
+  /// Returns how steps have fallen into parts, or null if the response never divides one.
   [[nodiscard]] virtual const DeviceArray<physics::StepParts>* step_parts() const { return nullptr; }
   /// Waits for the queued steps.
   [[nodiscard]] virtual ResponseReport report() const { return {}; }

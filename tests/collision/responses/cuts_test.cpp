@@ -214,7 +214,9 @@ ModelAndState pocket_before_wall() {
   return build_model(setups, glm::dvec3(0.0));
 }
 
-TEST_CASE("bodies that fly along together keep their places to the bit, and their turning, in a step in which they would meet something") {
+TEST_CASE(
+    "bodies that fly along together keep their places to the bit, and their turning, in a step in which they would meet "
+    "something") {
   const ModelAndState start = pocket_before_wall();
   Bench cpu(make_cpu_device(1, 64), start, {"verlet", 0.004}, {.response = {"impulse"}, .gap = 0.01});
   cpu.begin();

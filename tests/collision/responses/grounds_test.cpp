@@ -1,5 +1,5 @@
-// Contact by impulses with grounds and static bodies: what lies on them rests, slides as Coulomb's law says, and gets the momentum that
-// they report.
+// Contact by impulses with grounds and static bodies: what lies on them rests, slides as Coulomb's law says, and gets the
+// momentum that they report.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
 // How bodies fly, and bodies that owe for motions cut short together with those near them that were at a cut.
 // - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
-// - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on. Each
-//   place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles that make
-//   nothing but this motion stay apart.
+// - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on.
+//   Each place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles
+//   that make nothing but this motion stay apart.
 // - Cuts leave the mean velocity of other bodies alone, too, so that they do not depend on how fast all fly along. A body and those near it
 //   have one in common.
 #ifndef CLUSTER_GLSL

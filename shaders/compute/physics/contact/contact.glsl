@@ -10,10 +10,11 @@ REAL_BEGIN
 // row 0: the normal, from the second body to the first, and the least change of velocity along it [m/s]
 // row 1: the weights of the four vertices, above 0 on the first body and below 0 on the second. Against a ground its number is the last
 // row 2: the goal of the change of velocity across the normal [m/s], and the friction, which shrinks while the contact does not settle
-// row 3, from the first round on: what a quantum changes the velocity of a vertex of the first body and of the second by [m/s], and the
-//        mass that resists the contact [kg], and the impulse below which a change in a round does not matter [Ns];
-//        until then its last number is the contact's settled_speed(), and after the last round it is below 0 if most_kick_rounds were not
-//        enough to settle the contact, and else 0
+// row 3, from the first round on:
+//        - what a quantum changes the velocity of a vertex of the first body by, and of the second [m/s]
+//        - the mass that resists the contact [kg]
+//        - the impulse below which a change in a round does not matter [Ns]. Before the first round it is the contact's settled_speed().
+//          After the last one it is below 0 if most_kick_rounds did not settle the contact, and else 0
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
 
 // Lengths of a pair of bodies [m], and the time step [s].

@@ -80,8 +80,8 @@ const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups d
 const uint plane_rounds = 4u;
 const uint cut_rounds = 32u;
 
-// `cut` has a row of parts from before the first round, and one from each that cuts at planes. Behind them stands the round in which a vertex
-// was stopped. Of one that was not, it has at_a_cut if a pair of triangles that it belongs to was cut short, and at_no_cut otherwise.
+// `cut` has a row of parts from before the first round, and one from each that cuts at planes. Behind them stands the round in which a
+// vertex was stopped. Of one that was not, it has at_a_cut if a pair of triangles that it belongs to was cut short, and at_no_cut otherwise.
 const uint at_a_cut = cut_rounds;
 const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
