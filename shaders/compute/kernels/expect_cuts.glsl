@@ -68,8 +68,8 @@ void find_energy_due(uint b) {
 
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
 void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
-  dvec3 by_cluster = from + together, to = by_cluster + own;
-  dvec3 lower = min(min(from, by_cluster), to), upper = max(max(from, by_cluster), to);
+  dvec3 by_flight = from + together, to = by_flight + own;
+  dvec3 lower = min(min(from, by_flight), to), upper = max(max(from, by_flight), to);
   dvec3 farthest = max(abs(lower), abs(upper)), all = double(2) * farthest + abs(LOAD3(pose[b].origin, 0u));
   double far = all.x + all.y + all.z + double(4) * largest_body;
   dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);

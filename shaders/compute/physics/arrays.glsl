@@ -81,7 +81,7 @@ ARRAY(contact_impulse, real, contact, step, "[contact][4] impulse along the norm
 ARRAY(kept_slot, uint, slot, step, "contacts of the last step by their vertices: the step's number, then the contact's")
 ARRAY(kept_vertex, uvec4, contact, step, "four vertices of a contact of the last step, or a vertex and a ground")
 ARRAY(kept_impulse, real, contact, step, "[contact][4] its impulse along the normal, then across it [Ns]")
-ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-16; 0 once it is kicked")
+ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-13; 0 once it is kicked")
 ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses in quanta, as 64 bits in two halves; 0 between steps")
 ARRAY(way, double, vertex, step, "[vertex][3] how far the integrator moved the vertex beyond its flight [m]")
 ARRAY(cut, uint, vertex, step, "[row][vertex] part of its way that a vertex may go, as bits of a float; the least counts. The next row says in which round it was stopped, if at all, and the last one whether that was at what does not move; then of each flight when it was stopped (contact/surface.glsl)")
@@ -91,7 +91,7 @@ ARRAY(part_sum, PartSums, part, step, "sums over these vertices, if a body owes 
 ARRAY(cluster, Cluster, body, carried, "[body + 1] how bodies fly, and bodies held by each other, where the first of them stands; the last one counts those in clusters")
 ARRAY(debt, Debt, body, carried, "[body + 1] what the body owes; the last one is the sum")
 ARRAY(impact_sum, uvec2, pair, carried, "[body][body + 1][3] sum of the impulses of a pair's contacts in an impact, on the first body, as 64 bits in two halves; the last partner stands for the grounds")
-ARRAY(impact, Impact, pair, carried, "[body][body + 1] how fast two bodies came, and what they keep of their deformation velocities")
+ARRAY(impact, Impact, pair, carried, "[body][body + 1] how fast two bodies came, and whether they part too fast")
 ARRAY(impact_part, uint, pair, carried, "[body][body + 1] number of the latest part of a step in which the pair got an impulse, 0: none; behind these that of all pairs")
 ARRAY(last_cut, uint, vertex, carried, "1: its motion was cut short in the last step")
 

@@ -1,5 +1,5 @@
-// How bodies fly, and bodies that owe for motions cut short together with those near them that were at a cut.
-// - None of them can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
+// How bodies fly. A cluster is bodies that owe for motions cut short, and those near them that were at a cut.
+// - None of a cluster can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
 //   beyond that of all of them as one keeps both momenta if it is scaled.
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on.
 //   Each place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles

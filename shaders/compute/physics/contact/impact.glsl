@@ -9,7 +9,7 @@ FN uint impact_of(uint a, uint b, uint body_count) { return a * (body_count + 1u
 FN uint impact_count(uint body_count) { return body_count * (body_count + 1u); }
 
 struct Impact {
-  double approach;  // the largest speed at which the centres of mass came [m/s], 0: none yet
+  double approach;      // the largest speed at which the centres of mass came [m/s], 0: none yet
   uint parts_too_fast;  // 1: the two part faster than their restitution lets them
   uint padding;
 };
