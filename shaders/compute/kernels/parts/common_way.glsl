@@ -14,12 +14,10 @@ dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
 }
 
 // The velocity that a body has in common with those near it [m/s].
-dvec3 velocity_of_flight(uint b) {
-  dvec3 sum = dvec3(0);
-  for (int k = 0; k < 3; ++k)
-    sum[k] = double(from_ordered_bits(cluster[b].least_flight[k])) + double(from_ordered_bits(cluster[b].most_flight[k]));
-  return double(0.5) * sum;
+double velocity_of_flight(uint b, uint k) {
+  return double(0.5) * (double(from_ordered_bits(cluster[b].least_flight[k])) + double(from_ordered_bits(cluster[b].most_flight[k])));
 }
+dvec3 velocity_of_flight(uint b) { return dvec3(velocity_of_flight(b, 0u), velocity_of_flight(b, 1u), velocity_of_flight(b, 2u)); }
 
 // Whether cuts leave a motion of the body alone, but for grounds near it.
 bool may_fly(uint b) {
