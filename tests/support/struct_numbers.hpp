@@ -1,6 +1,7 @@
 // What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out, and so is what differs
 // by the order of threads.
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -59,7 +60,8 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
   numbers.insert(numbers.end(), std::begin(sums.lost_turning), std::end(sums.lost_turning));
-  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.gained, double(sums.cuts), double(sums.involvement)});
+  numbers.insert(numbers.end(),
+                 {sums.deformation, sums.rigid, sums.missed, sums.gained, double(sums.cuts), double(sums.involvement)});
   return numbers;
 }
 
@@ -108,13 +110,18 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
   return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2], double(debt.is_for_cuts)};
 }
 
-// Its motion means nothing if it has no bodies.
+// Its motion means nothing if it has no bodies, and a body's flight nothing if there is none.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_low)};
+  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_held), double(cluster.is_low),
+                              double(cluster.is_beside_static)};
+  for (std::size_t k = 0; k < 3 && std::max(cluster.least_flight[k], 1u) <= cluster.most_flight[k]; ++k)
+    for (const std::uint32_t bits : {cluster.least_flight[k], cluster.most_flight[k]})
+      numbers.push_back(physics::from_ordered_bits(bits));
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);
   numbers.insert(numbers.end(), motion.begin(), motion.end());
-  numbers.insert(numbers.end(), {cluster.mass, cluster.kinetic, cluster.due});
+  numbers.insert(numbers.end(),
+                 {cluster.mass, cluster.means.deformation, cluster.means.rigid, cluster.means.missed, cluster.means.due});
   return numbers;
 }
 

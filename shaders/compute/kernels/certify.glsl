@@ -16,7 +16,6 @@ READ(cage)
 READ(control)
 READ(rest_position)
 READ(pose)
-READ(surface)
 READ(cluster)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
@@ -145,16 +144,8 @@ void stop_flight(uint i, uint cut_round) {
   if (flies(i, cut_round)) atomicMin(cut[flight_stop_of(vertex_count, flight_of(body_of(i)))], cut_round);
 }
 
-bool can_move(uint i) { return surface[body_of(i)].inverse_mass != double(0); }
-
-void note_fixed(IN(Case) c) {
-  if (can_move(c.vertex[0]) && can_move(c.vertex[3])) return;
-  for (uint k = 0u; k < 6u; ++k) ATOMIC_STORE(cut[at_fixed_of(vertex_count, c.vertex[k])], 1u);
-}
-
 void cut_short(IN(Case) c, uint cut_round) {
   atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
-  note_fixed(c);
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
   if (all_stopped(c)) {
     stop_flight(c.vertex[0], cut_round);

@@ -96,11 +96,8 @@ void expect_cuts(uint i) {
   double part = double(1);
   for (int k = 0; k < 3; ++k)
     part = min(part, part_to(from[k] + together[k], own[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
-  double part_of_low = double(1);
   for (uint g = 0u; g < ground_count; ++g)
-    if (is_movable) part_of_low = min(part_of_low, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
-  cut[at_fixed_of(vertex_count, i)] = part_of_low < double(1) ? 1u : 0u;
-  part = min(part, part_of_low);
+    if (is_movable) part = min(part, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
   bound_way(i, b, from, together, part * own);
   cut[i] = is_movable ? floatBitsToUint(float(part) * (part < double(1) ? 0.999999f : 1.0f)) : 0u;
   for (uint row = 1u; row <= plane_rounds; ++row) cut[cut_in(row, vertex_count, i)] = floatBitsToUint(1.0f);

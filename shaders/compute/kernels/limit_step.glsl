@@ -3,12 +3,14 @@
 // own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
 // meet may push each other, and how bodies that are near each other fly along.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 READ(body)
+READ(control)
 READ(surface)
 READ(start)
 READ(body_box)
@@ -18,6 +20,7 @@ WRITE(step_parts)
 WRITE(room)
 WRITE(cluster)
 PARAMETER(uint, body_count)
+#include "parts/common_way.glsl"
 
 // The largest that a number of the first box can be above one of the second.
 double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
@@ -88,7 +91,7 @@ void find_flight(uint a, uint b) {
     fly_along(a, b);
     fly_along(b, a);
   } else {
-    ATOMIC_STORE(cluster[moves(a) ? a : b].is_beside_static, 1u);
+    ATOMIC_STORE(cluster[flight_of(moves(a) ? a : b)].is_beside_static, 1u);
   }
 }
 

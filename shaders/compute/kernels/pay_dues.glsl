@@ -1,7 +1,8 @@
 // A kernel in rounds. One thread serves some vertices of a body that had motions cut short or contacts that gave energy, or still owes. A
 // vertex that is held back leaves its springs with energy, which the body pays with the kinetic energy of its deformation. This keeps its
 // momentum and its angular momentum. If that is not enough, bodies that hook into each other pay with their rigid motions against each
-// other. A body that is cut short at what does not move, near no other one that moves, pays with its rigid motion.
+// other. If one of them, or a body alone, was cut short in the world, because it is beside what does not move, the rest is paid with
+// their rigid motion as one.
 // What bodies can't pay, they owe. What cuts take from a body's angular momentum comes back as spin.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
@@ -91,7 +92,7 @@ void note_cuts(uvec4 part, uint item) {
     if (cut[stop_of(vertex_count, i)] != at_no_cut) cuts |= at_a_cut_bit;
     if (!is_cut_short(i)) continue;
     cuts |= cut_short_bit | at_a_cut_bit;
-    if (cut[at_fixed_of(vertex_count, i)] != 0u) cuts |= at_fixed_bit;
+    if (!has_common_way(part.x)) cuts |= held_bit;
   }
   part_sum[item].cuts = cuts;
 }
@@ -105,7 +106,7 @@ uint cuts_of(uint b) {
 }
 bool was_cut_short(uint b) { return (cuts_of(b) & cut_short_bit) != 0u; }
 bool was_at_a_cut(uint b) { return (cuts_of(b) & at_a_cut_bit) != 0u; }
-bool was_cut_at_fixed(uint b) { return (cuts_of(b) & at_fixed_bit) != 0u; }
+bool was_held(uint b) { return (cuts_of(b) & held_bit) != 0u; }
 
 // Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
 // need one.
@@ -163,7 +164,7 @@ RigidMotion restored_motion_of(uint b) {
 void sum_energies_of(uvec4 part, uint item) {
   uint b = part.x;
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b);
-  double deformation = double(0), all_rigid = double(0), gained = double(0);
+  double deformation = double(0), all_rigid = double(0), missed = double(0), gained = double(0);
   bool was_cut = was_cut_short(b);
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 place = place_of(i), along = velocity_at(rigid, place), beside = velocity_of_vertex(i) - along;
@@ -171,23 +172,25 @@ void sum_energies_of(uvec4 part, uint item) {
     deformation += dot(beside, beside);
     all_rigid += dot(along_restored, along_restored);
     if (was_cut) gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
-    if (is_cut_short(i)) gained += energy_of_cut(i, b);
+    if (!is_cut_short(i)) continue;
+    gained += energy_of_cut(i, b);
+    missed += dot(rotate(pose[b], along_restored), missing_alone(i, b) + missing_together(i, b)) / control[0].time_step;
   }
   part_sum[item].deformation = double(0.5) * deformation / body[b].inverse_mass;
   part_sum[item].rigid = double(0.5) * all_rigid / body[b].inverse_mass;
+  part_sum[item].missed = double(0.5) * missed / body[b].inverse_mass;
   part_sum[item].gained = gained;
 }
-
-bool is_near_one_that_can_move(uint b) { return next_partner(b, 0u) != no_vertex; }
 
 // Without what others may pay. What unsettled contacts gave is due, too.
 Means own_means_of(uint b) {
   uvec2 range = vertex_part_range[b];
   Means m;
-  m.deformation = m.rigid = m.due = double(0);
+  m.deformation = m.rigid = m.missed = m.due = double(0);
   for (uint k = range.x; k < range.x + range.y; ++k) {
     m.deformation += part_sum[k].deformation;
     m.rigid += part_sum[k].rigid;
+    m.missed += part_sum[k].missed;
     m.due += part_sum[k].gained;
   }
   m.due = max(debt[b].energy + m.due, double(0)) + contact_total[unsettled_energy_of(b)];
@@ -197,7 +200,7 @@ Means own_means_of(uint b) {
 // A body that nothing holds keeps its rigid motion, though it owes: its vertices may have left their cages in free flight.
 Means means_of(uint b) {
   Means m = own_means_of(b);
-  if (!(m.due > m.deformation) || !was_cut_at_fixed(b) || is_in_cluster(b) || is_near_one_that_can_move(b)) m.rigid = double(0);
+  if (!was_held(b) || is_in_cluster(b)) m.rigid = m.missed = double(0);
   return m;
 }
 
@@ -215,9 +218,10 @@ uint involvement_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[ver
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
-  cluster[b].mass = cluster[b].kinetic = cluster[b].due = double(0);
+  cluster[b].mass = double(0);
+  cluster[b].means.deformation = cluster[b].means.rigid = cluster[b].means.missed = cluster[b].means.due = double(0);
   cluster[b].first = b;
-  cluster[b].bodies = cluster[b].is_low = 0u;
+  cluster[b].bodies = cluster[b].is_held = 0u;
 }
 
 bool belong_together(uint a, uint b) {
@@ -271,8 +275,10 @@ void add_to_cluster(uint b) {
   cluster[first].mass += mass * count;
   cluster[first].bodies += 1u;
   Means means = own_means_of(b);
-  cluster[first].kinetic += means.rigid;
-  cluster[first].due += max(means.due - means.deformation, double(0));
+  cluster[first].means.deformation += means.rigid;
+  cluster[first].means.missed += means.missed;
+  cluster[first].means.due += max(means.due - means.deformation, double(0));
+  if (was_held(b)) cluster[first].is_held = 1u;
 }
 
 // Finds the cluster's rigid motion, and what its bodies' motions have beyond it. A body alone is no cluster.
@@ -288,7 +294,10 @@ void end_cluster(uint first) {
   dvec3 velocity = LOAD3(of_cluster.velocity, 0u), turning = LOAD3(sum.turning, 0u) - cross(LOAD3(sum.place, 0u), velocity);
   double of_all = double(0.5) * (mass * dot(velocity, velocity) + dot(turning, LOAD3(of_cluster.spin, 0u)));
   cluster[first].motion = of_cluster;
-  cluster[first].kinetic = max(cluster[first].kinetic - of_all, double(0));
+  Means means = cluster[first].means;
+  if (cluster[first].is_held != 0u) cluster[first].means.rigid = of_all;
+  cluster[first].means.missed = means.deformation > double(0) ? of_all * (means.missed / means.deformation) : double(0);
+  cluster[first].means.deformation = max(means.deformation - of_all, double(0));
 }
 
 void find_clusters() {
@@ -301,10 +310,11 @@ void find_clusters() {
 
 // What a body keeps of its rigid motion beyond that of its cluster, which is none if the body is alone.
 double kept_of_rigid(uint b, IN(Means) means) {
-  if (!is_in_cluster(b)) return kept_of_rigid_motion(means);
-  uint first = cluster[b].first;
-  return kept_beyond(cluster[first].kinetic, cluster[first].due);
+  return is_in_cluster(b) ? kept_of_deformation(cluster[cluster[b].first].means) : kept_of_rigid_motion(means);
 }
+
+// What all of a cluster keep of its own motion.
+double kept_together(uint b) { return is_in_cluster(b) ? kept_of_rigid_motion(cluster[cluster[b].first].means) : double(1); }
 
 // The velocity that all bodies of a cluster have in common, in the body's frame [m/s].
 dvec3 common_velocity(uint b, IN(RigidMotion) of_cluster, dvec3 place) {
@@ -314,14 +324,14 @@ dvec3 common_velocity(uint b, IN(RigidMotion) of_cluster, dvec3 place) {
 void pay(uvec4 part) {
   uint b = part.x;
   Means means = means_of(b);
-  double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means);
-  if (of_deformation == double(1) && of_rigid == double(1) && !was_cut_short(b)) return;
+  double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means), of_all = kept_together(b);
+  if (of_deformation == double(1) && of_rigid == double(1) && of_all == double(1) && !was_cut_short(b)) return;
   bool shares = is_in_cluster(b);
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 place = place_of(i), along = velocity_at(restored, place), beside = velocity_of_vertex(i) - velocity_at(rigid, place);
     dvec3 together = shares ? common_velocity(b, of_cluster, place) : dvec3(0);
-    dvec3 velocity = together + of_rigid * (along - together) + of_deformation * beside;
+    dvec3 velocity = of_all * together + of_rigid * (along - together) + of_deformation * beside;
     STORE3(motion, velocity_of(vertex_at(i)), velocity)
   }
 }
@@ -329,15 +339,26 @@ void pay(uvec4 part) {
 void note_debt(uint b) {
   Means means = means_of(b);
   debt[b].is_for_cuts = was_caught(b) ? 1u : 0u;
+  debt[b].energy = owed_after(means);
+  dvec3 lost = dvec3(0);
   if (is_in_cluster(b)) {
     uint first = cluster[b].first;
-    debt[b].energy = owed_after(means) * part_still_due(cluster[first].kinetic, cluster[first].due);
-    return;
+    Means of_all = cluster[first].means;
+    if (of_all.due > double(0)) debt[b].energy *= owed_after(of_all) / of_all.due;
+    if (b == first) lost = ((double(1) - kept_of_rigid_motion(of_all)) * cluster[b].mass) * LOAD3(cluster[b].motion.velocity, 0u);
+  } else {
+    double mass = (double(1) - kept_of_rigid_motion(means)) * mass_of(b);
+    lost = mass * rotate(pose[b], LOAD3(rigid_motion_of_body(b).velocity, 0u));
   }
-  double lost = (double(1) - kept_of_rigid_motion(means)) * double(body[b].vertex_count) / body[b].inverse_mass;
-  dvec3 momentum = lost * rotate(pose[b], LOAD3(rigid_motion_of_body(b).velocity, 0u));
-  debt[b].energy = owed_after(means);
-  STORE3(debt[b].lost, 0u, momentum)
+  STORE3(debt[b].lost, 0u, lost)
+}
+
+// The motion with which a cluster goes on after it has paid.
+void slow_down_cluster(uint first) {
+  double kept = kept_of_rigid_motion(cluster[first].means);
+  dvec3 velocity = kept * LOAD3(cluster[first].motion.velocity, 0u), spin = kept * LOAD3(cluster[first].motion.spin, 0u);
+  STORE3(cluster[first].motion.velocity, 0u, velocity)
+  STORE3(cluster[first].motion.spin, 0u, spin)
 }
 
 // What does not move has got the momentum that bodies lost.
@@ -345,6 +366,7 @@ void note_debts() {
   debt[body_count].energy = double(0);
   for (uint b = 0u; b < body_count; ++b) {
     debt[body_count].energy += debt[b].energy;
+    if (cluster[b].bodies != 0u) slow_down_cluster(b);
     for (uint k = 0u; k < 3u; ++k) {
       contact_total[k] -= debt[b].lost[k];
       debt[b].lost[k] = double(0);

@@ -84,7 +84,7 @@ ARRAY(kept_impulse, real, contact, step, "[contact][4] its impulse along the nor
 ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-13; 0 once it is kicked")
 ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses in quanta, as 64 bits in two halves; 0 between steps")
 ARRAY(way, double, vertex, step, "[vertex][3] how far the integrator moved the vertex beyond its flight [m]")
-ARRAY(cut, uint, vertex, step, "[row][vertex] part of its way that a vertex may go, as bits of a float; the least counts. The next row says in which round it was stopped, if at all, and the last one whether that was at what does not move; then of each flight when it was stopped (contact/surface.glsl)")
+ARRAY(cut, uint, vertex, step, "[row][vertex] part of its way that a vertex may go, as bits of a float; the least counts. The next row says in which round it was stopped, if at all; then of each flight when it was stopped (contact/surface.glsl)")
 ARRAY(vertex_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread serves of a body that moves")
 ARRAY(vertex_part_range, uvec2, body, fixed, "first part, number of parts; none for a body that does not move")
 ARRAY(part_sum, PartSums, part, step, "sums over these vertices, if a body owes energy or had motions cut short")

@@ -21,7 +21,8 @@ dvec3 velocity_of_flight(uint b) { return dvec3(velocity_of_flight(b, 0u), veloc
 
 // Whether cuts leave a motion of the body alone, but for grounds near it.
 bool may_fly(uint b) {
-  return is_in_cluster(b) || (cluster[b].is_beside_static == 0u && cluster[b].least_flight[0] <= cluster[b].most_flight[0]);
+  if (cluster[flight_of(b)].is_beside_static != 0u) return false;
+  return is_in_cluster(b) || cluster[b].least_flight[0] <= cluster[b].most_flight[0];
 }
 
 // That motion, as the way of a place in the world [m]. May be asked only if there is one.

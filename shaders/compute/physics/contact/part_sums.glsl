@@ -4,11 +4,11 @@
 #include "../rigid_motion.glsl"
 SHARED_BEGIN
 
-// What happened to motions in a step, as bits: some were cut short, or those of what they would have met. Some were cut short at what does
-// not move.
+// What happened to motions in a step, as bits: some were cut short, or those of what they would have met. Some were cut short in the world,
+// beside what does not move.
 const uint cut_short_bit = 1u;
 const uint at_a_cut_bit = 2u;
-const uint at_fixed_bit = 4u;
+const uint held_bit = 4u;
 
 // What a body has to do with motions that are cut short. Bodies that belong together have one that owes.
 const uint not_involved = 0u;
@@ -20,6 +20,7 @@ struct PartSums {
   double lost_turning[3];  // what cuts took from the sum of x cross w, less that of all at cuts together [m^2/s]
   double deformation;      // kinetic energy of the velocities less the rigid motion [J]
   double rigid;            // kinetic energy of the rigid motion, with the spin that cuts took [J]
+  double missed;           // the part of it that cuts kept from moving anything [J]
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint cuts;               // bits, as above
   uint involvement;        // of the body. Its first part says so

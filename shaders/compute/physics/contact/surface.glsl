@@ -86,9 +86,7 @@ const uint at_a_cut = cut_rounds;
 const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
 FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, vertex_count, i); }
-// The last row says whether a vertex was cut short at what does not move: 1 or 0.
-FN uint at_fixed_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 2u, vertex_count, i); }
-const uint cut_rows = plane_rounds + 3u;
+const uint cut_rows = plane_rounds + 2u;
 // Behind the rows stands, for a cluster's first body and for each body in none, the round in which its flight was stopped, or at_no_cut.
 FN uint flight_stop_of(uint vertex_count, uint b) { return cut_rows * vertex_count + b; }
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
