@@ -55,17 +55,17 @@ class Search {
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
     std::vector<IndexedBox> boxes;
-    double farthest = 0;
+    IndexedBox all;
     for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
       if (model_.bodies[b].triangle_count == 0) continue;
       IndexedBox& box = boxes.emplace_back(box_of(model_.bodies[b], positions_));
       box.index = b;
-      for (const glm::dvec3& p : {box.lower, box.upper}) farthest = std::max(farthest, sum_of_sizes(p));
+      for (const glm::dvec3& p : {box.lower, box.upper}) all.add(p);
     }
-    const double most = physics::margin_of_rounding(epsilon_, 24 * largest_, 2 * farthest + 4 * largest_);
-    for_each_near(std::move(boxes), most, [&](const IndexedBox& a, const IndexedBox& b) {
+    for_each_near(std::move(boxes), largest_margin(all, all), [&](const IndexedBox& a, const IndexedBox& b) {
       const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
-      if (first.is_static && second.is_static) return;
+      const double most = largest_margin(a, b);
+      if ((first.is_static && second.is_static) || !are_near(a, b, most)) return;
       double nearest = std::numeric_limits<double>::infinity();
       for_each_near_triangles(model_, first, a, second, b, positions_, most,
                               [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
@@ -75,6 +75,15 @@ class Search {
 
  private:
   static double sum_of_sizes(const glm::dvec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+
+  // Of triangles in two boxes that are no further apart than it [m].
+  double largest_margin(const IndexedBox& a, const IndexedBox& b) const {
+    const double size = 1.01 * (sum_of_sizes(a.upper - a.lower) + sum_of_sizes(b.upper - b.lower));
+    const glm::dvec3 farthest =
+        glm::max(glm::max(glm::abs(a.lower), glm::abs(a.upper)), glm::max(glm::abs(b.lower), glm::abs(b.upper)));
+    const double far = sum_of_sizes(farthest);
+    return physics::margin_of_rounding(epsilon_, size, physics::rounded_from(far, far, largest_));
+  }
 
   // Of two triangles [m]. 0 if they may touch, infinite if proofs can tell that they are apart.
   double distance(std::uint32_t s, std::uint32_t t) const {
@@ -86,10 +95,13 @@ class Search {
       standing.start[k] = standing.end[k] = positions_[vertex] - origin;
       size = std::max(size, sum_of_sizes(standing.start[k]));
     }
-    const double far = 2 * sum_of_sizes(origin) + 4 * largest_;
+    const double far = physics::rounded_from(sum_of_sizes(origin), sum_of_sizes(origin), largest_);
     standing.margin = physics::margin_of_rounding(0x1p-52, size, far);
-    if (may_touch(model_, positions_, s, t) && !physics64::stays_apart(standing)) return 0;
     const double found = physics64::closest_points(standing.start).distance;
+    if (may_touch(model_, positions_, s, t) && !physics64::stays_apart(standing)) {
+      standing.margin = 4 * 0x1p-52 * size;  // by which shadows alone err
+      return physics64::stays_apart(standing) ? found : 0;
+    }
     return found < physics::margin_of_rounding(epsilon_, size, far) ? found : std::numeric_limits<double>::infinity();
   }
 

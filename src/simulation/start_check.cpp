@@ -140,7 +140,8 @@ std::vector<std::string> told_rounding(const Model& model, const State& state, c
       const ModelBody& other = model.bodies[k];
       if (body.is_static || k == b || body.triangle_count == 0 || other.triangle_count == 0) continue;
       const double size = std::sqrt(3.0) * (measures[b].longest_edge + measures[k].longest_edge);
-      const double margin = physics::margin_of_rounding(epsilon, size, measures[b].far + 4 * std::max(body.radius, other.radius));
+      const double margin = physics::margin_of_rounding(
+          epsilon, size, physics::rounded_from(measures[b].far, measures[b].far, std::max(body.radius, other.radius)));
       const double gap = physics::gap_of_pair(measures[b].surface, measures[k].surface);
       if (4 * margin <= gap) continue;
       told.push_back(fmt::format(

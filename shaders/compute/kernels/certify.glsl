@@ -23,7 +23,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/boxes_in_motion.glsl"
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 #include "parts/cut_before.glsl"
 
 // If the list of pairs is full, no body moves.
@@ -39,14 +39,14 @@ uint body_of(uint i) { return uint(rest_position[i].w); }
 // Whether the vertex has a flight that no round before this one has stopped.
 bool flies(uint i, uint cut_round) {
   uint b = body_of(i);
-  return has_common_way(b) && ATOMIC_LOAD(cut[flight_stop_of(vertex_count, flight_of(b))]) >= cut_round;
+  return has_flight(b) && ATOMIC_LOAD(cut[flight_stop_of(vertex_count, flight_of(b))]) >= cut_round;
 }
 
 // Whether a round before this one stopped it.
-bool flight_was_stopped(uint i, uint cut_round) { return has_common_way(body_of(i)) && !flies(i, cut_round); }
+bool lost_flight(uint i, uint cut_round) { return has_flight(body_of(i)) && !flies(i, cut_round); }
 
 bool has_changed(uint i, uint cut_round) {
-  if (cut_round == 0u || (flight_was_stopped(i, cut_round) && flies(i, cut_round - 1u))) return true;
+  if (cut_round == 0u || (lost_flight(i, cut_round) && flies(i, cut_round - 1u))) return true;
   if (ATOMIC_LOAD(cut[stop_of(vertex_count, i)]) == cut_round - 1u) return true;
   return cut_round <= plane_rounds && cut[cut_in(cut_round, vertex_count, i)] < cut_before(i, cut_round - 1u);
 }
@@ -61,22 +61,21 @@ struct Case {
 
 double sum_of_sizes(dvec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
 
-// How far the origin of its body's frame is from the world's, summed over the axes [m].
-double frame_distance_of(uint i) { return sum_of_sizes(LOAD3(pose[body_of(i)].origin, 0u)); }
+double far_centre_of(uint i) { return sum_of_sizes(LOAD3(pose[body_of(i)].origin, 0u)); }
 
 Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   Case c;
   dvec3 origin = LOAD3(start, start_position_of(who[0]));
   real size = real(0);
-  double far = sum_of_sizes(origin) + max(frame_distance_of(who[0]), frame_distance_of(who[3])) + double(4) * largest_body;
+  double far = rounded_from(sum_of_sizes(origin), max(far_centre_of(who[0]), far_centre_of(who[3])), largest_body);
   for (uint k = 0u; k < 6u; ++k) {
     c.vertex[k] = who[k];
     uint b = body_of(who[k]);
-    bool is_stopped = flight_was_stopped(who[k], cut_round);
-    c.part[k] = is_stopped && !goes_on_alone(who[k], b) ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
+    bool lost = lost_flight(who[k], cut_round);
+    c.part[k] = lost && !goes_on_alone(who[k], b) ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
-    dvec3 flight = common_way(b, place), own = LOAD3(way, force_of(who[k])), together = is_stopped ? dvec3(0) : flight;
-    if (is_stopped) own += flight;
+    dvec3 flight = flight_in_step(b, place), own = LOAD3(way, force_of(who[k])), together = lost ? dvec3(0) : flight;
+    if (lost) own += flight;
     c.motion.start[k] = real3(from);
     c.motion.end[k] = real3(from + together + double(c.part[k]) * own);
     c.together[k] = real3(together);
@@ -124,10 +123,10 @@ bool fly_together(IN(Case) c, uint cut_round) {
   return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
-// Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other. Then they are as far apart as
-// the proof found them that let them come so near. Where a million steps do not use up the margin, no other proof is needed. In fp32 it
-// could fail, too, because an axis between large triangles that are very near each other is not found well enough. Elsewhere half the
-// margin is enough. There is one call of the proof, because compilers for GPUs write it out for each.
+// Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other, and an earlier proof let them
+// come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one could fail: between large triangles
+// that are very near each other it does not find an axis well enough. Elsewhere they are proven to stand apart by half the margin.
+// There is one call of the proof, because compilers for GPUs write it out for each.
 bool are_proven(Case c, uint cut_round) {
   if (all_stopped(c)) {
     if (!flies(c.vertex[0], cut_round) && !flies(c.vertex[3], cut_round)) return true;

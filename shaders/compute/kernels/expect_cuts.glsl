@@ -30,7 +30,7 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, largest_body)  // radius at rest [m]
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 #include "parts/quantum.glsl"
 #include "parts/impulse_sums.glsl"
 
@@ -66,12 +66,14 @@ void find_energy_due(uint b) {
   if (energy > double(0)) ATOMIC_STORE(contact_list[0].has_dues, 1u);
 }
 
+double sum_of_sizes(dvec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
+
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
 void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
   dvec3 by_flight = from + together, to = by_flight + own;
   dvec3 lower = min(min(from, by_flight), to), upper = max(max(from, by_flight), to);
-  dvec3 farthest = max(abs(lower), abs(upper)), all = double(2) * farthest + abs(LOAD3(pose[b].origin, 0u));
-  double far = all.x + all.y + all.z + double(4) * largest_body;
+  dvec3 farthest = max(abs(lower), abs(upper));
+  double far = rounded_from(double(2) * sum_of_sizes(farthest), sum_of_sizes(LOAD3(pose[b].origin, 0u)), largest_body);
   dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
   cage[way_box_of(i)] = vec4(vec3(lower - slack), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(upper + slack), 0);
@@ -91,7 +93,7 @@ void expect_cuts(uint i) {
   dvec3 gone = dvec3(0);
   if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked, force_of(i)))
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
-  dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? common_way(b, from) : dvec3(0), own = gone - together;
+  dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? flight_in_step(b, from) : dvec3(0), own = gone - together;
   STORE3(way, force_of(i), own)
   double part = double(1);
   for (int k = 0; k < 3; ++k)

@@ -26,7 +26,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
 #include "parts/bound.glsl"
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 
 void empty_lists() {
   contact_list[0].triangle_pair_count = 0u;

@@ -1,7 +1,7 @@
 // One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
 // the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a bound of their
 // own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
-// meet may push each other, and how bodies that are near each other fly along.
+// meet may push each other, and which flights near bodies have.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -20,7 +20,7 @@ WRITE(step_parts)
 WRITE(room)
 WRITE(cluster)
 PARAMETER(uint, body_count)
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 
 // The largest that a number of the first box can be above one of the second.
 double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
@@ -86,11 +86,14 @@ void fly_along(uint a, uint b) {
 
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }
 
-void find_flight(uint a, uint b) {
+// Bodies within an edge of each other fly along together. One that could come as near to a static one in two steps has no flight.
+void find_flight(uint a, uint b, double distance, double speed) {
+  double edge = edge_of_pair(surface[a], surface[b]);
   if (moves(a) && moves(b)) {
+    if (distance > edge) return;
     fly_along(a, b);
     fly_along(b, a);
-  } else {
+  } else if (double(2) * speed * step_parts[0].full > distance - edge) {
     ATOMIC_STORE(cluster[flight_of(moves(a) ? a : b)].is_beside_static, 1u);
   }
 }
@@ -111,7 +114,7 @@ void limit_step(uint item) {
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
-    if (double(2) * speed * step_parts[0].full > distance - edge_of_pair(surface[a], surface[b])) find_flight(a, b);
+    find_flight(a, b, distance, speed);
     if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
     keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }

@@ -47,18 +47,18 @@ uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return other_half(from_half); }
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 #include "parts/full_lists.glsl"
 #include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
 
 dvec3 flight_of_vertex(uint i, uint b) {
   dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
-  return common_way(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
+  return flight_in_step(b, to_world(pose[b], dvec3(vec3(rest_position[i])) + displacement));
 }
 
 // What a vertex lacks of its flight because its whole body keeps its place [m]. It strains no spring.
-dvec3 missing_together(uint i, uint b) { return has_common_way(b) && stays(b) ? flight_of_vertex(i, b) : dvec3(0); }
+dvec3 missing_together(uint i, uint b) { return has_flight(b) && stays(b) ? flight_of_vertex(i, b) : dvec3(0); }
 
 // What it lacks of its own way, which is all of its way if its flight was stopped [m].
 dvec3 missing_alone(uint i, uint b) {
@@ -92,7 +92,7 @@ void note_cuts(uvec4 part, uint item) {
     if (cut[stop_of(vertex_count, i)] != at_no_cut) cuts |= at_a_cut_bit;
     if (!is_cut_short(i)) continue;
     cuts |= cut_short_bit | at_a_cut_bit;
-    if (!has_common_way(part.x)) cuts |= held_bit;
+    if (!has_flight(part.x)) cuts |= held_bit;
   }
   part_sum[item].cuts = cuts;
 }
@@ -137,11 +137,11 @@ dvec3 velocity_of_all_at_cuts(uint b) {
 void sum_lost_turning(uvec4 part, uint item) {
   dvec3 lost = dvec3(0);
   if ((part_sum[item].cuts & cut_short_bit) != 0u) {
-    dvec3 flight = velocity_of_all_at_cuts(part.x);
+    dvec3 together = velocity_of_all_at_cuts(part.x);
     for (uint i = part.y; i < part.z; ++i) {
       if (!is_cut_short(i)) continue;
       dvec3 missing = missing_alone(i, part.x) + missing_together(i, part.x);
-      lost += cross(rotate_back(pose[part.x], missing), velocity_of_vertex(i) - flight);
+      lost += cross(rotate_back(pose[part.x], missing), velocity_of_vertex(i) - together);
     }
   }
   STORE3(part_sum[item].lost_turning, 0u, lost)

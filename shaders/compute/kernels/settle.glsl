@@ -28,7 +28,7 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
-#include "parts/common_way.glsl"
+#include "parts/flight.glsl"
 #include "parts/cut_before.glsl"
 #include "parts/stays.glsl"
 #include "parts/place.glsl"
@@ -41,7 +41,7 @@ double part_left(uint i, uint b) {
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 rest = dvec3(vec3(rest_position[i])), first = LOAD3(motion, displacement_of(before));
-  dvec3 together = all_stay() || flight_was_stopped(b) ? dvec3(0) : rotate_back(pose[b], common_way(b, to_world(pose[b], rest + first)));
+  dvec3 together = all_stay() || flight_was_stopped(b) ? dvec3(0) : rotate_back(pose[b], flight_in_step(b, to_world(pose[b], rest + first)));
   dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
   world_position[after] = part == double(0) && together == dvec3(0)

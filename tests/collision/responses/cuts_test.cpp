@@ -224,6 +224,25 @@ TEST_CASE("cuts do not depend on how fast bodies fly along together") {
   }
 }
 
+// Within a step it could go past the others, some 5 m away.
+TEST_CASE("a light body that passes at a distance changes no cut") {
+  std::vector<BodySetup> setups = pocket_setups(glm::dvec3(0.0));
+  setups.push_back(soft(generate_mesh("icosphere:0"), "bullet"));
+  setups[2].description.scale = 0.1;
+  setups[2].description.total_mass = setups[2].description.total_stiffness = 1e-6;
+  setups[2].description.position = {6, 0, -176};
+  setups[2].description.velocity = {0, 0, 2000};
+  std::uint64_t cuts = 0, cuts_beside = 0;
+  const std::vector<glm::dvec3> expected = places_in_flight(ball_in_a_pocket(glm::dvec3(0.0)), glm::dvec3(0.0), 100, cuts);
+  const std::vector<glm::dvec3> places =
+      places_in_flight(build_model(setups, glm::dvec3(0.0)), glm::dvec3(0.0), 100, cuts_beside);
+  CHECK(cuts > 50);
+  CHECK(cuts_beside == cuts);
+  double most = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) most = larger(most, glm::length(places[i] - expected[i]));
+  CHECK(most < 1e-9);
+}
+
 // The boxes of the balls and of the heavy body overlap, but the bodies don't touch.
 TEST_CASE("a heavy body that passes by turns none of those that hook into each other") {
   std::vector<BodySetup> setups = pocket_setups(glm::dvec3(0.0));

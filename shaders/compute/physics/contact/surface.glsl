@@ -56,9 +56,13 @@ FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
   return b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge);
 }
 
+// What positions in the world are rounded from, summed over the axes [m]: bounds of the place in the world and of the centre of its body,
+// and the way between, which the radius at rest of the largest body bounds.
+FN double rounded_from(double in_world, double of_centre, double largest_body) { return in_world + of_centre + double(4) * largest_body; }
+
 // How far apart shadows of two triangles have to be on an axis whose components sum to 1 [m]. `size` bounds the corners' coordinates,
-// summed, about one of the corners, and `far` those of that corner in the world and about its body's centre [m]. Shadows err by at most 8
-// roundings of `size`, in numbers of this epsilon. Positions in the world err by some roundings in fp64. The margin is twice that.
+// summed, about one of the corners, and `far` is what that one is rounded from. Shadows err by at most 8 roundings of `size`, in numbers
+// of this epsilon. Positions in the world err by some roundings in fp64. The margin is twice that.
 FN double margin_of_rounding(double epsilon, double size, double far) {
   return double(16) * epsilon * size + double(64) * double(1.1e-16) * (far + size);
 }

@@ -30,10 +30,10 @@ dvec3 way_of_flight(uint b, double time_step, dvec3 from) {
   return is_in_cluster(b) ? way_of_cluster(b, time_step, from) : time_step * velocity_of_flight(b);
 }
 
-bool has_common_way(uint b) { return may_fly(b) && cluster[flight_of(b)].is_low == 0u; }
+bool has_flight(uint b) { return may_fly(b) && cluster[flight_of(b)].is_low == 0u; }
 
 // What cuts leave alone of its way, if proofs do not stop the flight [m].
-dvec3 common_way(uint b, dvec3 from) { return has_common_way(b) ? way_of_flight(b, control[0].time_step, from) : dvec3(0); }
+dvec3 flight_in_step(uint b, dvec3 from) { return has_flight(b) ? way_of_flight(b, control[0].time_step, from) : dvec3(0); }
 
 // Whether two bodies have the same flight, which leaves their distances.
 bool have_one_flight(uint a, uint b) {
