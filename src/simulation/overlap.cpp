@@ -74,14 +74,12 @@ class Search {
   }
 
  private:
-  static double sum_of_sizes(const glm::dvec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
-
   // Of triangles in two boxes that are no further apart than it [m].
   double largest_margin(const IndexedBox& a, const IndexedBox& b) const {
-    const double size = 1.01 * (sum_of_sizes(a.upper - a.lower) + sum_of_sizes(b.upper - b.lower));
+    const double size = 1.01 * (physics::sum_of_sizes(a.upper - a.lower) + physics::sum_of_sizes(b.upper - b.lower));
     const glm::dvec3 farthest =
         glm::max(glm::max(glm::abs(a.lower), glm::abs(a.upper)), glm::max(glm::abs(b.lower), glm::abs(b.upper)));
-    const double far = sum_of_sizes(farthest);
+    const double far = physics::sum_of_sizes(farthest);
     return physics::margin_of_rounding(epsilon_, size, physics::rounded_from(far, far, largest_));
   }
 
@@ -93,9 +91,9 @@ class Search {
     for (std::size_t k = 0; k < 6; ++k) {
       const std::uint32_t vertex = k < 3 ? model_.triangles[s][k] : model_.triangles[t][k - 3];
       standing.start[k] = standing.end[k] = positions_[vertex] - origin;
-      size = std::max(size, sum_of_sizes(standing.start[k]));
+      size = std::max(size, physics::sum_of_sizes(standing.start[k]));
     }
-    const double far = physics::rounded_from(sum_of_sizes(origin), sum_of_sizes(origin), largest_);
+    const double far = physics::rounded_from(physics::sum_of_sizes(origin), physics::sum_of_sizes(origin), largest_);
     standing.margin = physics::margin_of_rounding(0x1p-52, size, far);
     const double found = physics64::closest_points(standing.start).distance;
     if (may_touch(model_, positions_, s, t) && !physics64::stays_apart(standing)) {

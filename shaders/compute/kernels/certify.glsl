@@ -59,8 +59,6 @@ struct Case {
   bool outlasts_rounding;  // the margin, while only rounding in fp64 moves the triangles against each other
 };
 
-double sum_of_sizes(dvec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
-
 double far_centre_of(uint i) { return sum_of_sizes(LOAD3(pose[body_of(i)].origin, 0u)); }
 
 Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {

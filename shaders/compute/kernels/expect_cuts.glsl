@@ -66,8 +66,6 @@ void find_energy_due(uint b) {
   if (energy > double(0)) ATOMIC_STORE(contact_list[0].has_dues, 1u);
 }
 
-double sum_of_sizes(dvec3 p) { return abs(p.x) + abs(p.y) + abs(p.z); }
-
 // Rounded outward, by more than places err. Those about a body's centre err by some roundings in fp64.
 void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
   dvec3 by_flight = from + together, to = by_flight + own;

@@ -56,6 +56,8 @@ FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
   return b.inverse_mass == double(0) ? a.edge : min(a.edge, b.edge);
 }
 
+FN double sum_of_sizes(IN(dvec3) p) { return abs(p.x) + abs(p.y) + abs(p.z); }
+
 // What positions in the world are rounded from, summed over the axes [m]: bounds of the place in the world and of the centre of its body,
 // and the way between, which the radius at rest of the largest body bounds.
 FN double rounded_from(double in_world, double of_centre, double largest_body) { return in_world + of_centre + double(4) * largest_body; }
