@@ -110,13 +110,11 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
   return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2], double(debt.is_for_cuts)};
 }
 
-// Its motion means nothing if it has no bodies, and a body's flight nothing if there is none.
+// Its motion means nothing if it has no bodies, and its velocity nothing if it cannot fly.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first), double(cluster.bodies), double(cluster.is_held), double(cluster.is_low),
-                              double(cluster.is_beside_static)};
-  for (std::size_t k = 0; k < 3 && std::max(cluster.least_flight[k], 1u) <= cluster.most_flight[k]; ++k)
-    for (const std::uint32_t bits : {cluster.least_flight[k], cluster.most_flight[k]})
-      numbers.push_back(physics::from_ordered_bits(bits));
+  std::vector<double> numbers{double(cluster.first),      double(cluster.bodies), double(cluster.is_held),
+                              double(cluster.cannot_fly), double(cluster.is_low), double(cluster.island)};
+  if (cluster.cannot_fly == 0) numbers.insert(numbers.end(), cluster.island_velocity, cluster.island_velocity + 3);
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);
   numbers.insert(numbers.end(), motion.begin(), motion.end());

@@ -83,7 +83,7 @@ void expect_cuts(uint i) {
   uint b = uint(rest_position[i].w);
   if (i == 0u || uint(rest_position[i - 1u].w) != b) {
     find_energy_due(b);
-    cut[flight_stop_of(vertex_count, b)] = at_no_cut;
+    cut[flight_stop_of(vertex_count, b)] = cut[flight_stop_of(vertex_count, body_count + b)] = at_no_cut;
   }
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));

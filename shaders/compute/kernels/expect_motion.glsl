@@ -55,11 +55,11 @@ dvec3 most_push(uint b) {
                from_ordered_bits(room[b].most_push[2]));
 }
 
-// A flight near a ground is not used.
+// Flights near a ground are not used.
 void stay_above_grounds(uint b, dvec3 place) {
   for (uint g = 0u; g < ground_count; ++g)
     if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < gap_above(ground[g], surface[b]))
-      ATOMIC_STORE(cluster[flight_of(b)].is_low, 1u);
+      ATOMIC_STORE(cluster[cluster[b].island].is_low, 1u);
 }
 
 void expect_motion(uint i) {

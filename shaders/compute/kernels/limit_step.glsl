@@ -1,7 +1,7 @@
 // One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
 // the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a bound of their
 // own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
-// meet may push each other, and which flights near bodies have.
+// meet may push each other, and which bodies are one island.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -64,6 +64,8 @@ void push_away(uint a, uint b, double speed) {
   }
 }
 
+bool moves(uint b) { return surface[b].inverse_mass != double(0); }
+
 // The mean velocity of the vertices that stand for the body [m/s].
 dvec3 mean_velocity(uint b) {
   dvec3 sum = dvec3(0);
@@ -74,27 +76,32 @@ dvec3 mean_velocity(uint b) {
   return sum / double(sample_count);
 }
 
-// Extends the velocities of the first body's flight by the second one's.
-void fly_along(uint a, uint b) {
-  dvec3 velocity = mean_velocity(b);
-  for (uint k = 0u; k < 3u; ++k) {
-    uint bits = ordered_bits(float(velocity[int(k)]));
-    LOWER_TO(cluster[a].least_flight[k], bits)
-    RAISE_TO(cluster[a].most_flight[k], bits)
+// Makes two bodies one island, without locks: each body names itself or an earlier one. If it named another before, that one joins, too.
+void join(uint a, uint b) {
+  while (a != b) {
+    uint earlier = min(a, b), later = max(a, b), before = atomicMin(cluster[later].island, earlier);
+    if (before == later) return;
+    a = earlier;
+    b = before;
   }
 }
 
-bool moves(uint b) { return surface[b].inverse_mass != double(0); }
+// A body begins as an island of its own, together with its cluster. One that breaks apart does not fly. That compares bits, because
+// compilers turn comparisons of floats round as if there were no NaN.
+void begin_flight(uint b) {
+  dvec3 velocity = mean_velocity(b);
+  STORE3(cluster[b].island_velocity, 0u, velocity)
+  if (floatBitsToUint(float(sum_of_sizes(velocity))) > floatBitsToUint(1e30f)) ATOMIC_STORE(cluster[b].cannot_fly, 1u);
+  if (is_in_cluster(b)) join(b, cluster[b].first);
+}
 
 // Bodies within an edge of each other fly along together. One that could come as near to a static one in two steps has no flight.
-void find_flight(uint a, uint b, double distance, double speed) {
+void join_flights(uint a, uint b, double distance, double speed) {
   double edge = edge_of_pair(surface[a], surface[b]);
   if (moves(a) && moves(b)) {
-    if (distance > edge) return;
-    fly_along(a, b);
-    fly_along(b, a);
+    if (distance <= edge) join(a, b);
   } else if (double(2) * speed * step_parts[0].full > distance - edge) {
-    ATOMIC_STORE(cluster[flight_of(moves(a) ? a : b)].is_beside_static, 1u);
+    ATOMIC_STORE(cluster[moves(a) ? a : b].cannot_fly, 1u);
   }
 }
 
@@ -103,7 +110,7 @@ void limit_step(uint item) {
   if (a > b || (!moves(a) && !moves(b))) return;
   double longest = step_parts[0].full;
   if (a == b) {
-    fly_along(a, a);
+    begin_flight(a);
     if (pressed[a] != 0u && step_parts[0].parts + 1u - pressed[a] <= pressed_for) longest = surface[a].longest_pressed;
   } else {
     dvec3 between = way_between(a, b);
@@ -114,7 +121,7 @@ void limit_step(uint item) {
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
-    find_flight(a, b, distance, speed);
+    join_flights(a, b, distance, speed);
     if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
     keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }

@@ -23,18 +23,16 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
-void forget_flight(uint b) {
-  cluster[b].is_low = cluster[b].is_beside_static = 0u;
-  for (uint k = 0u; k < 3u; ++k) {
-    cluster[b].least_flight[k] = 0xffffffffu;
-    cluster[b].most_flight[k] = 0u;
-  }
+void leave_island(uint b) {
+  cluster[b].island = b;
+  cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
+  cluster[b].is_low = 0u;
 }
 
 void measure_motion(uint i) {
   if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
   uint b = uint(rest_position[i].w);
-  if (i == body[b].first_vertex) forget_flight(b);
+  if (i == body[b].first_vertex) leave_island(b);
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));

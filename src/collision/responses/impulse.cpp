@@ -133,6 +133,7 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
+    if (has_pairs_) passes.push_back(make_pass(arrays, "find_flights", {}, bodies_.body_count));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
@@ -287,7 +288,7 @@ class Impulse final : public Response {
     arrays.make<double>("surplus", 6 * vertices);
     arrays.make<glm::vec4>("cage", 4 * vertices);
     arrays.make<double>("way", 3 * vertices);
-    arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, bodies_.body_count));
+    arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, 2 * bodies_.body_count));
     arrays.make<std::uint32_t>("last_cut", vertices);
   }
 

@@ -171,15 +171,15 @@ TEST_CASE("bodies that begin in each other or in the ground are an error that na
   CHECK_NOTHROW(expect_apart(reflecting, start.model, {.response = {"reflect"}}, "scene.toml"));
 }
 
-// A ball lies on the ground while another one, whose step is far beyond its bound, breaks down.
+// A ball lies on the ground while another one flies beyond what places in fp32 can tell.
 TEST_CASE("after a breakdown no queued step pushes what lies on a ground") {
-  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "lying"), soft(generate_mesh("icosphere:1"), "breaking")};
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:1"), "lying"), soft(generate_mesh("icosphere:1"), "leaving")};
   setups[0].description.position = {0, 1.01, 0};
   setups[1].description.position = {50, 1e4, 0};
-  setups[1].description.stretch = {1.1, 1, 1};
-  setups[1].description.total_stiffness = 1e9;
   const GroundDescription ground;
-  const ModelAndState start = build_model(setups, {0, -9.81, 0}, {&ground, 1});
+  ModelAndState start = build_model(setups, {0, -9.81, 0}, {&ground, 1});
+  for (std::uint32_t i = start.model.bodies[1].first_vertex; i < start.model.vertex_count(); ++i)
+    start.state.motion[physics::velocity_of(i) + 1] = 3e38;
   const auto device = make_cpu_device(1, 64);
   std::vector<std::vector<double>> motions;
   std::vector<StepReport> reports;

@@ -5,8 +5,8 @@
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on.
 //   Each place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles
 //   that make nothing but this motion stay apart.
-// - Cuts leave the mean velocity of other bodies alone, too, so that they do not depend on how fast all fly along. A body and those near it
-//   have one in common.
+// - Cuts leave the velocity of an island alone, too, so that they do not depend on how fast all fly along. An island is bodies within an
+//   edge of each other, from one to the next.
 #ifndef CLUSTER_GLSL
 #define CLUSTER_GLSL
 #include "../rigid_motion.glsl"
@@ -14,21 +14,21 @@
 SHARED_BEGIN
 
 struct Cluster {
+  // Of a cluster, at its first body.
   Moments sum;         // over its bodies' vertices, times their masses, about the first body's first vertex, in the world
   RigidMotion motion;  // of all its vertices together, in the world [m], [m/s], [1/s]
   Means means;         // what its bodies' rigid motions can pay of what their deformations could not. They deform it beyond its own motion
   double mass;         // [kg]
-  uint first;          // its first body, where these sums stand
-  uint bodies;
-  uint is_held;        // 1: one of its bodies was cut short in the world
 
-  // Of a cluster, and of the body with this number if it is in none.
-  uint is_low;            // 1: its flight is not used in this step, because it is near a ground
-  uint is_beside_static;  // the same, because it is near a body that does not move
+  // Of an island, at its first body. Those of a body alone stand at the body until islands are known.
+  double island_velocity[3];  // in the world [m/s]
+  uint cannot_fly;            // 1: one of its bodies is near one that does not move, or breaks apart
+  uint is_low;                // 1: one is near a ground, so no flight is used in this step
 
-  // Of that body.
-  uint least_flight[3];  // mean velocities of it and of those near it, in the world [m/s], as bits that order as floats do
-  uint most_flight[3];   // its flight is between both. None if it is below the least
+  uint first;    // the first body of the cluster of the body with this number
+  uint island;   // the first body of its island
+  uint bodies;   // of the cluster
+  uint is_held;  // 1: one of the cluster's bodies was cut short in the world
 };
 
 SHARED_END

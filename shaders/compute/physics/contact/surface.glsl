@@ -93,8 +93,8 @@ const uint at_no_cut = cut_rounds + 1u;
 FN uint cut_in(uint row, uint vertex_count, uint i) { return row * vertex_count + i; }
 FN uint stop_of(uint vertex_count, uint i) { return cut_in(plane_rounds + 1u, vertex_count, i); }
 const uint cut_rows = plane_rounds + 2u;
-// Behind the rows stands, for a cluster's first body and for each body in none, the round in which its flight was stopped, or at_no_cut.
-FN uint flight_stop_of(uint vertex_count, uint b) { return cut_rows * vertex_count + b; }
+// Behind the rows stands, for the flight of each cluster and of each island, the round in which it was stopped, or at_no_cut.
+FN uint flight_stop_of(uint vertex_count, uint flight) { return cut_rows * vertex_count + flight; }
 // A body that was pressed keeps its bound on steps for so many more. Steps that change between long and short while bodies touch and part
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
