@@ -11,6 +11,7 @@
 #include "core/version.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/file.hpp"
+#include "simulation/start_check.hpp"
 
 namespace pliant {
 namespace {
@@ -64,10 +65,10 @@ void expect_meshes(const Checkpoint& checkpoint, const PreparedRun& run) {
                   "bring back the mesh that the run was begun with");
 }
 
+int precision_of(const Checkpoint& before) { return before.options.device.precision.value_or(32); }
+
 std::string device_of(const std::string& device, int precision) { return fmt::format("{} at precision {}", device, precision); }
-std::string device_of(const Checkpoint& before) {
-  return device_of(before.device_name, before.options.device.precision.value_or(32));
-}
+std::string device_of(const Checkpoint& before) { return device_of(before.device_name, precision_of(before)); }
 std::string device_of(const PreparedRun& now) { return device_of(now.device->info().name, now.device->precision()); }
 
 void expect_device(const RunOptions& given, const Checkpoint& before, const PreparedRun& now) {
@@ -223,6 +224,8 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
   } catch (const Error& error) {
     throw Error(error.kind(), given.resume.string(), error.what(), "");
   }
+  if (run.device->precision() < precision_of(checkpoint))
+    expect_apart(*run.simulation, run.start.model, run.scene.collision, given.resume.string());
 }
 
 CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock)
