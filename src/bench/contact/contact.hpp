@@ -51,8 +51,9 @@ struct ApartRow {
   bool parted = false;              // the bodies' boxes are apart again in the end
   bool broke_down = false;          // the run ended before, with a non-finite number or too much energy
   double momentum_change = 0;       // over the sum of m |v|
-  double momentum_change_alone =
-      0;  // the same of bodies as deformed as at most, in as long a time without contacts, by whole steps
+  // The same of bodies as deformed as at most, in as long a time without contacts, by whole steps: the largest of four times
+  // after each other, because rounding goes a short way by chance at times.
+  double momentum_change_alone = 0;
   double angular_momentum_change = 0;  // over the sum of |x x m v|
   double most_energy = 0;              // above the first, over the kinetic energy then
   double last_energy = 0;              // the same at the end
