@@ -7,7 +7,6 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/debt.glsl"
 #include "../physics/contact/part_sums.glsl"
