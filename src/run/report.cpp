@@ -105,9 +105,10 @@ std::optional<std::string> instability_of(const RunStatus& status) {
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
                        shorter_steps(report));
   if (progress.largest_growth >= told_growth)
-    return fmt::format("{}: {}", told_growth_of(progress, model),
+    return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
-                                                : "the motion is unstable, or the steps are too long for the method");
+                                                : "the motion is unstable, or the steps are too long for the method",
+                       shorter_steps(report));
   return {};
 }
 
@@ -120,7 +121,7 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   if (static_cast<double>(report.reverted_vertices) >= std::max(fewest_cuts, told_share_of_cuts * motions))
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
-                    "move too far in a step, or are pressed too hard; try {}, a larger gap or stiffer bodies{}",
+                    "move too far in a step, or are pressed too hard; try a larger gap, stiffer bodies or {}{}",
                     report.reverted_vertices, shorter_steps(report),
                     precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
   return told;
@@ -192,8 +193,10 @@ void show_progress(const RunStatus& status) {
   const bool adapts = report.adaptive.has_value();
   const double done =
       adapts ? report.time / run.plan.duration : static_cast<double>(report.steps) / static_cast<double>(run.plan.steps);
-  fmt::print(stderr, "\r{}  step {}{}  {:.1f} steps/s ", progress_bar(done), report.steps,
-             adapts ? "" : fmt::format("/{}", run.plan.steps), static_cast<double>(report.steps) / times.stepping.seconds());
+  const std::string parts = report.substeps > 0 ? fmt::format(" in {} parts", report.steps + report.substeps) : "";
+  fmt::print(stderr, "\r{}  step {}{}{}  {:.1f} steps/s ", progress_bar(done), report.steps,
+             adapts ? "" : fmt::format("/{}", run.plan.steps), parts,
+             static_cast<double>(report.steps) / times.stepping.seconds());
   if (is_interrupted() || report.breakdown || done == 1) fmt::print(stderr, "\n");
 }
 
