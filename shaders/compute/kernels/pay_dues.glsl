@@ -307,13 +307,16 @@ void find_clusters() {
   for (uint b = 0u; b < body_count; ++b) end_cluster(b);
 }
 
+// A copy, because NVIDIA's driver passes no struct of an array that is SHARED_WRITE to a function.
+Means means_of_cluster(uint b) { return cluster[cluster[b].first].means; }
+
 // What a body keeps of its rigid motion beyond that of its cluster, which is none if the body is alone.
 double kept_of_rigid(uint b, IN(Means) means) {
-  return is_in_cluster(b) ? kept_of_deformation(cluster[cluster[b].first].means) : kept_of_rigid_motion(means);
+  return is_in_cluster(b) ? kept_of_deformation(means_of_cluster(b)) : kept_of_rigid_motion(means);
 }
 
 // What all of a cluster keep of its own motion.
-double kept_together(uint b) { return is_in_cluster(b) ? kept_of_rigid_motion(cluster[cluster[b].first].means) : double(1); }
+double kept_together(uint b) { return is_in_cluster(b) ? kept_of_rigid_motion(means_of_cluster(b)) : double(1); }
 
 // The velocity that all bodies of a cluster have in common, in the body's frame [m/s].
 dvec3 common_velocity(uint b, IN(RigidMotion) of_cluster, dvec3 place) {
@@ -354,7 +357,7 @@ void note_debt(uint b) {
 
 // The motion with which a cluster goes on after it has paid.
 void slow_down_cluster(uint first) {
-  double kept = kept_of_rigid_motion(cluster[first].means);
+  double kept = kept_of_rigid_motion(means_of_cluster(first));
   dvec3 velocity = kept * LOAD3(cluster[first].motion.velocity, 0u), spin = kept * LOAD3(cluster[first].motion.spin, 0u);
   STORE3(cluster[first].motion.velocity, 0u, velocity)
   STORE3(cluster[first].motion.spin, 0u, spin)
