@@ -224,8 +224,8 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
   } catch (const Error& error) {
     throw Error(error.kind(), given.resume.string(), error.what(), "");
   }
-  if (run.device->precision() < precision_of(checkpoint))
-    expect_apart(*run.simulation, run.start.model, run.scene.collision, given.resume.string());
+  if (!is_over(run) && run.device->precision() < precision_of(checkpoint))
+    expect_provable(*run.simulation, run.start.model, run.scene.collision, given.resume.string());
 }
 
 CheckpointKeeper::CheckpointKeeper(const RunOptions& options, std::unique_ptr<FileLock> lock)

@@ -120,6 +120,17 @@ void warn_of_overlap(PreparedRun& run) {
     run.warnings.push_back(overlap);
 }
 
+void check_start(PreparedRun& run) {
+  if (run.simulation->collider().response_row().keeps_apart) {
+    expect_apart(*run.simulation, run.start.model, run.scene.collision, run.scene.file.string());
+    warn_of_near_starts(run);
+    warn_of_masses(run);
+    warn_of_rounding(run);
+  } else {
+    warn_of_overlap(run);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
@@ -143,14 +154,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_integrator(run);
   warn_of_step(run);
   warn_of_no_step(run, options);
-  if (run.simulation->collider().response_row().keeps_apart) {
-    expect_apart(*run.simulation, run.start.model, run.scene.collision, run.scene.file.string());
-    warn_of_near_starts(run);
-    warn_of_masses(run);
-    warn_of_rounding(run);
-  } else {
-    warn_of_overlap(run);
-  }
+  if (options.resume.empty()) check_start(run);  // else the run begins elsewhere
   run.build_time.stop();
   return prepared;
 }

@@ -173,4 +173,18 @@ void expect_apart(Simulation& simulation, const Model& model, const CollisionDes
   if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));
 }
 
+void expect_provable(Simulation& simulation, const Model& model, const CollisionDescription& collision,
+                     const std::string& place) {
+  if (!simulation.collider().response_row().keeps_apart) return;
+  const int precision = simulation.precision();
+  const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), collision, precision);
+  if (overlap)
+    throw Error(
+        ErrorKind::input, place,
+        fmt::format("bodies \"{}\" and \"{}\" have come as near as {:.3g} m, which is too near to prove in fp{} that they "
+                    "stay apart",
+                    model.bodies[overlap->first].name, model.bodies[overlap->second].name, overlap->distance, precision),
+        "go on with --precision 64");
+}
+
 }  // namespace pliant

@@ -1,4 +1,4 @@
-// Checks what a response needs that keeps bodies apart: bodies that are apart at the start.
+// Checks what a response needs that keeps bodies apart: bodies that are apart where a run begins or goes on.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,5 +19,9 @@ namespace pliant {
 /// tell that they are apart, though the scene's response keeps them apart. It names two bodies, how deep they are in each other,
 /// and a way out.
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
+
+/// Throws Error (input) that blames `place` if bodies that have come near each other in a run at precision 64 are too near for
+/// proofs at this simulation's precision, though the scene's response keeps them apart. It names two bodies.
+void expect_provable(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
 
 }  // namespace pliant

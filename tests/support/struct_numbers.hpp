@@ -113,7 +113,7 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
 // Its motion means nothing if it has no bodies, and its velocity nothing if it cannot fly.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
   std::vector<double> numbers{double(cluster.first),      double(cluster.bodies), double(cluster.is_held),
-                              double(cluster.cannot_fly), double(cluster.is_low), double(cluster.island)};
+                              double(cluster.cannot_fly), double(cluster.is_beside_static), double(cluster.island)};
   if (cluster.cannot_fly == 0) numbers.insert(numbers.end(), cluster.island_velocity, cluster.island_velocity + 3);
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);

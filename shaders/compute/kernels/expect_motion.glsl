@@ -55,11 +55,14 @@ dvec3 most_push(uint b) {
                from_ordered_bits(room[b].most_push[2]));
 }
 
-// Flights near a ground are not used.
-void stay_above_grounds(uint b, dvec3 place) {
-  for (uint g = 0u; g < ground_count; ++g)
-    if (dot(LOAD3(ground[g].normal, 0u), place) - ground[g].offset < gap_above(ground[g], surface[b]))
-      ATOMIC_STORE(cluster[cluster[b].island].is_low, 1u);
+// An island of which a cage comes near a ground has no flight.
+void stay_above_grounds(uint b, dvec3 lower, dvec3 upper) {
+  dvec3 centre = double(0.5) * (lower + upper), half_size = double(0.5) * (upper - lower);
+  for (uint g = 0u; g < ground_count; ++g) {
+    dvec3 normal = LOAD3(ground[g].normal, 0u);
+    double height = dot(normal, centre) - dot(abs(normal), half_size) - ground[g].offset;
+    if (height < gap_above(ground[g], surface[b])) ATOMIC_STORE(cluster[cluster[b].island].is_beside_static, 1u);
+  }
 }
 
 void expect_motion(uint i) {
@@ -81,9 +84,9 @@ void expect_motion(uint i) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
     dvec3 most = max(dvec3(double(0.5) * surface[b].edge), abs(way)), beyond = dvec3(reach_beyond(b));
     dvec3 together = may_fly(b) ? way_of_flight(b, time_step, position) : dvec3(0);
-    stay_above_grounds(b, position + together);
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
+    stay_above_grounds(b, lower, upper);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7);

@@ -3,17 +3,13 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/surface.glsl"
 WRITE(control)
-WRITE(contact_list)
 READ(near_pair)
-READ(node)
 READ(node_box)
-READ(triangle_bounds)
 WRITE(leaf_pair)
-WRITE(triangle_pair)
 PARAMETER(uint, leaf_pair_capacity)
-PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, first_start)
 PARAMETER(uint, start_count)  // subtrees of a body
 PARAMETER(uint, pairs_at_once)  // threads go on to later pairs in strides of this

@@ -3,14 +3,12 @@
 // own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
 // meet may push each other, and which bodies are one island.
 #include "../physics/body.glsl"
-#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 READ(body)
-READ(control)
 READ(surface)
 READ(start)
 READ(body_box)
@@ -20,7 +18,7 @@ WRITE(step_parts)
 WRITE(room)
 WRITE(cluster)
 PARAMETER(uint, body_count)
-#include "parts/flight.glsl"
+#include "parts/is_in_cluster.glsl"
 
 // The largest that a number of the first box can be above one of the second.
 double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
@@ -95,16 +93,6 @@ void begin_flight(uint b) {
   if (is_in_cluster(b)) join(b, cluster[b].first);
 }
 
-// Bodies within an edge of each other fly along together. One that could come as near to a static one in two steps has no flight.
-void join_flights(uint a, uint b, double distance, double speed) {
-  double edge = edge_of_pair(surface[a], surface[b]);
-  if (moves(a) && moves(b)) {
-    if (distance <= edge) join(a, b);
-  } else if (double(2) * speed * step_parts[0].full > distance - edge) {
-    ATOMIC_STORE(cluster[moves(a) ? a : b].cannot_fly, 1u);
-  }
-}
-
 void limit_step(uint item) {
   uint a = item / body_count, b = item % body_count;
   if (a > b || (!moves(a) && !moves(b))) return;
@@ -121,7 +109,7 @@ void limit_step(uint item) {
       push_away(a, b, speed);
       push_away(b, a, speed);
     }
-    join_flights(a, b, distance, speed);
+    if (moves(a) && moves(b) && distance <= edge_of_pair(surface[a], surface[b])) join(a, b);
     if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
     keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
   }

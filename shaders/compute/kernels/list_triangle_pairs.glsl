@@ -3,15 +3,11 @@
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
 #include "../physics/contact/surface.glsl"
 READ(control)
-WRITE(contact_list)
 READ(leaf_pair)
-READ(node)
-READ(triangle_bounds)
-WRITE(triangle_pair)
 PARAMETER(uint, leaf_pair_capacity)
-PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, pairs_at_once)
 #include "parts/list_triangles.glsl"
 

@@ -26,7 +26,7 @@ PARAMETER(uint, from_half)
 void leave_island(uint b) {
   cluster[b].island = b;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
-  cluster[b].is_low = 0u;
+  cluster[b].is_beside_static = 0u;
 }
 
 void measure_motion(uint i) {

@@ -115,6 +115,7 @@ class Impulse final : public Response {
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
     smallest_gap_ = smallest_gap(surfaces);
     bodies_.arrays.make("surface", surfaces);
+    bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     make_grounds(setting);
     make_step_parts();
     make_motions();
@@ -133,7 +134,7 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
-    if (has_pairs_) passes.push_back(make_pass(arrays, "find_flights", {}, bodies_.body_count));
+    if (bodies_.body_count > 1) passes.push_back(make_pass(arrays, "find_flights", {}, bodies_.body_count));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",

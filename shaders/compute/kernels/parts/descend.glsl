@@ -17,10 +17,10 @@ bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
 }
 
 // Returns how many pairs of nodes it tested.
-uint descend(uvec2 start) {
+uint descend(uvec2 roots) {
   uvec2 stack[130];  // a descent opens one node and pushes two, so it needs at most the depths of both trees, 64 each, and one
   int top = 0;
-  stack[0] = start;
+  stack[0] = roots;
   uint tests = 0u;
   while (top >= 0) {
     uvec2 at = stack[top--];
@@ -46,9 +46,9 @@ void descend_trees(uint item) {
   uint tests = 0u;
   uint subtree = item % (start_count * start_count);
   for (uint k = item / (start_count * start_count); k < control[0].near_pair_count; k += pairs_at_once) {
-    uvec2 start = uvec2(node[first_start + near_pair[k].x * start_count + subtree % start_count].x,
+    uvec2 roots = uvec2(node[first_start + near_pair[k].x * start_count + subtree % start_count].x,
                         node[first_start + near_pair[k].y * start_count + subtree / start_count].x);
-    if (start.x != no_node && start.y != no_node) tests += descend(start);
+    if (roots.x != no_node && roots.y != no_node) tests += descend(roots);
   }
   if (tests != 0u) atomicAdd(control[0].count[node_tests], tests);
 }

@@ -1,4 +1,5 @@
-bool is_in_cluster(uint b) { return cluster[body_count].bodies != 0u && cluster[cluster[b].first].bodies != 0u; }
+// Which motion cuts leave alone. Needs the arrays `cluster` and `control`.
+#include "is_in_cluster.glsl"
 
 // Which flight the body has: those of clusters come first, then those of islands.
 uint flight_of(uint b) { return is_in_cluster(b) ? cluster[b].first : body_count + cluster[b].island; }
@@ -13,7 +14,7 @@ dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   return time_step * LOAD3(of_cluster.velocity, 0u) + turn;
 }
 
-// Whether cuts leave a motion of the body alone, but for grounds near its island.
+// Whether its island may have a flight. What does not move is not asked for yet.
 bool may_fly(uint b) { return cluster[cluster[b].island].cannot_fly == 0u; }
 
 // That motion, as the way of a place in the world [m]. May be asked only if there is one.
@@ -21,7 +22,7 @@ dvec3 way_of_flight(uint b, double time_step, dvec3 from) {
   return is_in_cluster(b) ? way_of_cluster(b, time_step, from) : time_step * LOAD3(cluster[cluster[b].island].island_velocity, 0u);
 }
 
-bool has_flight(uint b) { return may_fly(b) && cluster[cluster[b].island].is_low == 0u; }
+bool has_flight(uint b) { return may_fly(b) && cluster[cluster[b].island].is_beside_static == 0u; }
 
 // What cuts leave alone of its way, if proofs do not stop the flight [m].
 dvec3 flight_in_step(uint b, dvec3 from) { return has_flight(b) ? way_of_flight(b, control[0].time_step, from) : dvec3(0); }

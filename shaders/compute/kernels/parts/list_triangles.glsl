@@ -1,6 +1,41 @@
 // Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
-// `first` on. Pairs are counted beyond the list's end, too, which says that it is full.
+// `first` on. Pairs are counted beyond the list's end, too, which says that it is full. An island of which a triangle could reach a static
+// one has no flight.
+READ(node)
+READ(triangle_bounds)
+READ(triangle)
+READ(rest_position)
+READ(surface)
+READ(start)
+WRITE(contact_list)
+WRITE(triangle_pair)
+WRITE(cluster)
+PARAMETER(uint, triangle_pair_capacity)
+PARAMETER(uint, has_static_bodies)
 #include "kept_boxes.glsl"
+
+dvec3 corner_at(uint t, uint k) { return LOAD3(start, start_position_of(triangle[corner_of(t, k)])); }
+
+// Whether the cage of a triangle meets the plane of another one.
+bool meets_plane(uint of_cage, uint of_plane) {
+  PaddedBox cage = kept_box(triangle_cage_of(of_cage));
+  dvec3 lower = dvec3(vec3(cage.lower)), upper = dvec3(vec3(cage.upper)), corner = corner_at(of_plane, 0u);
+  dvec3 normal = cross(corner_at(of_plane, 1u) - corner, corner_at(of_plane, 2u) - corner);
+  return abs(dot(normal, double(0.5) * (lower + upper) - corner)) <= dot(abs(normal), double(0.5) * (upper - lower));
+}
+
+// The pairs are of s and of those triangles from t on that are set in `near`.
+void stay_beside_static(uint s, uint t, uint near) {
+  uint a = uint(rest_position[triangle[corner_of(s, 0u)]].w), b = uint(rest_position[triangle[corner_of(t, 0u)]].w);
+  bool moves_a = surface[a].inverse_mass != double(0), moves_b = surface[b].inverse_mass != double(0);
+  if (moves_a && moves_b) return;
+  bool reaches = false;
+  for (; near != 0u && !reaches; near &= near - 1u) {
+    uint other = t + uint(findLSB(near));
+    reaches = moves_a ? meets_plane(s, other) : meets_plane(other, s);
+  }
+  if (reaches) ATOMIC_STORE(cluster[cluster[moves_a ? a : b].island].is_beside_static, 1u);
+}
 
 // Lists pairs of s with those of up to 32 triangles from t on that are set in `near`.
 void list_pairs(uint s, uint t, uint near, uint meeting) {
@@ -25,6 +60,7 @@ void list_triangles(uvec2 leaves, uint first, uint stride) {
         if (overlaps(ways, kept_box(triangle_way_box_of(t + k)))) meeting |= 1u << k;
       }
       if (near != 0u) list_pairs(s, t, near, meeting);
+      if (near != 0u && has_static_bodies != 0u) stay_beside_static(s, t, near);
     }
   }
 }
