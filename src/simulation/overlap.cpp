@@ -2,7 +2,6 @@
 #include "simulation/overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -74,7 +73,7 @@ class Search {
   }
 
  private:
-  // Of triangles in two boxes that are no further apart than it [m].
+  // The margin of proofs for a triangle of each box, at most, where the boxes are no further apart than that [m].
   double largest_margin(const IndexedBox& a, const IndexedBox& b) const {
     const double size = 1.01 * (physics::sum_of_sizes(a.upper - a.lower) + physics::sum_of_sizes(b.upper - b.lower));
     const glm::dvec3 farthest =

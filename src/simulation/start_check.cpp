@@ -107,7 +107,7 @@ double longest_edge(const Model& model, const ModelBody& body) {
 double distance_from_origin(const ModelBody& body, std::span<const glm::dvec3> positions) {
   double farthest = 0;
   for (const glm::dvec3& p : positions.subspan(body.first_vertex, body.vertex_count))
-    farthest = std::max(farthest, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+    farthest = std::max(farthest, physics::sum_of_sizes(p));
   return farthest;
 }
 

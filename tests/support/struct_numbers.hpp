@@ -1,7 +1,6 @@
 // What the structs of arrays hold, as numbers that two devices can be compared by. Paddings are left out, and so is what differs
 // by the order of threads.
 #pragma once
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>

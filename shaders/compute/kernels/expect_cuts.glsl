@@ -4,7 +4,6 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"

@@ -1,7 +1,6 @@
-// One thread serves one body. It finds the first one of its island. The thread of that one finds the velocity of all, by their masses, and
-// whether one of them cannot fly.
+// One thread serves one body. It finds the first one of its island. The thread of that one finds the mean velocity of all, by their masses,
+// and whether one of them breaks apart.
 #include "../physics/body.glsl"
-#include "../physics/layout.glsl"
 #include "../physics/contact/cluster.glsl"
 READ(body)
 READ(status)

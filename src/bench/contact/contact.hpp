@@ -52,7 +52,7 @@ struct ApartRow {
   bool broke_down = false;          // the run ended before, with a non-finite number or too much energy
   double momentum_change = 0;       // over the sum of m |v|
   // The same of bodies as deformed as at most, in as long a time without contacts, by whole steps: the largest of four times
-  // after each other, because rounding goes a short way by chance at times.
+  // after each other, because one random walk may be short.
   double momentum_change_alone = 0;
   double angular_momentum_change = 0;  // over the sum of |x x m v|
   double most_energy = 0;              // above the first, over the kinetic energy then

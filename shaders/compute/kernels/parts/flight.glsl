@@ -14,7 +14,7 @@ dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   return time_step * LOAD3(of_cluster.velocity, 0u) + turn;
 }
 
-// Whether its island may have a flight. What does not move is not asked for yet.
+// Whether the body's island may have a flight, before it is known whether a static triangle or a ground is in reach.
 bool may_fly(uint b) { return cluster[cluster[b].island].cannot_fly == 0u; }
 
 // That motion, as the way of a place in the world [m]. May be asked only if there is one.

@@ -1,12 +1,12 @@
 // How bodies fly. A cluster is bodies that owe for motions cut short, and those near them that were at a cut.
-// - None of a cluster can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions have
-//   beyond that of all of them as one keeps both momenta if it is scaled. If one of them was cut short in the world, beside what does not
-//   move, they also pay with that of all.
+// - None of a cluster can pay with its own rigid motion, because that would change momentum. Together they can: what their rigid motions
+//   have beyond that of all of them as one keeps both momenta if it is scaled. If one of them was cut short in the world, they also pay
+//   with that of all.
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on.
 //   Each place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles
 //   that make nothing but this motion stay apart.
-// - Cuts leave the velocity of an island alone, too, so that they do not depend on how fast all fly along. An island is bodies within an
-//   edge of each other, from one to the next.
+// - Cuts leave the velocity of an island alone, too, so that they do not depend on how fast all fly along. An island is bodies whose boxes
+//   are within an edge of each other, from one to the next.
 #ifndef CLUSTER_GLSL
 #define CLUSTER_GLSL
 #include "../rigid_motion.glsl"
@@ -17,11 +17,11 @@ struct Cluster {
   // Of a cluster, at its first body.
   Moments sum;         // over its bodies' vertices, times their masses, about the first body's first vertex, in the world
   RigidMotion motion;  // of all its vertices together, in the world [m], [m/s], [1/s]
-  Means means;         // what its bodies' rigid motions can pay of what their deformations could not. They deform it beyond its own motion
+  Means means;         // of the cluster as one body, whose deformation is what its bodies' rigid motions have beyond `motion`
   double mass;         // [kg]
 
   // Of an island, at its first body. Those of a body alone stand at the body until islands are known.
-  double island_velocity[3];  // in the world [m/s]
+  double island_velocity[3];  // of its bodies by their masses, at the step's start, in the world [m/s]
   uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
   uint is_beside_static;      // 1: one could reach a static body or a ground in this step, so it has no flight
 

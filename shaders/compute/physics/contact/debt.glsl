@@ -15,7 +15,7 @@ struct Debt {
 struct Means {
   double deformation;  // kinetic energy of the velocities less the rigid motion
   double rigid;        // kinetic energy of the rigid motion, if it may be taken; else 0
-  double missed;       // the part of that energy which cuts kept from moving anything
+  double missed;       // the part of that energy in ways not made: m v . missing / (2 h), summed
   double due;
 };
 

@@ -5,7 +5,7 @@
 SHARED_BEGIN
 
 // What happened to motions in a step, as bits: some were cut short, or those of what they would have met. Some were cut short in the world,
-// beside what does not move.
+// because their island has no flight.
 const uint cut_short_bit = 1u;
 const uint at_a_cut_bit = 2u;
 const uint held_bit = 4u;
