@@ -89,23 +89,28 @@ inline EnergySwing energy_swing_of(Simulation& simulation, const ModelAndState& 
   return swing;
 }
 
+// What a run had done when it was saved, and by its end.
+struct SavedRun {
+  StepReport saved, last;
+};
+
 // Checks that a run ends in the same bits on one thread, on three, and when it was saved after `saved_at` steps and goes on in
-// another simulation. Returns what the run had done by then.
-inline StepReport check_same_bits(const ModelAndState& start, const Method& method, const CollisionDescription& collision,
-                                  std::uint64_t saved_at, std::uint64_t steps) {
+// another simulation.
+inline SavedRun check_same_bits(const ModelAndState& start, const Method& method, const CollisionDescription& collision,
+                                std::uint64_t saved_at, std::uint64_t steps) {
   const auto simulation_on = [&](Device& device) {
     return std::make_unique<Simulation>(device, start.model, start.state, plan_of(method), collision);
   };
   const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
   const auto whole = simulation_on(*one), shared_out = simulation_on(*three), resumed = simulation_on(*one);
   whole->advance(saved_at);
-  StepReport report = whole->report();
+  const StepReport saved = whole->report();
   resumed->restore(whole->save());
   for (const auto& simulation : {whole.get(), resumed.get()}) simulation->advance(steps - saved_at);
   shared_out->advance(steps);
   CHECK(shared_out->state().motion == whole->state().motion);
   CHECK(resumed->state().motion == whole->state().motion);
-  return report;
+  return {saved, whole->report()};
 }
 
 }  // namespace pliant

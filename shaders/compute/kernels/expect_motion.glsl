@@ -56,7 +56,7 @@ dvec3 most_push(uint b) {
 }
 
 // An island of which a cage comes near a ground has no flight.
-void stay_above_grounds(uint b, dvec3 lower, dvec3 upper) {
+void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
   dvec3 centre = double(0.5) * (lower + upper), half_size = double(0.5) * (upper - lower);
   for (uint g = 0u; g < ground_count; ++g) {
     dvec3 normal = LOAD3(ground[g].normal, 0u);
@@ -86,7 +86,7 @@ void expect_motion(uint i) {
     dvec3 together = may_fly(b) ? way_of_flight(b, time_step, position) : dvec3(0);
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
-    stay_above_grounds(b, lower, upper);
+    end_flight_near_grounds(b, lower, upper);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7);

@@ -270,13 +270,14 @@ TEST_CASE("bodies that hook into each other outlast empty steps") {
 }
 
 TEST_CASE("paying for cuts gives the same bits on any number of threads, and after saving") {
+  const CollisionDescription by_default = {.response = {"impulse"}, .gap = 0.01};
   const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.01};
-  const StepReport saved = check_same_bits(ball_over_knob(3000, 0.12), {"verlet", 0.01}, without_bounce, 200, 260);
-  CHECK(saved.reverted_vertices > 0);
-  CHECK(check_same_bits(ball_in_a_pocket({0, 20, 6}), {"verlet", 0.004}, {.response = {"impulse"}, .gap = 0.01}, 100, 160)
-            .reverted_vertices > 0);
-  CHECK(check_same_bits(pocket_before_wall(20, 2.6), {"verlet", 0.004}, {.response = {"impulse"}, .gap = 0.01}, 60, 120)
-            .reverted_vertices > 0);
+  for (const SavedRun& run : {check_same_bits(ball_over_knob(3000, 0.12), {"verlet", 0.01}, without_bounce, 200, 260),
+                              check_same_bits(ball_in_a_pocket({0, 20, 6}), {"verlet", 0.004}, by_default, 100, 160),
+                              check_same_bits(pocket_before_wall(20, 2.6), {"verlet", 0.004}, by_default, 60, 120)}) {
+    CHECK(run.saved.reverted_vertices > 0);
+    CHECK(run.last.reverted_vertices > run.saved.reverted_vertices);
+  }
 }
 
 TriangleMesh level_sheet(std::uint32_t squares) {

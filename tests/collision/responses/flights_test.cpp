@@ -56,7 +56,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("no body of an island flies if a triangle or a ground is in reach of one of them, and boxes do not matter") {
+TEST_CASE(
+    "an island has no flight if a triangle or a ground is near one of its bodies, and a static body's box alone does not "
+    "matter") {
   struct Place {
     double x;
     bool has_ground, is_in_reach;
@@ -229,7 +231,7 @@ TEST_CASE(
       glm::dvec3 turning_before_cuts;
       for (const Pass& pass : cpu.step(step & 1)) {
         cpu.device->run({&pass, 1});
-        // others of the two go their own ways until they are cut at the block
+        // proofs cut the remaining vertices of the two at the block
         if (flies && pass.name == "expect_cuts") cut_by_hand(cut, of_both - start.model.bodies[1].vertex_count / 2);
         if (pass.name != "certify") continue;
         was_stopped = flies && cut.download()[physics::flight_stop_of(cpu.bodies.vertex_count, 0)] != physics::at_no_cut;

@@ -102,8 +102,8 @@ TEST_CASE("a ball leaves a ground, and a static body, with what its restitution 
 
 TEST_CASE("impacts with restitution give the same bits on any number of threads, and after saving amid one") {
   const ModelAndState start = spheres_in_flight(0.2, total_stiffness, 0.5, 0.3);
-  const StepReport saved = check_same_bits(start, {"verlet", 0.3 / omega}, by_impulses, 20, 60);
-  CHECK(saved.contact_steps > 5);
+  const SavedRun run = check_same_bits(start, {"verlet", 0.3 / omega}, by_impulses, 20, 60);
+  CHECK(run.saved.contact_steps > 5);
 }
 
 }  // namespace

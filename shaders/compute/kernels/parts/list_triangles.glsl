@@ -1,6 +1,6 @@
 // Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
-// `first` on. Pairs are counted beyond the list's end, too, which says that it is full. An island of which a triangle could reach a static
-// one has no flight.
+// `first` on. Pairs are counted beyond the list's end, too, which says that it is full. An island has no flight if the cage of one of its
+// triangles overlaps that of a static one and meets its plane.
 READ(node)
 READ(triangle_bounds)
 READ(triangle)
@@ -25,7 +25,7 @@ bool meets_plane(uint of_cage, uint of_plane) {
 }
 
 // The pairs are of s and of those triangles from t on that are set in `near`.
-void stay_beside_static(uint s, uint t, uint near) {
+void end_flight_beside_static(uint s, uint t, uint near) {
   uint a = uint(rest_position[triangle[corner_of(s, 0u)]].w), b = uint(rest_position[triangle[corner_of(t, 0u)]].w);
   bool moves_a = surface[a].inverse_mass != double(0), moves_b = surface[b].inverse_mass != double(0);
   if (moves_a && moves_b) return;
@@ -60,7 +60,7 @@ void list_triangles(uvec2 leaves, uint first, uint stride) {
         if (overlaps(ways, kept_box(triangle_way_box_of(t + k)))) meeting |= 1u << k;
       }
       if (near != 0u) list_pairs(s, t, near, meeting);
-      if (near != 0u && has_static_bodies != 0u) stay_beside_static(s, t, near);
+      if (near != 0u && has_static_bodies != 0u) end_flight_beside_static(s, t, near);
     }
   }
 }
