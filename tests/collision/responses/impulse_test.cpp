@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "bench/contact/encounter.hpp"
 #include "bench/contact/meeting.hpp"
 #include "support/collision_scene.hpp"
 #include "support/device_bench.hpp"
@@ -23,6 +24,18 @@ bench::Seen watch(Device& device, const ModelAndState& start, const Method& meth
 bench::Seen watch(Device& device, const ModelAndState& start, const Adaptive& method, double duration) {
   Simulation simulation(device, start.model, start.state, plan_of(method, start.model), by_impulses);
   return bench::watch_for(simulation, start, duration);
+}
+
+// How much rounding changes the momentum of bodies that vibrate as much, without contact, over the sum of m |v| at the start. It
+// is a random walk, so the longest of four counts. Steps have the mean length of those seen.
+double momentum_change_alone(Device& device, const ModelAndState& start, const bench::Seen& seen, const Adaptive& method) {
+  const double time_step = seen.report.time / static_cast<double>(seen.report.steps);
+  Simulation simulation(device, start.model, seen.most_deformed, plan_of(Method{method.integrator, time_step}),
+                        {.response = {"none"}});
+  double most = 0;
+  for (int walk = 0; walk < 4; ++walk)
+    most = larger(most, bench::most_change_of_momentum(simulation, start.model, seen.report.steps, {}));
+  return most / bench::sum_of_momenta(start.model, start.state);
 }
 
 // Spheres that meet off their centres, with this part of an edge a step against each other.
@@ -71,18 +84,36 @@ TEST_CASE("long steps fall into parts while bodies touch, so that impacts make n
   }
 }
 
+// Springs press a surface on as it bounces. An impulse that threw it back as fast as it will come on average would give energy.
+TEST_CASE("surfaces that bounce without loss make no energy") {
+  const bench::Partner sphere{.mesh = generate_mesh("icosphere:2")};
+  for (const double omega_step : {0.5, 1.2}) {
+    for (const double edges_a_step : {0.05, 0.2}) {
+      CAPTURE(omega_step, edges_a_step);
+      const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = edges_a_step, .omega_step = omega_step});
+      const auto device = make_cpu_device(1, 64);
+      const bench::Seen seen = watch(*device, meeting.start, Method{"cv8", meeting.time_step}, 120,
+                                     {.response = {"impulse"}, .elasticity = 1, .friction = 0});
+      CHECK(seen.report.contact_steps > 10);
+      CHECK(seen.most_energy < 1e-3);
+      CHECK(seen.last_energy < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("steps that a tolerance governs keep bodies apart, too, and a kick is undone with its step") {
   for (const int precision : {64, 32}) {
     const auto device = make_cpu_device(1, precision);
     for (const double speed : {0.02, 0.5, 10.0}) {
       CAPTURE(precision, speed);
       const ModelAndState start = meeting_spheres(1, speed, 0.5 / omega);
-      const bench::Seen seen = watch(*device, start, Adaptive{.tolerance = precision == 64 ? 1e-9 : 1e-5}, 100 * 0.5 / omega);
+      const Adaptive method{.tolerance = precision == 64 ? 1e-9 : 1e-5};
+      const bench::Seen seen = watch(*device, start, method, 100 * 0.5 / omega);
       CHECK(seen.touching == 0);
       CHECK(seen.inside == 0);
       CHECK(seen.report.contact_steps > 0);
-      if (speed > 1) CHECK(seen.report.adaptive->rejected > 0);        // slow ones foresee all
-      CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 1e-7));  // of the springs' forces in fp32
+      if (speed > 1) CHECK(seen.report.adaptive->rejected > 0);  // slow ones foresee all
+      CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 2 * momentum_change_alone(*device, start, seen, method)));
       CHECK(seen.most_energy < 1e-3);
     }
   }
@@ -206,12 +237,14 @@ TEST_CASE("spheres that dent each other by edges part again, and hardly a motion
   CHECK(bench::ApartOracle(meeting.start.model).have_parted(simulation.state().world_positions(meeting.start.model)));
 }
 
+// A device's roundings can let a contact bounce a step sooner, the more so the deeper bodies dent each other. So these meet
+// slowly.
 TEST_CASE("contact by impulses gives the same bits on any number of threads, and the same motion on a GPU", "[gl]") {
   const double time_step = 0.5 / omega;
-  const ModelAndState start = meeting_spheres(2, 0.1, time_step);
+  const ModelAndState start = meeting_spheres(2, 0.05, time_step);
   const auto state_on = [&](Device& device) {
     Simulation simulation(device, start.model, start.state, plan_of(Method{"verlet", time_step}), by_impulses);
-    simulation.advance(60);
+    simulation.advance(100);
     CHECK(simulation.report().contact_steps > 10);
     return simulation.state();
   };
@@ -225,14 +258,15 @@ TEST_CASE("contact by impulses gives the same bits on any number of threads, and
   CHECK(largest < 1e-6);
 }
 
-// Bits differ, because leaves decide which triangle has an edge, and contacts are rounded about its corner.
+// Bits differ, because leaves decide which triangle has an edge, and contacts are rounded about its corner. In fp32 that can let
+// a contact bounce a step sooner.
 TEST_CASE("contact by impulses gives the same motion however many triangles a leaf has") {
   const double time_step = 0.5 / omega;
   const ModelAndState start = meeting_spheres(2, 0.1, time_step);
   const auto places_by = [&](unsigned leaf_size) {
     CollisionDescription collision = by_impulses;
     collision.tree.leaf_size = leaf_size;
-    const auto device = make_cpu_device(1, 32);
+    const auto device = make_cpu_device(1, 64);
     Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", time_step}), collision);
     simulation.advance(60);
     CHECK(simulation.report().contact_steps > 10);
@@ -244,7 +278,7 @@ TEST_CASE("contact by impulses gives the same motion however many triangles a le
     double largest = 0;
     for (std::size_t i = 0; i < places.size(); ++i) largest = larger(largest, glm::length(places[i] - expected[i]));
     CAPTURE(leaf_size);
-    CHECK(largest < 1e-6);
+    CHECK(largest < 1e-12);
   }
 }
 

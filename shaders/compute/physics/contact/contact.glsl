@@ -45,13 +45,15 @@ FN bool rests(IN(Course) c) { return abs(c.was) < abs(c.surplus) || c.was_cut; }
 
 // Returns the least velocity along the normal that the contact asks for [m/s].
 // - Points may come as near as the gap, and lost gap comes back slowly, however short steps are.
-// - If they would pass the gap, they part again with the elasticity's part of their approach. Points at rest do not bounce.
+// - If they would pass the gap, they part again with the elasticity's part of their approach, but not so fast that the impulse gives
+//   energy. Points at rest do not bounce.
 FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real need = (a.gap - c.distance) / a.time_step;
   if (c.distance > a.gap && c.distance < real(1.5) * a.gap) need *= real(0.05);
   real mean = need;
   real kept = rests(c) ? real(0) : a.elasticity;
-  if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, -kept * c.was);
+  real parting = min(-kept * c.was, max(c.surplus - kept * c.velocity, real(0)));
+  if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, parting);
   real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;
 }
