@@ -36,6 +36,8 @@ void empty_lists() {
   contact_list[0].is_tried = control[0].time_step > double(0) ? 1u : 0u;
   contact_list[0].presses = 0u;
   contact_list[0].unsettled_round = 0u;
+  contact_list[0].bounces_from = no_round;
+  contact_list[0].bounce_round = no_round;
   contact_list[0].has_dues = 0u;
 }
 

@@ -37,10 +37,24 @@ PARAMETER(double, least_speed)
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
 
-// The last round follows one in which all contacts had settled. While it runs, nobody notes a contact that has not, so all threads find the
-// same answer. In any other round the note only grows, which leaves the answer no.
+bool has_bounced(uint kick_round) { return bounce_round() < kick_round; }
+
+// Whether all contacts had settled by the last round. While a round runs of which this is true, nobody notes a contact that has not, so all
+// threads find the same answer. In any other round the note only grows, which leaves the answer no.
+bool have_settled(uint kick_round) {
+  uint fewest = has_bounced(kick_round) ? bounce_round() + fewest_rounds_after_bounce : fewest_kick_rounds;
+  return kick_round + 1u >= fewest && unsettled_round() + 2u <= kick_round;
+}
+
+// Whether impulses bounce in this round. It may have been noted meanwhile.
+bool is_bounce(uint kick_round) {
+  if (has_bounced(kick_round) || bounces_from() >= kick_round) return false;
+  if (kick_round + fewest_rounds_after_bounce >= most_kick_rounds) return false;
+  return bounce_round() == kick_round || kick_round == latest_bounce || have_settled(kick_round);
+}
+
 bool is_last(uint kick_round) {
-  return kick_round + 1u >= fewest_kick_rounds && (unsettled_round() + 2u <= kick_round || kick_round + 1u == most_kick_rounds);
+  return !is_bounce(kick_round) && (have_settled(kick_round) || kick_round + 1u == most_kick_rounds);
 }
 bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1u); }
 
@@ -111,6 +125,8 @@ struct Held {
   real4 resistance;
   real4 impulse;
   real4 ahead;
+  real bounce;
+  real least_impulse;
   real per_quantum;
 };
 PRIVATE(Held, held)
@@ -123,6 +139,9 @@ void fetch(uint c, uint kick_round) {
   held.goal_row = contact_row[contact_rows * c + 2u];
   held.resistance = contact_row[contact_rows * c + 3u];
   held.impulse = impulse_row[c];
+  real4 bounce_row = contact_row[contact_rows * c + 5u];
+  held.bounce = bounce_row.x;
+  held.least_impulse = bounce_row.y;
   held.per_quantum = real(1) / real(quantum());
   held.ahead = held.impulse;
   if (kick_round > 0u) {
@@ -135,6 +154,7 @@ void fetch(uint c, uint kick_round) {
 
 void store(uint c) {
   contact_row[contact_rows * c + 4u] = held.ahead;
+  contact_row[contact_rows * c + 5u] = real4(held.bounce, held.least_impulse, 0, 0);
   impulse_row[c] = held.impulse;
 }
 
@@ -143,10 +163,16 @@ void note_end(uint c, bool is_unsettled) {
   if (is_unsettled) atomicAdd(control[0].count[unsettled_contacts], 1u);
 }
 
+void bounce(uint kick_round) {
+  note_bounce(kick_round);
+  if (held.bounce > real(1)) held.impulse.x = held.least_impulse = held.bounce * held.impulse.x;
+  held.ahead = held.impulse;
+}
+
 void answer(uint c, uint kick_round, bool ends) {
   real4 had = held.ahead, before = held.impulse;
   real3 change = relative_change(held.place, held.weight, held.resistance, buffer_of(kick_round));
-  held.impulse = next_impulse(had, held.normal_row, held.goal_row, change, held.resistance.z);
+  held.impulse = next_impulse(had, held.normal_row, held.goal_row, change, held.resistance.z, held.least_impulse);
   held.ahead = held.impulse;
   real4 change_of_impulse = held.impulse - had;
   bool changes = dot(change_of_impulse, change_of_impulse) > held.resistance.w * held.resistance.w;
@@ -154,8 +180,14 @@ void answer(uint c, uint kick_round, bool ends) {
     note_end(c, changes && kick_round + 1u == most_kick_rounds);
     return;
   }
+  if (is_bounce(kick_round)) {
+    bounce(kick_round);
+    return;
+  }
+  if (held.bounce > real(1) && held.impulse.x > real(0)) note_bouncing(kick_round);
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
-  if (!turns) held.ahead += momentum_after(kick_round) * (held.impulse - before);
+  uint first = has_bounced(kick_round) ? bounce_round() : 0u;
+  if (!turns) held.ahead += momentum_after(kick_round - first) * (held.impulse - before);
   if (!changes) return;
   note_unsettled(kick_round);
   if (kick_round < friction_rounds) return;

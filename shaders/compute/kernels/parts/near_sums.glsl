@@ -12,6 +12,8 @@ shared int near_low[3u * sum_buffers * near_places];
 shared uint near_vertex_count;
 shared uint near_presses;
 shared uint near_unsettled_round;
+shared uint near_bounces_from;
+shared uint near_bounce_round;
 shared uint asked_too_much;
 bool sums_are_near = false;  // the same in all threads
 
@@ -65,6 +67,8 @@ void begin_near(uint count) {
     near_vertex_count = 0u;
     near_presses = 0u;
     near_unsettled_round = 0u;
+    near_bounces_from = no_round;
+    near_bounce_round = no_round;
     asked_too_much = 0u;
   }
   memoryBarrierShared();

@@ -122,3 +122,22 @@ void note_unsettled(uint kick_round) {
   NEAR_ELSE(near_unsettled_round = kick_round;)
   ATOMIC_STORE(contact_list[0].unsettled_round, kick_round);
 }
+
+// The first round so far in which a contact that bounces gave an impulse, and the one in which impulses bounced.
+uint bounces_from() {
+  NEAR_ELSE(return near_bounces_from;)
+  return ATOMIC_LOAD(contact_list[0].bounces_from);
+}
+uint bounce_round() {
+  NEAR_ELSE(return near_bounce_round;)
+  return ATOMIC_LOAD(contact_list[0].bounce_round);
+}
+void note_bouncing(uint kick_round) {
+  if (bounces_from() <= kick_round) return;
+  NEAR_ELSE(near_bounces_from = kick_round;)
+  ATOMIC_STORE(contact_list[0].bounces_from, kick_round);
+}
+void note_bounce(uint kick_round) {
+  NEAR_ELSE(near_bounce_round = kick_round;)
+  ATOMIC_STORE(contact_list[0].bounce_round, kick_round);
+}

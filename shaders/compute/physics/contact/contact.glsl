@@ -16,6 +16,7 @@ REAL_BEGIN
 //        - the impulse below which a change in a round does not matter [Ns]. Before the first round it is the contact's settled_speed().
 //          After the last one it is below 0 if most_kick_rounds did not settle the contact, and else 0
 // row 4: the impulse that the sums of impulses have, which is ahead of the contact's own
+// row 5: bounce_of() the contact, and the least impulse along the normal [Ns], which is 0 until impulses have bounced
 
 // Lengths of a pair of bodies [m], and the time step [s].
 struct Approach {
@@ -43,19 +44,27 @@ FN bool is_near(IN(Course) c, IN(Approach) a) {
 // Whether the points rest against each other, so that what held them in the last step holds them in this one.
 FN bool rests(IN(Course) c) { return abs(c.was) < abs(c.surplus) || c.was_cut; }
 
-// Returns the least velocity along the normal that the contact asks for [m/s].
-// - Points may come as near as the gap, and lost gap comes back slowly, however short steps are.
-// - If they would pass the gap, they part again with the elasticity's part of their approach, but not so fast that the impulse gives
-//   energy. Points at rest do not bounce.
+// Whether the points would pass the gap in the step.
+FN bool would_pass(IN(Course) c, IN(Approach) a) { return c.distance + a.time_step * (c.velocity + c.surplus) < a.gap; }
+
+// Returns the least velocity along the normal that the contact asks for [m/s]. Points may come as near as the gap. If they would pass it,
+// they stop. Lost gap comes back slowly, however short steps are.
 FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real need = (a.gap - c.distance) / a.time_step;
   if (c.distance > a.gap && c.distance < real(1.5) * a.gap) need *= real(0.05);
-  real mean = need;
-  real kept = rests(c) ? real(0) : a.elasticity;
-  real parting = min(-kept * c.was, max(c.surplus - kept * c.velocity, real(0)));
-  if (c.distance + a.time_step * (c.velocity + c.surplus) < a.gap) mean = max(mean, parting);
-  real most = max(real(0.5), kept) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
+  real mean = would_pass(c, a) ? max(need, real(0)) : need;
+  real most = real(0.5) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;
+}
+
+// Returns how many times the impulse that stops its points a contact gives in the end. By Poisson's hypothesis bodies part by the
+// elasticity's part of the impulse that stopped them. So several contacts give no energy, even if one pushes another back. Only what stops
+// the velocity now counts, and not what springs press on in the step. Points at rest do not bounce.
+// Source: Ch. Glocker and F. Pfeiffer, Multiple impacts with friction in rigid multibody systems (1995).
+FN real bounce_of(IN(Course) c, IN(Approach) a) {
+  real change = least_velocity(c, a) - c.velocity;
+  if (rests(c) || !would_pass(c, a) || c.velocity >= real(0) || change <= real(0)) return real(1);
+  return max(real(1), (real(1) + a.elasticity) * -c.velocity / change);
 }
 
 // A contact has settled if a round changes its velocity by less than this [m/s]. In a step that is a hundredth of its gap.
@@ -65,12 +74,12 @@ FN real settled_speed(IN(Approach) a) { return real(0.01) * a.gap / a.time_step;
 FN real3 across(IN(real3) normal, IN(real3) v) { return v - dot(normal, v) * normal; }
 
 // Returns the impulse along the normal (x) and across it (yzw) [Ns] after another round. `change` is what impulses so far changed the
-// velocity of the points against each other by [m/s], `mass` is what resists them [kg].
-FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3) change, real mass) {
+// velocity of the points against each other by [m/s], `mass` is what resists them [kg], and `least` the least impulse along the normal.
+FN real4 next_impulse(real4 impulse, real4 normal_row, real4 goal_row, IN(real3) change, real mass, real least) {
   real3 normal = real3(normal_row);
   real along = dot(normal, change);
   real4 next;
-  next.x = max(real(0), impulse.x + (normal_row.w - along) * mass);
+  next.x = max(least, impulse.x + (normal_row.w - along) * mass);
   // Projected twice: after once, fp32 leaves roundings along the normal.
   real3 friction =
       across(normal, real3(impulse.y, impulse.z, impulse.w) + mass * (real3(goal_row) - (change - along * normal)));

@@ -45,6 +45,8 @@ struct ContactList {
   uint is_tried;             // 1: the step is not empty, though it may be undone
   uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
   uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
+  uint bounces_from;         // the first round of such a kick in which a contact that bounces gave an impulse, or no_round
+  uint bounce_round;         // the one in which impulses bounced, or no_round
   uint has_dues;             // 1: motions were cut short in this step, or contacts that ended unsettled gave energy
 };
 
@@ -99,10 +101,14 @@ FN uint flight_stop_of(uint vertex_count, uint flight) { return cut_rows * verte
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
 
-const uint contact_rows = 5u;  // of four numbers in `contact`
-// A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step.
+const uint contact_rows = 6u;  // of four numbers in `contact`
+// A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step. If a contact
+// bounces, impulses do so in one round, when all have settled or at the latest in that one. Then rounds go on.
 const uint fewest_kick_rounds = 9u;
+const uint latest_bounce = 64u;
+const uint fewest_rounds_after_bounce = 3u;
 const uint most_kick_rounds = 129u;
+const uint no_round = ~0u;
 // From this one on contacts that have not settled lose friction. Their impulses along and across the normal raise each other.
 const uint friction_rounds = 65u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
