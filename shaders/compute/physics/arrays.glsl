@@ -76,7 +76,7 @@ ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order: the 
 ARRAY(triangle_bounds, vec4, triangle, step, "[triangle][4] lower, upper: of its corners' cages, then of the ways that they are expected to go [m]; in leaf order")
 ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in leaf order, the second with the bit ways_meet; pairs are in no fixed order")
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
-ARRAY(contact, real, contact, step, "[contact][5][4] physics/contact/contact.glsl has the rows")
+ARRAY(contact, real, contact, step, "[contact][6][4] physics/contact/contact.glsl has the rows")
 ARRAY(contact_impulse, real, contact, step, "[contact][4] impulse along the normal, then across it [Ns]")
 ARRAY(kept_slot, uint, slot, step, "contacts of the last step by their vertices: the step's number, then the contact's")
 ARRAY(kept_vertex, uvec4, contact, step, "four vertices of a contact of the last step, or a vertex and a ground")
