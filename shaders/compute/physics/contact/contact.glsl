@@ -64,7 +64,8 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
 FN real bounce_of(IN(Course) c, IN(Approach) a) {
   real change = least_velocity(c, a) - c.velocity;
   if (rests(c) || !would_pass(c, a) || c.velocity >= real(0) || change <= real(0)) return real(1);
-  return max(real(1), (real(1) + a.elasticity) * -c.velocity / change);
+  real most = real(1) + a.elasticity;
+  return clamp(most * -c.velocity / change, real(1), most);
 }
 
 // A contact has settled if a round changes its velocity by less than this [m/s]. In a step that is a hundredth of its gap.
