@@ -163,6 +163,7 @@ void note_end(uint c, bool is_unsettled) {
   if (is_unsettled) atomicAdd(control[0].count[unsettled_contacts], 1u);
 }
 
+// All contacts do this in one round. Those that bounce give more from here on, and momentum of the rounds starts anew.
 void bounce(uint kick_round) {
   note_bounce(kick_round);
   if (held.bounce > real(1)) held.impulse.x = held.least_impulse = held.bounce * held.impulse.x;

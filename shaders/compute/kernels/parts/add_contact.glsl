@@ -17,7 +17,7 @@ void count_vertex(uint i) {
 }
 
 // Lists a contact of up to four vertices. `least` is the change of velocity that it asks for along the normal, and `goal` the one that
-// friction aims at across it [m/s]. A contact that `resumes` begins with its impulse of the last step.
+// friction aims at across it [m/s]. A contact that `resumes` begins with its impulse of the last step. `bounce` is its bounce_of().
 void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real3) goal, real friction, real settled,
                   bool resumes, real bounce) {
   uint at = atomicAdd(contact_list[0].contact_count, 1u);
