@@ -13,6 +13,9 @@ namespace pliant {
 
 inline const CollisionDescription by_impulses = {.response = {"impulse"}, .elasticity = 0.5};
 
+// Half of the smallest one that scenes can have. With those hardly any motion is cut short.
+constexpr double small_gap = 0.005;
+
 constexpr double total_stiffness = 1000, omega = 31.6227766;  // [N/m], [1/s] of a body of 1 kg
 
 inline BodySetup soft(TriangleMesh mesh, const char* name) {

@@ -171,8 +171,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(normal, -surplus_now - velocity);
-  list_contact(who, f.weight, normal, least_velocity(c, a) - c.velocity, goal, real(mean_of_pair(first.friction, second.friction)),
-               settled_speed(a), rests(c), bounce_of(c, a));
+  list_contact(who, f.weight, normal, c, a, goal, real(mean_of_pair(first.friction, second.friction)));
 }
 
 // A contact whose points are near each other now.

@@ -32,8 +32,8 @@ void meet_ground(uint i, uint g) {
   c.was_cut = last_cut[i] != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(real3(normal), real3(-surplus_now - velocity));
-  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), least_velocity(c, a) - c.velocity,
-               goal, real(mean_of_pair(s.friction, ground[g].friction)), settled_speed(a), rests(c), bounce_of(c, a));
+  list_contact(uvec4(i, no_vertex, no_vertex, no_vertex), real4(1, 0, 0, g), real3(normal), c, a, goal,
+               real(mean_of_pair(s.friction, ground[g].friction)));
 }
 
 void meet_grounds(uint i) {

@@ -1,7 +1,8 @@
 // A kernel in rounds. One thread serves one contact in one round of a kick. It finds the impulse that its velocity asks for, with all
 // impulses of the round before, and adds it to its vertices. In the first round contacts at rest add what they had in the last step: the
-// other rounds alone would leave a little of every impulse out, and what rests would creep. After the last of these rounds it kicks those
-// of its vertices that no other contact has kicked yet, and adds up what the contact did to energy.
+// other rounds alone would leave a little of every impulse out, and what rests would creep. Rounds first stop points. In one round impulses
+// of contacts that bounce grow, and then rounds go on. After the last of these rounds it kicks those of its vertices that no other contact
+// has kicked yet, and adds up what the contact did to energy.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -42,15 +43,15 @@ bool has_bounced(uint kick_round) { return bounce_round() < kick_round; }
 // Whether all contacts had settled by the last round. While a round runs of which this is true, nobody notes a contact that has not, so all
 // threads find the same answer. In any other round the note only grows, which leaves the answer no.
 bool have_settled(uint kick_round) {
-  uint fewest = has_bounced(kick_round) ? bounce_round() + fewest_rounds_after_bounce : fewest_kick_rounds;
+  uint fewest = has_bounced(kick_round) ? bounce_round() + fewest_rounds_from_bounce : fewest_kick_rounds;
   return kick_round + 1u >= fewest && unsettled_round() + 2u <= kick_round;
 }
 
 // Whether impulses bounce in this round. It may have been noted meanwhile.
 bool is_bounce(uint kick_round) {
   if (has_bounced(kick_round) || bounces_from() >= kick_round) return false;
-  if (kick_round + fewest_rounds_after_bounce >= most_kick_rounds) return false;
-  return bounce_round() == kick_round || kick_round == latest_bounce || have_settled(kick_round);
+  if (kick_round + fewest_rounds_from_bounce > most_kick_rounds) return false;
+  return bounce_round() == kick_round || kick_round >= forced_bounce || have_settled(kick_round);
 }
 
 bool is_last(uint kick_round) {
@@ -154,20 +155,31 @@ void fetch(uint c, uint kick_round) {
 
 void store(uint c) {
   contact_row[contact_rows * c + 4u] = held.ahead;
-  contact_row[contact_rows * c + 5u] = real4(held.bounce, held.least_impulse, 0, 0);
   impulse_row[c] = held.impulse;
 }
+
+void store_least_impulse(uint c) { contact_row[contact_rows * c + 5u] = real4(held.bounce, held.least_impulse, 0, 0); }
 
 void note_end(uint c, bool is_unsettled) {
   contact_row[contact_rows * c + 3u].w = is_unsettled ? real(-1) : real(0);
   if (is_unsettled) atomicAdd(control[0].count[unsettled_contacts], 1u);
 }
 
-// All contacts do this in one round. Those that bounce give more from here on, and momentum of the rounds starts anew.
-void bounce(uint kick_round) {
+// All contacts do this in one round. Those that bounce give more from here on, and momentum of the rounds starts anew. One that has not
+// settled does not bounce: it may jam, and give far more than what stops it.
+void bounce(uint c, uint kick_round, bool is_settled) {
   note_bounce(kick_round);
-  if (held.bounce > real(1)) held.impulse.x = held.least_impulse = held.bounce * held.impulse.x;
+  if (held.bounce > real(1) && is_settled) held.impulse.x = held.least_impulse = held.bounce * held.impulse.x;
   held.ahead = held.impulse;
+  store_least_impulse(c);
+}
+
+// For a contact that jams. What it gives at least may have come about in the jam, too, and nothing but its friction may hold that.
+void loosen(uint c) {
+  held.goal_row.w *= real(0.9);
+  held.least_impulse *= real(0.9);
+  contact_row[contact_rows * c + 2u] = held.goal_row;
+  store_least_impulse(c);
 }
 
 void answer(uint c, uint kick_round, bool ends) {
@@ -182,7 +194,7 @@ void answer(uint c, uint kick_round, bool ends) {
     return;
   }
   if (is_bounce(kick_round)) {
-    bounce(kick_round);
+    bounce(c, kick_round, !changes || kick_round < forced_bounce);
     return;
   }
   if (held.bounce > real(1) && held.impulse.x > real(0)) note_bouncing(kick_round);
@@ -191,9 +203,7 @@ void answer(uint c, uint kick_round, bool ends) {
   if (!turns) held.ahead += momentum_after(kick_round - first) * (held.impulse - before);
   if (!changes) return;
   note_unsettled(kick_round);
-  if (kick_round < friction_rounds) return;
-  held.goal_row.w *= real(0.9);
-  contact_row[contact_rows * c + 2u] = held.goal_row;
+  if (kick_round >= jam_rounds) loosen(c);
 }
 
 // Where a contact has a thread to itself, the thread keeps it from the first round to the last.

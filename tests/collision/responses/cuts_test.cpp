@@ -37,7 +37,7 @@ TEST_CASE("motions that are cut short add no energy, and what does not move tell
       const ModelAndState start = ball_over_knob(fall.stiffness, fall.knob_radius);
       const auto device = make_cpu_device(1, precision);
       Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", fall.time_step}),
-                            {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.005});
+                            {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = small_gap});
       const Energies seen = energies_of(simulation, start, {0, -9.81, 0}, 2);
       CHECK(seen.report.reverted_vertices > 20);
       CHECK(seen.most < 1.001 * seen.first);
@@ -97,7 +97,7 @@ TEST_CASE("bodies that jam on a static one give it their momentum") {
     const ModelAndState start = light_under_heavy();
     const auto device = make_cpu_device(1, precision);
     Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.002}),
-                          {.response = {"impulse"}, .gap = 0.005});
+                          {.response = {"impulse"}, .gap = small_gap});
     const Energies seen = energies_of(simulation, start, {0, -9.81, 0}, 1.2);
     CHECK(seen.report.reverted_vertices > 20);
     CHECK(seen.most < 1.001 * seen.first);
@@ -146,7 +146,7 @@ TEST_CASE("the order of pairs of bodies does not matter where motions are cut sh
   std::vector<std::vector<double>> motions;
   std::uint64_t cuts = 0;
   for (const bool turns_round : {false, true}) {
-    Bench cpu(make_cpu_device(1, 64), wild_among_others(), {"cv8", 1 / omega}, {.response = {"impulse"}, .gap = 0.005});
+    Bench cpu(make_cpu_device(1, 64), wild_among_others(), {"cv8", 1 / omega}, {.response = {"impulse"}, .gap = small_gap});
     cpu.begin();
     auto& pairs = cpu.bodies.arrays.get<glm::uvec2>("near_pair");
     for (std::uint32_t step = 0; step < 150; ++step)
@@ -171,7 +171,7 @@ TEST_CASE("bodies that hook into each other gain no energy, however fast they fl
     const ModelAndState start = ball_in_a_pocket({0, along, 0.3 * along});
     const auto device = make_cpu_device(1, 32);
     Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
-                          {.response = {"impulse"}, .gap = 0.005});  // with the usual gap nothing is cut
+                          {.response = {"impulse"}, .gap = small_gap});
     const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 0.9);
     const double without_flight = 23.7;  // [J], kinetic energy at the start with none
     CHECK(seen.report.reverted_vertices > 1000);
@@ -198,7 +198,7 @@ TEST_CASE("bodies that spin while they hook into each other gain no energy") {
   const auto device = make_cpu_device(1, 64);
   const double stiffest = std::sqrt(1e5);  // [1/s] of either body
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1.3 / stiffest}),
-                        {.response = {"impulse"}, .gap = 0.005});
+                        {.response = {"impulse"}, .gap = small_gap});
   const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 1.2);
   CHECK(seen.report.reverted_vertices > 10000);
   CHECK(seen.most - seen.first < 1e-6 * seen.first);
@@ -255,7 +255,7 @@ TEST_CASE("bodies that hook into each other outlast empty steps") {
   std::vector<std::vector<double>> ends;
   for (const int empty_steps : {0, 3}) {
     Simulation simulation(*device, start.model, start.state, plan_of(Adaptive{}, start.model),
-                          {.response = {"impulse"}, .gap = 0.005});
+                          {.response = {"impulse"}, .gap = small_gap});
     for (int stop = 1; stop <= 40; ++stop) {
       simulation.advance_to(0.0075 * stop);
       for (int k = 0; k < empty_steps; ++k) simulation.advance_part();
@@ -270,8 +270,8 @@ TEST_CASE("bodies that hook into each other outlast empty steps") {
 }
 
 TEST_CASE("paying for cuts gives the same bits on any number of threads, and after saving") {
-  const CollisionDescription by_default = {.response = {"impulse"}, .gap = 0.005};
-  const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = 0.005};
+  const CollisionDescription by_default = {.response = {"impulse"}, .gap = small_gap};
+  const CollisionDescription without_bounce = {.response = {"impulse"}, .elasticity = 0, .friction = 0, .gap = small_gap};
   for (const SavedRun& run : {check_same_bits(ball_over_knob(3000, 0.12), {"verlet", 0.01}, without_bounce, 200, 260),
                               check_same_bits(ball_in_a_pocket({0, 20, 6}), {"verlet", 0.004}, by_default, 100, 160),
                               check_same_bits(pocket_before_wall(20, 2.6), {"verlet", 0.004}, by_default, 60, 120)}) {

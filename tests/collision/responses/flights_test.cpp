@@ -100,7 +100,7 @@ TEST_CASE("bodies that hook into each other give nothing to a static one whose b
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   const auto device = make_cpu_device(1, 64);
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
-                        {.response = {"impulse"}, .gap = 0.005});
+                        {.response = {"impulse"}, .gap = small_gap});
   const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 0.4);
   CHECK(seen.report.reverted_vertices > 0);
   CHECK(glm::length(seen.report.response.outside_impulse) < 1e-10);
@@ -112,7 +112,7 @@ std::vector<glm::dvec3> places_in_flight(const ModelAndState& start, const glm::
                                          std::uint64_t& cuts) {
   const auto device = make_cpu_device(1, 64);
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
-                        {.response = {"impulse"}, .gap = 0.005});
+                        {.response = {"impulse"}, .gap = small_gap});
   simulation.advance(steps);
   cuts = simulation.report().reverted_vertices;
   std::vector<glm::dvec3> places = simulation.state().world_positions(start.model);
@@ -167,7 +167,7 @@ TEST_CASE("a heavy body that passes by turns none of those that hook into each o
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   const auto device = make_cpu_device(1, 32);
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
-                        {.response = {"impulse"}, .gap = 0.005});
+                        {.response = {"impulse"}, .gap = small_gap});
   const glm::dvec3 heavy_before = start.state.world_velocities(start.model).back();
   simulation.advance(120);
   CHECK(simulation.report().reverted_vertices > 1000);
@@ -188,7 +188,7 @@ TEST_CASE("bodies that hook into each other gain no energy where another one fli
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   const auto device = make_cpu_device(1, 32);
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.004}),
-                        {.response = {"impulse"}, .gap = 0.005});
+                        {.response = {"impulse"}, .gap = small_gap});
   const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 0.5);
   CHECK(seen.report.reverted_vertices > 100);
   CHECK(seen.most - seen.first < 0.01);  // [J]
@@ -220,7 +220,7 @@ TEST_CASE(
   for (const double distance : {3.0, 4.0, 5.0, 6.0}) {
     CAPTURE(distance);
     const ModelAndState start = pocket_before_block(distance);
-    Bench cpu(make_cpu_device(1, 64), start, {"verlet", 0.004}, {.response = {"impulse"}, .gap = 0.005});
+    Bench cpu(make_cpu_device(1, 64), start, {"verlet", 0.004}, {.response = {"impulse"}, .gap = small_gap});
     cpu.begin();
     const bench::ApartOracle oracle(start.model);
     const std::uint32_t of_both = start.model.bodies[2].first_vertex;

@@ -16,19 +16,18 @@ void count_vertex(uint i) {
   RAISE_TO(contact_list[0].fastest, speed)
 }
 
-// Lists a contact of up to four vertices. `least` is the change of velocity that it asks for along the normal, and `goal` the one that
-// friction aims at across it [m/s]. A contact that `resumes` begins with its impulse of the last step. `bounce` is its bounce_of().
-void list_contact(uvec4 who, real4 weight, IN(real3) normal, real least, IN(real3) goal, real friction, real settled,
-                  bool resumes, real bounce) {
+// Lists a contact of up to four vertices. `goal` is the change of velocity that friction aims at across the normal [m/s]. A contact at rest
+// begins with its impulse of the last step.
+void list_contact(uvec4 who, real4 weight, IN(real3) normal, IN(Course) c, IN(Approach) a, IN(real3) goal, real friction) {
   uint at = atomicAdd(contact_list[0].contact_count, 1u);
   if (at >= contact_capacity) return;
   contact_vertex[at] = who;
-  contact_row[contact_rows * at] = real4(normal, least);
+  contact_row[contact_rows * at] = real4(normal, least_velocity(c, a) - c.velocity);
   contact_row[contact_rows * at + 1u] = weight;
   contact_row[contact_rows * at + 2u] = real4(goal, friction);
-  contact_row[contact_rows * at + 3u] = real4(0, 0, 0, settled);
-  contact_row[contact_rows * at + 5u] = real4(bounce, 0, 0, 0);
-  impulse_row[at] = real4(resumes && keeps_impulses != 0u ? 1 : 0, 0, 0, 0);
+  contact_row[contact_rows * at + 3u] = real4(0, 0, 0, settled_speed(a));
+  contact_row[contact_rows * at + 5u] = real4(bounce_of(c, a), 0, 0, 0);
+  impulse_row[at] = real4(rests(c) && keeps_impulses != 0u ? 1 : 0, 0, 0, 0);
   for (int k = 0; k < 4; ++k) {
     if (who[k] == no_vertex) continue;
     atomicAdd(contact_weight[who[k]], uint(float(abs(weight[k])) / weight_unit() + 1.0f));

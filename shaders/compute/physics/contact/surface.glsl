@@ -43,10 +43,11 @@ struct ContactList {
   uint heaviest;             // largest mass of these vertices [kg], as bits of a float
   uint latest_count;         // contacts of the latest step, which the lists hold until the next. None if it was undone
   uint is_tried;             // 1: the step is not empty, though it may be undone
-  uint presses;              // 1: a contact gave an impulse in the first two rounds of a kick, whose sums are not near (near_sums.glsl)
-  uint unsettled_round;      // the latest one of such a kick in which a contact had not settled
-  uint bounces_from;         // the first round of such a kick in which a contact that bounces gave an impulse, or no_round
-  uint bounce_round;         // the one in which impulses bounced, or no_round
+  // The next four are of a kick whose sums are not near (near_sums.glsl).
+  uint presses;              // 1: a contact gave an impulse in the first two rounds
+  uint unsettled_round;      // the latest round in which a contact had not settled
+  uint bounces_from;         // the first round in which a contact that bounces gave an impulse, or no_round
+  uint bounce_round;         // the round in which impulses bounced, or no_round
   uint has_dues;             // 1: motions were cut short in this step, or contacts that ended unsettled gave energy
 };
 
@@ -102,15 +103,15 @@ FN uint flight_stop_of(uint vertex_count, uint flight) { return cut_rows * verte
 const uint pressed_for = 64u;
 
 const uint contact_rows = 6u;  // of four numbers in `contact`
-// A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step. If a contact
-// bounces, impulses do so in one round, when all have settled or at the latest in that one. Then rounds go on.
+// A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step. Impulses bounce in
+// one round: when all contacts have settled, or else in the first one from forced_bounce on. Then rounds go on until all have settled again.
 const uint fewest_kick_rounds = 9u;
-const uint latest_bounce = 64u;
-const uint fewest_rounds_after_bounce = 3u;
+const uint forced_bounce = 64u;
+const uint fewest_rounds_from_bounce = 3u;  // its own is one of them
 const uint most_kick_rounds = 129u;
 const uint no_round = ~0u;
-// From this one on contacts that have not settled lose friction. Their impulses along and across the normal raise each other.
-const uint friction_rounds = 65u;
+// From this one on contacts that have not settled jam: impulses along and across the normal raise each other. They lose friction.
+const uint jam_rounds = 81u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
 const uint kept_index_bits = 18u;
