@@ -16,6 +16,7 @@
 #include "run/interrupts.hpp"
 #include "run/progress_bar.hpp"
 #include "simulation/breakdown.hpp"
+#include "simulation/overlap.hpp"
 
 namespace pliant {
 namespace {
@@ -127,8 +128,16 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
   return told;
 }
 
+bool meets_by_impulses(const Simulation& simulation) { return simulation.collider().response_row().gives_impulses; }
+
+// Where bodies must stay apart, the count is by positions in fp64. The device's would have pairs that are nearer than fp32 tells.
+std::uint64_t intersecting_pairs(const PreparedRun& run) {
+  if (!meets_by_impulses(*run.simulation)) return run.simulation->intersections().pairs;
+  return count_touching_pairs(run.start.model, run.simulation->state().world_positions(run.start.model));
+}
+
 std::vector<std::string> contact_troubles_of(const RunStatus& status) {
-  if (!status.run.simulation->collider().response_row().gives_impulses) return {};
+  if (!meets_by_impulses(*status.run.simulation)) return {};
   std::uint64_t moving_vertices = 0;
   for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
   return contact_troubles_of(status.report, moving_vertices, status.run.device->precision());
@@ -159,7 +168,7 @@ Summary summary_of(const RunStatus& status) {
                 report.response.energy_given, report.response.energy_taken, report.response.friction_work};
   s.non_finite = report.breakdown && !report.breakdown->is_finite;
   if (s.non_finite) s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
-  if (!report.breakdown) s.final_intersecting_pairs = run.simulation->intersections().pairs;
+  if (!report.breakdown) s.final_intersecting_pairs = intersecting_pairs(run);
   s.interrupted = is_interrupted();
   s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
   s.skipped = {{"force_evaluations", report.forces_skipped},

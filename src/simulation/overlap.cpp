@@ -53,6 +53,28 @@ class Search {
   // proofs.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
+    for_each_near_bodies([&](const IndexedBox& a, const IndexedBox& b, double most) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for_each_near_triangles(model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
+                              [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
+      if (nearest < most) visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
+    });
+  }
+
+  // How many pairs of triangles may touch.
+  std::uint64_t count_touching() const {
+    std::uint64_t count = 0;
+    for_each_near_bodies([&](const IndexedBox& a, const IndexedBox& b, double most) {
+      for_each_near_triangles(model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
+                              [&](std::uint32_t s, std::uint32_t t) { count += distance(s, t) > 0 ? 0 : 1; });
+    });
+    return count;
+  }
+
+ private:
+  // Calls visit(box, box, margin) for each two bodies whose boxes are no further apart than the margin of proofs [m].
+  template <class Visit>
+  void for_each_near_bodies(const Visit& visit) const {
     std::vector<IndexedBox> boxes;
     IndexedBox all;
     for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
@@ -62,17 +84,12 @@ class Search {
       for (const glm::dvec3& p : {box.lower, box.upper}) all.add(p);
     }
     for_each_near(std::move(boxes), largest_margin(all, all), [&](const IndexedBox& a, const IndexedBox& b) {
-      const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
       const double most = largest_margin(a, b);
-      if ((first.is_static && second.is_static) || !are_near(a, b, most)) return;
-      double nearest = std::numeric_limits<double>::infinity();
-      for_each_near_triangles(model_, first, a, second, b, positions_, most,
-                              [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
-      if (nearest < most) visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
+      if (model_.bodies[a.index].is_static && model_.bodies[b.index].is_static) return;
+      if (are_near(a, b, most)) visit(a, b, most);
     });
   }
 
- private:
   // The margin of proofs for a triangle of each box, at most, where the boxes are no further apart than that [m].
   double largest_margin(const IndexedBox& a, const IndexedBox& b) const {
     const double size = 1.01 * (physics::sum_of_sizes(a.upper - a.lower) + physics::sum_of_sizes(b.upper - b.lower));
@@ -183,6 +200,10 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
   found->way_out =
       way_out(vertices_of(first, positions), vertices_of(second, positions), gap_between(model, first, second, collision));
   return found;
+}
+
+std::uint64_t count_touching_pairs(const Model& model, std::span<const glm::dvec3> positions) {
+  return Search(model, positions, 64).count_touching();
 }
 
 }  // namespace pliant

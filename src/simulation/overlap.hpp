@@ -1,5 +1,5 @@
-// Finds bodies that intersect, or that are nearer than proofs can tell, and says how two of them lie. It takes a while for large
-// meshes that intersect.
+// Finds bodies that intersect, or that are nearer than proofs can tell, and says how two of them lie, by positions in fp64. It
+// takes a while for large meshes that intersect.
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -28,5 +28,9 @@ struct Overlap {
 /// no two static bodies. `positions` are those of the model's vertices in the world [m].
 [[nodiscard]] std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
                                                   const CollisionDescription& collision, int precision);
+
+/// Returns how many pairs of triangles of two bodies touch, or are so near that fp64 cannot tell: some 1e-15 of their size. Looks
+/// at no two static bodies. `positions` are as above.
+[[nodiscard]] std::uint64_t count_touching_pairs(const Model& model, std::span<const glm::dvec3> positions);
 
 }  // namespace pliant

@@ -85,5 +85,20 @@ TEST_CASE("bodies of which one is longer have a way out, too") {
   CHECK(not_apart(start.model, moved(start.model, positions, overlap)) == 0);
 }
 
+TEST_CASE("pairs of triangles that touch are counted, and those a nanometre apart are not") {
+  const ModelAndState start = cubes({{0.5, {0.7, 0.02, 0}}, {0.5, {0, 0.80, 0.01}}});
+  std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
+  CHECK(count_touching_pairs(start.model, positions) == not_apart(start.model, positions));
+  CHECK(not_apart(start.model, positions) > 10);
+  for (const double far_away : {0.0, 1e4}) {
+    CAPTURE(far_away);
+    const ModelAndState near = cubes({{1, {1 + 1e-9, 0.02, 0.03}}});
+    positions = near.state.world_positions(near.model);
+    for (glm::dvec3& place : positions) place.z += far_away;
+    REQUIRE(not_apart(near.model, positions) == 0);
+    CHECK(count_touching_pairs(near.model, positions) == 0);
+  }
+}
+
 }  // namespace
 }  // namespace pliant
