@@ -91,7 +91,7 @@ void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
 
 // Impulses are counted in quanta that the heaviest vertex in contact sets.
 void warn_of_masses(PreparedRun& run) {
-  constexpr double most = 1e9;
+  constexpr double most = 1e9, vanishing = 0x1p46;
   const ModelBody *heaviest = nullptr, *lightest = nullptr;
   for (const ModelBody& body : run.start.model.bodies) {
     if (body.is_static) continue;
@@ -100,9 +100,10 @@ void warn_of_masses(PreparedRun& run) {
   }
   if (heaviest != nullptr && heaviest->vertex_mass > most * lightest->vertex_mass)
     run.warnings.push_back(
-        fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded while "
+        fmt::format("a vertex of \"{}\" has {:.3g} times the mass of one of \"{}\": impulses on light ones are rounded{} while "
                     "a heavy one is in contact, too",
-                    heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name));
+                    heaviest->name, heaviest->vertex_mass / lightest->vertex_mass, lightest->name,
+                    heaviest->vertex_mass > vanishing * lightest->vertex_mass ? ", to nothing," : ""));
 }
 
 void warn_of_rounding(PreparedRun& run) {

@@ -63,11 +63,13 @@ std::string names_that_bear_tolerance(DampingLaw law) {
 
 void expect_method_estimates(const TimePlan& plan, const Origin& where) {
   if (!plan.tolerance || bears_tolerance(*plan.integrator, plan.damping_law)) return;
-  const char* why = estimates_error(*plan.integrator) ? "meets damping only with steps of one length, and a tolerance varies them"
-                                                      : "does not estimate its error, which a tolerance needs";
+  const bool damps = allows_damping(*plan.integrator, plan.damping_law);
+  const std::string why = !estimates_error(*plan.integrator) ? "does not estimate its error, which a tolerance needs"
+                          : damps ? "meets damping only with steps of one length, and a tolerance varies them"
+                                  : fmt::format("can't meet {} damping", name_of(plan.damping_law));
   throw Error(where, fmt::format("{} {}", plan.integrator->name, why),
-              fmt::format("take \"auto\" (--integrator auto), or one of {}; or give a time_step instead of the tolerance",
-                          names_that_bear_tolerance(plan.damping_law)));
+              fmt::format("take \"auto\" (--integrator auto), or one of {}{}", names_that_bear_tolerance(plan.damping_law),
+                          damps ? "; or give a time_step instead of the tolerance" : ""));
 }
 
 // Steps of a fixed length are divided only where there is something to touch.
