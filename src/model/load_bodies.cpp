@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <utility>
+
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
@@ -37,11 +40,16 @@ LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& fo
 
 std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings) {
   std::vector<BodySetup> setups;
+  std::map<std::pair<std::string, double>, TriangleMesh> meshes;  // by what they are called, and how they are welded
   for (const BodyDescription& body : scene.bodies) {
-    LoadedMesh loaded = load_one(body, scene.file.parent_path());
-    if (warnings != nullptr)
-      for (const std::string& warning : loaded.warnings) warnings->push_back(fmt::format("{}: {}", body.name, warning));
-    setups.push_back({std::move(loaded.mesh), body});
+    const auto [found, is_new] = meshes.try_emplace({body.mesh, body.weld.value_or(0) / body.scale});
+    if (is_new) {
+      LoadedMesh loaded = load_one(body, scene.file.parent_path());
+      found->second = std::move(loaded.mesh);
+      if (warnings != nullptr)
+        for (const std::string& warning : loaded.warnings) warnings->push_back(fmt::format("{}: {}", body.name, warning));
+    }
+    setups.push_back({found->second, body});
   }
   return setups;
 }

@@ -7,8 +7,9 @@
 
 namespace pliant {
 
-/// Returns one setup for each body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings, each
-/// beginning with its body's name, unless `warnings` is null. Throws Error that blames the mesh's origin.
+/// Returns one setup for each body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings of
+/// each mesh, beginning with the name of the first body that has it, unless `warnings` is null. Throws Error that blames the
+/// mesh's origin.
 [[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace pliant

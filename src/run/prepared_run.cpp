@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <system_error>
 
 #include "collision/responses/response.hpp"
@@ -52,9 +53,11 @@ std::uint64_t checksum_of(const TriangleMesh& mesh) {
   return checksum(std::as_bytes(std::span(mesh.triangles)), checksum(std::as_bytes(std::span(mesh.positions))));
 }
 
+// Bodies in rows share their keys.
 void warn_of_idle_keys(PreparedRun& run) {
+  std::set<std::string> told;
   const auto warn = [&](const Origin& where, std::string_view why) {
-    run.warnings.push_back(fmt::format("{} has no effect {}", where.place, why));
+    if (told.insert(where.place).second) run.warnings.push_back(fmt::format("{} has no effect {}", where.place, why));
   };
   const std::string with_response = fmt::format("with response = \"{}\"", run.scene.collision.response.value);
   const auto warn_of_surface = [&](const std::vector<Origin>& keys) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -36,6 +38,7 @@ constexpr Range tree_depth{1, 64, "a whole number from 1 to 64"};
 constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
 constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};
 constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
+constexpr Range row_length{1, 65535, "a whole number from 1 to 65535"};
 
 template <typename Enum>
 struct Choice {
@@ -100,10 +103,11 @@ void convert(const toml::node& node, const std::string& path, Enum& value, const
 
 // ---- Tables ----
 
-// Reads keys of one table. Whatever the table holds beyond them is an error in finish().
+// Reads keys of one table, or of another one in front of it. Whatever they hold beyond these keys is an error in finish().
 class TableReader {
  public:
-  TableReader(const toml::table& table, std::string path) : table_(table), path_(std::move(path)) {}
+  TableReader(const toml::table& table, std::string path, const toml::table* front = nullptr, std::string front_path = "")
+      : table_(table), front_(front), path_(std::move(path)), front_path_(std::move(front_path)) {}
 
   /// Leaves `value` as it is when the key is absent. `how` is a range or a list of choices.
   template <typename T, typename... How>
@@ -134,19 +138,25 @@ class TableReader {
     if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
   }
 
-  /// If both are there, an override replaces the other one of the file. Call it before either is read.
+  /// If both are there, an override replaces the other one of the file, and the table in front that of the other table. Call it
+  /// before either is read.
   void keep_one_of(const char* first, const char* second) {
     const toml::node *one = peek(first), *other = peek(second);
     if (one == nullptr || other == nullptr) return;
-    if (is_override(*one) == is_override(*other))
+    const auto rank = [&](const char* key, const toml::node& node) { return std::pair(is_override(node), is_in_front(key)); };
+    if (rank(first, *one) == rank(second, *other))
       fail(*other, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
-    replaced_.emplace_back(is_override(*one) ? second : first);
+    replaced_.emplace_back(rank(first, *one) > rank(second, *other) ? second : first);
   }
 
   /// Returns null if the key is absent. Does not make the key a known one.
   const toml::node* peek(const char* key) const {
-    return std::ranges::find(replaced_, key) == replaced_.end() ? table_.get(key) : nullptr;
+    if (std::ranges::find(replaced_, key) != replaced_.end()) return nullptr;
+    return is_in_front(key) ? front_->get(key) : table_.get(key);
   }
+
+  /// Leaves a key of the table behind to others.
+  void leave(std::string_view key) { left_.emplace_back(key); }
 
   const toml::node* find(const char* key) {
     known_.emplace_back(key);
@@ -167,18 +177,25 @@ class TableReader {
 
   void finish() const {
     for (const auto& [key, node] : table_)
-      if (std::ranges::find(known_, key.str()) == known_.end())
-        fail(node, path_of(key.str()), "unknown key", suggest(key.str(), known_));
+      if (std::ranges::find(left_, key.str()) == left_.end()) expect_known(key.str(), node);
+    if (front_ == nullptr) return;
+    for (const auto& [key, node] : *front_) expect_known(key.str(), node);
   }
 
  private:
+  void expect_known(std::string_view key, const toml::node& node) const {
+    if (std::ranges::find(known_, key) == known_.end()) fail(node, path_of(key), "unknown key", suggest(key, known_));
+  }
+  [[nodiscard]] bool is_in_front(std::string_view key) const { return front_ != nullptr && front_->contains(key); }
   [[nodiscard]] std::string path_of(std::string_view key) const {
-    return fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key);
+    const std::string& path = is_in_front(key) ? front_path_ : path_;
+    return fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
   }
 
   const toml::table& table_;
-  std::string path_;                           // such as "collision.tree"
-  std::vector<std::string> known_, replaced_;  // keys
+  const toml::table* front_;
+  std::string path_, front_path_;                     // such as "collision.tree"
+  std::vector<std::string> known_, left_, replaced_;  // keys
 };
 
 // ---- The scene's keys ----
@@ -308,22 +325,110 @@ void read_table(TableReader& table, BodyDescription& body) {
   note_idle(table, body);
 }
 
-/// Returns the name in a body's table, or "body0", "body1", ... by its index.
+// The bodies of one table with a count, in rows along x, y and z.
+struct Rows {
+  glm::uvec3 count{1};
+  glm::dvec3 spacing{0.0};  // [m]
+};
+
+// Reads the scene's bodies, one table after the other.
+class BodyReader {
+ public:
+  explicit BodyReader(std::vector<BodyDescription>& bodies) : bodies_(bodies) {}
+
+  /// Without a name the body is "body0", "body1", ... by its table's index.
+  void read(const toml::node& node, std::size_t index) {
+    const std::string name = name_of(node, index);
+    const toml::table* table = node.as_table();
+    if (table == nullptr || !table->contains("count"))
+      read_one(node, name);
+    else
+      read_rows(*table, name);
+  }
+
+ private:
+  void read_rows(const toml::table& table, const std::string& name) {
+    const std::string path = "body." + name;
+    Rows rows;
+    TableReader reader(table, path);
+    reader.read("count", rows.count, row_length);
+    reader.require("spacing");
+    reader.read("spacing", rows.spacing, coordinate);
+    expect_few(table, path, rows.count);
+    std::vector<std::string> others = {"count", "spacing"};  // keys that say nothing of one body
+    for (const auto& [key, node] : table) {
+      if (!key.str().starts_with('[')) continue;
+      others.emplace_back(key.str());
+      expect_one_of(rows.count, key.str(), node, path);
+    }
+    for (std::uint32_t x = 0; x < rows.count.x; ++x)
+      for (std::uint32_t y = 0; y < rows.count.y; ++y)
+        for (std::uint32_t z = 0; z < rows.count.z; ++z) read_in_row(table, name, others, {x, y, z}, rows.spacing);
+  }
+
+  void read_in_row(const toml::table& table, const std::string& name, const std::vector<std::string>& others,
+                   const glm::uvec3& place, const glm::dvec3& spacing) {
+    const std::string key = key_of_place(place);
+    const toml::table* own = table.get_as<toml::table>(key);
+    TableReader reader(table, "body." + name, own, "body." + name + key);
+    for (const std::string& other : others) reader.leave(other);
+    BodyDescription body = next_body(own != nullptr ? *own : table);
+    read_table(reader, body);
+    reader.finish();
+    body.name = name + key;
+    if (own == nullptr || !own->contains("position")) body.position += glm::dvec3(place) * spacing;
+    add(table, std::move(body));
+  }
+
+  void read_one(const toml::node& node, const std::string& name) {
+    BodyDescription body = next_body(node);
+    body.name = name;
+    TableReader::section(node, "body." + name, body);
+    add(node, std::move(body));
+  }
+
+  [[nodiscard]] BodyDescription next_body(const toml::node& node) const {
+    BodyDescription body;
+    body.where = place_of(node);
+    body.color = default_color(bodies_.size());
+    return body;
+  }
+
+  void add(const toml::node& node, BodyDescription body) {
+    if (!names_.insert(body.name).second)
+      fail(node, "body." + body.name, "the name is taken",
+           "give each body a name of its own; without one it is called by its index");
+    bodies_.push_back(std::move(body));
+  }
+
+  static void expect_few(const toml::table& table, const std::string& path, const glm::uvec3& count) {
+    const double bodies = static_cast<double>(count.x) * count.y * count.z;
+    if (bodies > row_length.highest)
+      fail(*table.get("count"), path + ".count", fmt::format("makes {} bodies", bodies), "there may be 65535");
+  }
+
+  static void expect_one_of(const glm::uvec3& count, std::string_view key, const toml::node& node, const std::string& path) {
+    const std::string place = fmt::format("{}{}", path, key);
+    const std::optional<glm::uvec3> found = place_in(key);
+    if (!found || found->x >= count.x || found->y >= count.y || found->z >= count.z)
+      fail(node, place, fmt::format("is none of the bodies, which go from [0,0,0] to {}", key_of_place(count - 1u)),
+           "write the place of one of them, as in \"[0,0,0]\"");
+    if (!node.is_table())
+      fail(node, place, fmt::format("is {}", type_name(node)), "write a table, as in { velocity = [1, 0, 0] }");
+    if (const toml::node* name = node.as_table()->get("name"))
+      fail(*name, place + ".name", "a body in rows is named by its place", "remove the name");
+  }
+
+  std::vector<BodyDescription>& bodies_;
+  std::unordered_set<std::string> names_;
+};
+
 void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   if (!node.is_array())
     fail(node, "body", fmt::format("is {}", type_name(node)),
          is_override(node) ? "name a body and a key, as in --set 'body.NAME.velocity=[1,0,0]'" : "begin each body with [[body]]");
-  for (std::size_t i = 0; i < node.as_array()->size(); ++i) {
-    const toml::node& table = (*node.as_array())[i];
-    BodyDescription body;
-    body.name = name_of(table, i);
-    body.color = default_color(i);
-    body.where = place_of(table);
-    TableReader::section(table, "body." + body.name, body);
-    if (std::ranges::find(bodies, body.name, &BodyDescription::name) != bodies.end())
-      fail(table, "body." + body.name, "the name is taken", "give each body a name of its own; without one it is called by its index");
-    bodies.push_back(std::move(body));
-  }
+  BodyReader reader(bodies);
+  for (std::size_t i = 0; i < node.as_array()->size(); ++i) reader.read((*node.as_array())[i], i);
 }
 
 void read_table(TableReader& table, GroundDescription& ground) {

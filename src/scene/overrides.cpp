@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -50,14 +51,24 @@ toml::table& table_below(toml::table& table, const std::string& key, const std::
   return *below;
 }
 
+/// Returns null if there is none, and adds the names of others.
+toml::table* table_of_body(toml::table& root, std::string_view name, std::vector<std::string>& names) {
+  toml::array* bodies = root.get_as<toml::array>("body");
+  for (std::size_t i = 0; bodies != nullptr && i < bodies->size(); ++i) {
+    names.push_back(name_of((*bodies)[i], i));
+    if (names.back() == name && (*bodies)[i].is_table()) return (*bodies)[i].as_table();
+  }
+  return nullptr;
+}
+
+/// A name such as "ball[0,3,1]" is of one body in rows. What it has of its own stands below that key in their table.
 toml::table& find_body(toml::table& root, const std::string& name, const std::string& place) {
   std::vector<std::string> names;
-  if (toml::array* bodies = root.get_as<toml::array>("body")) {
-    for (std::size_t i = 0; i < bodies->size(); ++i) {
-      names.push_back(name_of((*bodies)[i], i));
-      if (names.back() == name && (*bodies)[i].is_table()) return *(*bodies)[i].as_table();
-    }
-  }
+  if (toml::table* table = table_of_body(root, name, names)) return *table;
+  const std::size_t bracket = std::min(name.rfind('['), name.size());
+  if (place_in(std::string_view(name).substr(bracket)))
+    if (toml::table* rows = table_of_body(root, name.substr(0, bracket), names); rows != nullptr && rows->contains("count"))
+      return table_below(*rows, name.substr(bracket), place);
   fail_override(place, fmt::format("there is no body \"{}\"", name), suggest(name, names));
 }
 

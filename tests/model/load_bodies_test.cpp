@@ -47,6 +47,18 @@ TEST_CASE("a warning begins with its body's name") {
   CHECK_THAT(warnings[0], Catch::Contains("collapsed"));
 }
 
+TEST_CASE("what is wrong with a mesh of several bodies is told once") {
+  SceneDescription scene = scene_with("../meshes/teapot.obj");
+  scene.bodies[0].weld = 1.0;
+  scene.bodies.resize(3, scene.bodies[0]);
+  scene.bodies[2].scale = 2;  // which welds other vertices
+  std::vector<std::string> warnings;
+  const std::vector<BodySetup> setups = load_bodies(scene, &warnings);
+  CHECK(warnings.size() == 2);
+  CHECK(setups[1].mesh.positions == setups[0].mesh.positions);
+  CHECK(setups[2].mesh.positions.size() > setups[0].mesh.positions.size());
+}
+
 TEST_CASE("a mesh that can't be had is an input error that names the body's place in the scene") {
   for (const char* mesh : {"no/such.obj", "box:3", "icosphere:9"}) {
     CAPTURE(mesh);
