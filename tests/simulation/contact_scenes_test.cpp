@@ -237,6 +237,19 @@ TEST_CASE("a bunny falls on a teapot and does not go into it", "[long]") {
   CHECK(std::equal(before.begin(), before.begin() + teapot.vertex_count, play.positions().begin()));
 }
 
+TEST_CASE("a hundred spheres stay in their box and out of each other, and make no energy", "[long]") {
+  Play play("hundred_spheres");
+  const double energy = play.energy();
+  double most = 0;
+  for (const double time : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+    CHECK(play.intersections_until(time, 20) == 0);
+    most = larger(most, play.energy());
+  }
+  CHECK(most < energy);
+  CHECK(play.report().contact_steps > 100);
+  CHECK(play.report().held_parts == 0);
+}
+
 TEST_CASE("a spinning ball rolls in the end with two fifths of its surface's speed") {
   Play play("spin_to_roll");
   const double surface_speed = -play.whole(0).spin.z;  // of a sphere of 1 m
