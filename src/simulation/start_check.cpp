@@ -117,6 +117,33 @@ struct Measures {
   double longest_edge = 0, far = 0;  // `far` is its distance from the origin [m]
 };
 
+// What rounding takes of a contact of a body with one whose edges and radius are these, in numbers of this epsilon [m].
+double rounding_of(const Measures& body, double radius, double other_edge, double other_radius, double epsilon) {
+  const double size = std::sqrt(3.0) * (body.longest_edge + other_edge);
+  return physics::margin_of_rounding(epsilon, size, physics::rounded_from(body.far, body.far, std::max(radius, other_radius)));
+}
+
+bool is_lost(double rounding, double gap) { return 4 * rounding > gap; }
+
+// What is worst of all bodies. If even contacts with such a one are resolved, a body need not be compared with each.
+struct Worst {
+  double longest_edge = 0, radius = 0;                                                                   // [m]
+  double gap = std::numeric_limits<double>::infinity(), edge = std::numeric_limits<double>::infinity();  // of surfaces
+
+  Worst(const Model& model, const std::vector<Measures>& measures) {
+    for (std::size_t b = 0; b < measures.size(); ++b) {
+      if (model.bodies[b].triangle_count == 0) continue;
+      longest_edge = std::max(longest_edge, measures[b].longest_edge);
+      radius = std::max(radius, model.bodies[b].radius);
+      gap = std::min(gap, measures[b].surface.gap);
+      edge = std::min(edge, measures[b].surface.edge);
+    }
+  }
+  double gap_to(const Measures& body) const {
+    return physics::mean_of_pair(body.surface.gap, gap) * std::min(body.surface.edge, edge);
+  }
+};
+
 std::vector<Measures> measures_of(const Model& model, const State& state, const CollisionDescription& collision) {
   const std::vector<glm::dvec3> positions = state.world_positions(model);
   std::vector<Measures> measures;
@@ -133,17 +160,19 @@ std::vector<std::string> told_rounding(const Model& model, const State& state, c
                                        int precision) {
   const std::vector<Measures> measures = measures_of(model, state, collision);
   const double epsilon = precision == 64 ? 0x1p-52 : 0x1p-23;
+  const Worst worst(model, measures);
   std::vector<std::string> told;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const ModelBody& body = model.bodies[b];
+    if (body.is_static || body.triangle_count == 0) continue;
+    if (!is_lost(rounding_of(measures[b], body.radius, worst.longest_edge, worst.radius, epsilon), worst.gap_to(measures[b])))
+      continue;
     for (std::size_t k = 0; k < model.bodies.size(); ++k) {
       const ModelBody& other = model.bodies[k];
-      if (body.is_static || k == b || body.triangle_count == 0 || other.triangle_count == 0) continue;
-      const double size = std::sqrt(3.0) * (measures[b].longest_edge + measures[k].longest_edge);
-      const double margin = physics::margin_of_rounding(
-          epsilon, size, physics::rounded_from(measures[b].far, measures[b].far, std::max(body.radius, other.radius)));
+      if (k == b || other.triangle_count == 0) continue;
+      const double margin = rounding_of(measures[b], body.radius, measures[k].longest_edge, other.radius, epsilon);
       const double gap = physics::gap_of_pair(measures[b].surface, measures[k].surface);
-      if (4 * margin <= gap) continue;
+      if (!is_lost(margin, gap)) continue;
       told.push_back(fmt::format(
           "contacts of body \"{}\" with \"{}\" are lost in rounding: it takes {:.2g} m, and they keep a gap of {:.2g} m; {}",
           body.name, other.name, margin, gap,

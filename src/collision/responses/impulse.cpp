@@ -4,10 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -66,26 +64,33 @@ double smallest_gap(std::span<const physics::Surface> surfaces) {
 // none.
 // - As bits, the vertices and edges that belong to the triangle: those that no triangle before it has. So a contact is found
 // once.
-std::vector<std::uint32_t> surroundings(const Forest& forest) {
-  using Corners = std::array<std::uint32_t, 3>;
-  const auto edge = [](const Corners& corners, std::size_t k) {
-    return std::pair(std::minmax(corners[k], corners[(k + 1) % 3]));
+std::vector<std::uint32_t> surroundings(const Forest& forest, std::uint32_t vertex_count) {
+  struct Side {
+    std::pair<std::uint32_t, std::uint32_t> edge;
+    std::size_t place;  // 3 * triangle + corner
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> thirds;
-  for (const Corners& corners : forest.triangles)
-    for (std::size_t k = 0; k < 3; ++k) thirds[edge(corners, k)].push_back(corners[(k + 2) % 3]);
-  std::vector<std::uint32_t> around;
-  std::set<std::uint32_t> owned_vertices;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> owned_edges;
-  for (const Corners& corners : forest.triangles) {
-    std::uint32_t owned = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::vector<std::uint32_t>& both = thirds[edge(corners, k)];
-      around.push_back(both.size() != 2 ? physics::no_vertex : both[0] == corners[(k + 2) % 3] ? both[1] : both[0]);
-      if (owned_vertices.insert(corners[k]).second) owned |= 1u << k;
-      if (owned_edges.insert(edge(corners, k)).second) owned |= 8u << k;
+  std::vector<Side> sides;
+  std::vector<std::uint32_t> around(4 * forest.triangles.size(), physics::no_vertex);
+  std::vector<bool> is_owned(vertex_count);
+  for (std::size_t t = 0; t < forest.triangles.size(); ++t) {
+    const std::array<std::uint32_t, 3>& corners = forest.triangles[t];
+    std::uint32_t& owned = around[4 * t + 3] = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides.push_back({std::minmax(corners[k], corners[(k + 1) % 3]), 3 * t + k});
+      if (!is_owned[corners[k]]) owned |= 1u << k;
+      is_owned[corners[k]] = true;
     }
-    around.push_back(owned);
+  }
+  const auto third = [&](const Side& side) { return forest.triangles[side.place / 3][(side.place + 2) % 3]; };
+  std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.place); });
+  for (auto first = sides.begin(); first != sides.end();) {
+    const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return side.edge != first->edge; });
+    around[4 * (first->place / 3) + 3] |= 8u << first->place % 3;
+    if (end - first == 2) {
+      around[4 * (first[0].place / 3) + first[0].place % 3] = third(first[1]);
+      around[4 * (first[1].place / 3) + first[1].place % 3] = third(first[0]);
+    }
+    first = end;
   }
   return around;
 }
@@ -119,7 +124,7 @@ class Impulse final : public Response {
     make_grounds(setting);
     make_step_parts();
     make_motions();
-    bodies_.arrays.make("triangle_around", surroundings(setting.forest));
+    bodies_.arrays.make("triangle_around", surroundings(setting.forest, bodies_.vertex_count));
     make_lists(setting.forest.triangles.size());
     make_kept_impulses();
     make_debts(setting.model);
