@@ -18,11 +18,11 @@ void find_flights(uint b) {
   if (status[b].activity == immovable) return;
   uint first = first_of_island(b);
   ATOMIC_STORE(cluster[b].island, first);
-  if (b != first) return;
+  if (b != first || cluster[b].has_company == 0u) return;
   dvec3 momentum = mass_of(b) * LOAD3(cluster[b].island_velocity, 0u);
   double mass = mass_of(b);
   for (uint other = b + 1u; other < body_count; ++other) {
-    if (first_of_island(other) != first) continue;
+    if (cluster[other].has_company == 0u || first_of_island(other) != first) continue;
     momentum += mass_of(other) * LOAD3(cluster[other].island_velocity, 0u);
     mass += mass_of(other);
     if (cluster[other].cannot_fly != 0u) cluster[b].cannot_fly = 1u;

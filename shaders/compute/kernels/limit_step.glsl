@@ -76,6 +76,9 @@ dvec3 mean_velocity(uint b) {
 
 // Makes two bodies one island, without locks: each body names itself or an earlier one. If it named another before, that one joins, too.
 void join(uint a, uint b) {
+  if (a == b) return;
+  ATOMIC_STORE(cluster[a].has_company, 1u);
+  ATOMIC_STORE(cluster[b].has_company, 1u);
   while (a != b) {
     uint earlier = min(a, b), later = max(a, b), before = atomicMin(cluster[later].island, earlier);
     if (before == later) return;

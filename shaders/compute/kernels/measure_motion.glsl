@@ -25,6 +25,7 @@ PARAMETER(uint, from_half)
 
 void leave_island(uint b) {
   cluster[b].island = b;
+  cluster[b].has_company = 0u;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
   cluster[b].is_beside_static = 0u;
 }

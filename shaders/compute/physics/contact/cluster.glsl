@@ -25,10 +25,11 @@ struct Cluster {
   uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
   uint is_beside_static;      // 1: one has a cage that meets a static triangle or comes near a ground, so it has no flight
 
-  uint first;    // the first body of the cluster of the body with this number
-  uint island;   // the first body of its island
-  uint bodies;   // of the cluster
-  uint is_held;  // 1: one of the cluster's bodies was cut short in the world
+  uint first;        // the first body of the cluster of the body with this number
+  uint island;       // the first body of its island
+  uint has_company;  // 1: its island has other bodies, too
+  uint bodies;       // of the cluster
+  uint is_held;      // 1: one of the cluster's bodies was cut short in the world
 };
 
 SHARED_END
