@@ -1,5 +1,6 @@
 // Runs that are killed, interrupted or copied, and taken up again.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -152,9 +153,13 @@ TEST_CASE("a run that is interrupted between the parts of a step goes on there, 
   const auto whole = folder.path / "whole", part = folder.path / "part";
   REQUIRE(run_program("run " + scene + " --device cpu --quiet --out " + whole.string()).exit_code == 0);
   double steps = 0, time = 0;
-  for (int tries = 0; tries < 20 && !(time > step * steps); ++tries) {  // some interrupts come just between two steps
+  // Where processors are busy an interrupt can come just between two steps, try for try. So each try gives the program longer.
+  for (int tries = 0; tries < 20 && !(time > step * steps); ++tries) {
     ProgramInTerminal program({"run", scene, "--device", "cpu", "--out", part.string(), "--checkpoint", checkpoint});
-    REQUIRE(program.has_shown_progress(1));                 // after the first step
+    REQUIRE(program.has_shown_progress(1));  // after the first step
+    const auto then = std::chrono::steady_clock::now() + tries * std::chrono::milliseconds(3);
+    while (std::chrono::steady_clock::now() < then) {
+    }
     if (program.end_by(SIGINT).exit_code != 130) continue;  // it was over
     const ReadJson account = account_in(part);
     steps = account["steps"].get<double>();
