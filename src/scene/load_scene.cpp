@@ -1,10 +1,9 @@
-// A table reader checks types and ranges, and remembers which keys it was asked for. Below it, each key has one line.
+// A table reader remembers which keys it was asked for. Below it, each key has one line.
 #include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <unordered_set>
@@ -15,91 +14,10 @@
 #include "core/read_text.hpp"
 #include "scene/overrides.hpp"
 #include "scene/toml.hpp"
+#include "scene/values.hpp"
 
 namespace pliant {
 namespace {
-
-// ---- Values ----
-
-struct Range {
-  double lowest, highest;
-  const char* text;  // what to write
-};
-
-constexpr Range positive{1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
-constexpr Range error_tolerance{1e-14, 0.1, "a number from 1e-14 to 0.1"};
-constexpr Range positive_or_auto{1e-30, 1e30, "a number above 0 (1e-30 to 1e30), or \"auto\""};
-constexpr Range not_negative{0, 1e30, "a number from 0 to 1e30"};
-constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
-constexpr Range fraction{0, 1, "a number from 0 to 1"};
-constexpr Range edge_part{0.01, 0.1, "a number from 0.01 to 0.1"};
-constexpr Range view_angle{1, 179, "a number from 1 to 179"};
-constexpr Range tree_depth{1, 64, "a whole number from 1 to 64"};
-constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
-constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};
-constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
-constexpr Range row_length{1, 65535, "a whole number from 1 to 65535"};
-
-template <typename Enum>
-struct Choice {
-  const char* name;
-  Enum value;
-};
-
-void convert(const toml::node& node, const std::string& path, double& value, const Range& range) {
-  if (!node.is_number()) fail(node, path, fmt::format("is {}", type_name(node)), fmt::format("write {}", range.text));
-  // toml++ gives no double for a whole number that it would round.
-  const double number = node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
-  if (!(number >= range.lowest && number <= range.highest))
-    fail(node, path, fmt::format("{} is out of range", number), fmt::format("write {}", range.text));
-  value = number;
-}
-
-void convert(const toml::node& node, const std::string& path, unsigned& value, const Range& range) {
-  double number = 0;
-  convert(node, path, number, range);
-  if (!node.is_integer()) fail(node, path, "is no whole number", fmt::format("write {}", range.text));
-  value = static_cast<unsigned>(number);
-}
-
-template <typename T, typename... How>
-void convert(const toml::node& node, const std::string& path, std::optional<T>& value, const How&... how) {
-  convert(node, path, value.emplace(), how...);
-}
-
-template <int length, typename T, glm::qualifier precision>
-void convert(const toml::node& node, const std::string& path, glm::vec<length, T, precision>& value, const Range& range) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != length)
-    fail(node, path, array ? fmt::format("has {} elements", array->size()) : fmt::format("is {}", type_name(node)),
-         fmt::format("write an array of {}, each {}", length, range.text));
-  for (int i = 0; i < length; ++i)
-    convert((*array)[static_cast<std::size_t>(i)], fmt::format("{}[{}]", path, i), value[i], range);
-}
-
-void convert(const toml::node& node, const std::string& path, std::string& value) {
-  const auto* text = node.as_string();
-  if (text == nullptr) fail(node, path, fmt::format("is {}", type_name(node)), "write a string in quotation marks");
-  const bool has_control = std::ranges::any_of(text->get(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (text->get().empty() || has_control) fail(node, path, "is empty or holds a control character", "write a plain line of text");
-  value = text->get();
-}
-
-void convert(const toml::node& node, const std::string& path, Named& named) {
-  convert(node, path, named.value);
-  named.where = origin_of(node, path);
-}
-
-template <typename Enum>
-void convert(const toml::node& node, const std::string& path, Enum& value, const std::vector<Choice<Enum>>& choices) {
-  std::string name;
-  convert(node, path, name);
-  const auto found = std::ranges::find(choices, name, &Choice<Enum>::name);
-  std::vector<std::string> names;
-  for (const Choice<Enum>& choice : choices) names.emplace_back(choice.name);
-  if (found == choices.end()) fail(node, path, fmt::format("\"{}\" is no choice", name), "write one of " + list(names));
-  value = found->value;
-}
 
 // ---- Tables ----
 

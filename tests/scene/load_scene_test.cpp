@@ -1,45 +1,14 @@
 #include "scene/load_scene.hpp"
 
-#include <algorithm>
 #include <fstream>
 
 #include "support/expect_error.hpp"
 #include "support/paths.hpp"
+#include "support/scene_text.hpp"
 #include "support/scratch.hpp"
 
 namespace pliant {
 namespace {
-
-const std::string smallest = "[[body]]\nmesh = \"icosphere:1\"\n";
-
-SceneDescription load_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const test::ScratchFolder folder;
-  const std::filesystem::path file = folder.path / "scene.toml";
-  std::ofstream(file, std::ios::binary) << text;
-  return load_scene(file, overrides);
-}
-
-void check_input_error(const std::string& text, int line, std::initializer_list<const char*> parts) {
-  CAPTURE(text);
-  const Error error = error_of([&] { return load_text(text); });
-  CHECK(error.kind() == ErrorKind::input);
-  CHECK_THAT(std::string(error.what()), Catch::Contains("scene.toml:" + std::to_string(line) + ":"));
-  check_says(error, parts);
-  check_says(error, {"; "});
-}
-
-void check_override_error(const std::string& text, const char* override_text, std::initializer_list<const char*> parts) {
-  CAPTURE(override_text);
-  const Error error = error_of([&] { return load_text(text, {override_text}); });
-  CHECK(error.kind() == ErrorKind::command_line);
-  check_says(error, {"--set ", override_text, "; "});
-  check_says(error, parts);
-}
-
-const std::string two_named =
-    "[[body]]\nname = \"left\"\nmesh = \"icosphere:1\"\nstiffness = 40\n[[body]]\nmesh = \"icosphere:2\"\n";
-
-}  // namespace
 
 TEST_CASE("a body with a mesh is a scene, and all else has the documented default") {
   const SceneDescription scene = load_text(smallest);
@@ -377,127 +346,5 @@ TEST_CASE("a mesh is no scene, and is told so") {
   CHECK_THAT(mesh.what(), Catch::Contains("show it by pliant view"));
 }
 
-TEST_CASE("overrides replace, add and reach into sections that the file lacks") {
-  const SceneDescription scene =
-      load_text("[simulation]\ntime_step = 0.5\n" + two_named,
-                {"simulation.time_step=0.25", "simulation.integrator=rk4", "collision.tree.max_depth = 9",
-                 "output.camera.eye=[1, 2, 3]", "title=\"with spaces\"", "body.left.stiffness=80",
-                 "body.body1.mesh=../meshes/bunny.obj", "body.left.name=port", "body.port.damping=7"});
-  CHECK(scene.simulation.time_step == 0.25);
-  CHECK(scene.simulation.integrator.value == "rk4");
-  CHECK(scene.simulation.integrator.where.place == "--set simulation.integrator=rk4: simulation.integrator");
-  CHECK(scene.collision.tree.max_depth == 9);
-  CHECK(scene.output.camera->eye == glm::dvec3(1, 2, 3));
-  CHECK(scene.title == "with spaces");
-  CHECK((scene.bodies[0].name == "port" && scene.bodies[0].stiffness == 80 && scene.bodies[0].damping == 7));
-  CHECK(scene.bodies[1].mesh == "../meshes/bunny.obj");
-  CHECK(scene.bodies[1].mesh_where.place == "--set body.body1.mesh=../meshes/bunny.obj: body.body1.mesh");
-}
-
-TEST_CASE("a later override wins, and auto replaces a step") {
-  const std::string text = "[simulation]\ntime_step = 0.5\n" + smallest;
-  CHECK(load_text(text, {"simulation.time_step=1", "simulation.time_step=2"}).simulation.time_step == 2);
-  CHECK_FALSE(load_text(text, {"simulation.time_step=auto"}).simulation.time_step);
-}
-
-TEST_CASE("an override replaces the key of the file that it can't stand beside") {
-  const std::string stiffness = "[simulation]\ntime_step = 0.5\n" + smallest + "stiffness = 3\n",
-                    total = "[simulation]\ntolerance = 1e-6\n" + smallest + "total_stiffness = 3\n";
-  const SceneDescription by_total = load_text(stiffness, {"body.body0.total_stiffness=7", "simulation.tolerance=1e-6"});
-  CHECK((by_total.bodies[0].total_stiffness == 7 && by_total.bodies[0].stiffness == BodyDescription().stiffness));
-  CHECK((by_total.simulation.tolerance == 1e-6 && !by_total.simulation.time_step));
-  const SceneDescription by_one = load_text(total, {"body.body0.stiffness=7", "simulation.time_step=0.25"});
-  CHECK((!by_one.bodies[0].total_stiffness && by_one.bodies[0].stiffness == 7));
-  CHECK((!by_one.simulation.tolerance && by_one.simulation.time_step == 0.25));
-  CHECK_FALSE(load_text(total, {"simulation.time_step=auto"}).simulation.tolerance);
-  const Error both = error_of([] { return load_text(two_named, {"body.left.vertex_mass=1", "body.left.total_mass=1"}); });
-  CHECK_THAT(both.what(), Catch::Contains("can't be combined with vertex_mass"));
-}
-
-TEST_CASE("a body's name may contain dots") {
-  const std::string text = "[[body]]\nname = \"a.b\"\nmesh = \"icosphere:1\"\n";
-  CHECK(load_text(text, {"body.a.b.stiffness=3"}).bodies[0].stiffness == 3);
-}
-
-const std::string in_rows =
-    "[[body]]\nname = \"a\"\nmesh = \"cube:1\"\n"
-    "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 3]\nspacing = [2, 9, -4]\n"
-    "position = [10, 20, 30]\ntotal_mass = 5\n"
-    "\"[1,0,2]\" = { velocity = [0, 0, 7], vertex_mass = 3, position = [1, 2, 3] }\n";
-
-TEST_CASE("one table writes many bodies in rows, and any of them can differ") {
-  const SceneDescription scene = load_text(in_rows);
-  REQUIRE(scene.bodies.size() == 7);
-  const char* names[] = {"a", "ball[0,0,0]", "ball[0,0,1]", "ball[0,0,2]", "ball[1,0,0]", "ball[1,0,1]", "ball[1,0,2]"};
-  for (std::size_t b = 0; b < 7; ++b) {
-    CAPTURE(b);
-    const BodyDescription& body = scene.bodies[b];
-    CHECK(body.name == names[b]);
-    CHECK(body.color == default_color(b));
-    if (b == 0) continue;
-    CHECK(body.mesh == "icosphere:1");
-    const bool is_last = b == 6;
-    CHECK(body.velocity == glm::dvec3(0, 0, is_last ? 7 : 0));
-    CHECK(body.total_mass == (is_last ? std::nullopt : std::optional(5.0)));
-    CHECK(body.vertex_mass == (is_last ? 3 : 1));
-    const double x = b > 3 ? 1 : 0, z = static_cast<double>((b - 1) % 3);
-    CHECK(body.position == (is_last ? glm::dvec3(1, 2, 3) : glm::dvec3(10 + 2 * x, 20, 30 - 4 * z)));
-  }
-  CHECK_THAT(scene.bodies[6].where, Catch::EndsWith(":11"));
-}
-
-TEST_CASE("overrides reach all bodies in rows, or one of them") {
-  const std::vector<std::string> overrides = {"body.ball.scale=2", "body.ball[0,0,1].scale=3", "body.ball[1,0,2].total_mass=8",
-                                              "body.ball.count=[2,2,3]"};
-  const SceneDescription scene = load_text(in_rows, overrides);
-  REQUIRE(scene.bodies.size() == 13);
-  for (std::size_t b = 1; b < 13; ++b) CHECK(scene.bodies[b].scale == (scene.bodies[b].name == "ball[0,0,1]" ? 3 : 2));
-  const auto last = std::ranges::find(scene.bodies, "ball[1,0,2]", &BodyDescription::name);
-  CHECK(last->total_mass == 8);  // in place of the file's vertex_mass
-  check_override_error(in_rows, "body.ball[2,0,0].scale=1", {"[2,0,0]", "none of the bodies", "[1,0,2]"});
-  check_override_error(in_rows, "body.ball[0,0].scale=1", {"there is no body"});
-  check_override_error(in_rows, "body.a[0,0,0].scale=1", {"there is no body"});
-}
-
-TEST_CASE("bodies in rows that can't be are an error that says what to write") {
-  const std::string body = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\n",
-                    rows = body + "count = [2, 1, 1]\nspacing = [3, 0, 0]\n";
-  check_input_error(body + "count = [2, 1, 1]\n", 1, {"has no spacing"});
-  check_input_error(body + "spacing = [2, 1, 1]\n", 4, {"spacing", "unknown key"});
-  check_input_error(body + "count = [0, 1, 1]\nspacing = [3, 0, 0]\n", 4, {"count", "out of range"});
-  check_input_error(body + "count = 2\nspacing = [3, 0, 0]\n", 4, {"count", "array of 3"});
-  check_input_error(body + "count = [300, 300, 1]\nspacing = [3, 0, 0]\n", 4, {"makes 90000 bodies", "65535"});
-  check_input_error(rows + "\"[2,0,0]\" = { scale = 2 }\n", 6, {"none of the bodies"});
-  check_input_error(rows + "\"[1, 0, 0]\" = { scale = 2 }\n", 6, {"none of the bodies", "[0,0,0]"});
-  check_input_error(rows + "\"[1,0,0]\" = 2\n", 6, {"is a whole number", "write a table"});
-  check_input_error(rows + "\"[1,0,0]\" = { name = \"b\" }\n", 6, {"named by its place"});
-  check_input_error(rows + "\"[1,0,0]\" = { scal = 2 }\n", 6, {"body.ball[1,0,0].scal", "unknown key"});
-  check_input_error(rows + "\"[1,0,0]\" = { stiffness = 2, total_stiffness = 2 }\n", 6, {"can't be combined"});
-  check_input_error(rows + "scal = 2\n", 6, {"body.ball.scal", "unknown key", "scale"});
-  check_input_error(body + "\"[0,0,0]\" = { scale = 2 }\n", 4, {"unknown key"});
-  check_input_error("[[body]]\nname = \"ball[1,0,0]\"\nmesh = \"icosphere:1\"\n" + rows, 4, {"the name is taken"});
-}
-
-TEST_CASE("a faulty override is a command line error that repeats it") {
-  check_override_error(two_named, "simulation.time_step", {"no \"=\""});
-  check_override_error(two_named, "=3", {"no key"});
-  check_override_error(two_named, "", {"no key"});
-  check_override_error(two_named, "simulation.time_step=", {"has no value"});
-  check_override_error(two_named, "title=two words", {"no TOML"});
-  check_override_error(two_named, "title=\xff\xfe", {"no TOML"});
-  check_override_error(two_named, "simulation.gravity=[1,2", {"no TOML"});
-  check_override_error(two_named, "simulation.duration=1\nextra = 2", {"no TOML"});
-  check_override_error(two_named, "simulation.time_step=-1", {"simulation.time_step", "out of range"});
-  check_override_error(two_named, "simulation.time_step=fast", {"is a string"});
-  check_override_error(two_named, "simulation.time_stp=1", {"did you mean \"time_step\"?"});
-  check_override_error(two_named, "simulatio.time_step=1", {"did you mean \"simulation\"?"});
-  check_override_error(two_named, "collision.tree={max_deth = 3}", {"did you mean \"max_depth\"?"});
-  check_override_error(two_named, "body.lefd.stiffness=1", {"no body \"lefd\"", "did you mean \"left\"?"});
-  check_override_error(two_named, "body.stiffness=1", {"names no body"});
-  check_override_error(two_named, "body.left.stifness=1", {"did you mean \"stiffness\"?"});
-  check_override_error(two_named, "body.left.stiffness=many", {"is a string"});
-  check_override_error("title = \"t\"\n" + two_named, "title.sub=1", {"\"title\" is no section"});
-  check_override_error(two_named, "simulation..x=1", {"simulation"});
-}
-
+}  // namespace
 }  // namespace pliant

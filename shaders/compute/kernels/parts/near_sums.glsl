@@ -51,8 +51,8 @@ void clear_near(uint buffer_index) {
   }
 }
 
-// Whether a contact asks for so much that sums might grow beyond their room. A vertex at the largest speed has up to 2^47 quanta. Asked for 4
-// times as much, and twice that after a bounce, its sums have 2^50, and room for 2^52.
+// Whether a contact asks for so much that sums might grow beyond their room. A vertex at the largest speed has up to 2^47 quanta. Asked for
+// 4 times as much, and twice that after a bounce, its sums have 2^50, and room for 2^52.
 bool asks_much(uint c) {
   real4 goal = contact_row[contact_rows * c + 2u], impulse = impulse_row[c];
   real change = abs(contact_row[contact_rows * c].w) + length(real3(goal));

@@ -58,8 +58,8 @@ FN real least_velocity(IN(Course) c, IN(Approach) a) {
 }
 
 // Returns how many times the impulse that stops its points a contact gives in the end. By Poisson's hypothesis bodies part by the
-// elasticity's part of the impulse that stopped them. So contacts that push each other back give far less energy than if each turned its own
-// velocity around. Only what stops the velocity now counts, and not what springs press on in the step. Points at rest do not bounce.
+// elasticity's part of the impulse that stopped them. So contacts that push each other back give far less energy than if each turned its
+// own velocity around. Only what stops the velocity now counts, and not what springs press on in the step. Points at rest do not bounce.
 // Source: Ch. Glocker and F. Pfeiffer, Multiple impacts with friction in rigid multibody systems (1995).
 FN real bounce_of(IN(Course) c, IN(Approach) a) {
   real change = least_velocity(c, a) - c.velocity;

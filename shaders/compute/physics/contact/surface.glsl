@@ -104,7 +104,8 @@ const uint pressed_for = 64u;
 
 const uint contact_rows = 6u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step. Impulses bounce in
-// one round: when all contacts have settled, or else in the first one from forced_bounce on. Then rounds go on until all have settled again.
+// one round: when all contacts have settled, or else in the first one from forced_bounce on. Then rounds go on until all have settled
+// again.
 const uint fewest_kick_rounds = 9u;
 const uint forced_bounce = 64u;
 const uint fewest_rounds_from_bounce = 3u;  // its own is one of them

@@ -1,0 +1,69 @@
+// Bodies that one table writes in rows.
+#include <algorithm>
+
+#include "support/scene_text.hpp"
+
+namespace pliant {
+namespace {
+
+const std::string in_rows =
+    "[[body]]\nname = \"a\"\nmesh = \"cube:1\"\n"
+    "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 3]\nspacing = [2, 9, -4]\n"
+    "position = [10, 20, 30]\ntotal_mass = 5\n"
+    "\"[1,0,2]\" = { velocity = [0, 0, 7], vertex_mass = 3, position = [1, 2, 3] }\n";
+
+TEST_CASE("one table writes many bodies in rows, and any of them can differ") {
+  const SceneDescription scene = load_text(in_rows);
+  REQUIRE(scene.bodies.size() == 7);
+  const char* names[] = {"a", "ball[0,0,0]", "ball[0,0,1]", "ball[0,0,2]", "ball[1,0,0]", "ball[1,0,1]", "ball[1,0,2]"};
+  for (std::size_t b = 0; b < 7; ++b) {
+    CAPTURE(b);
+    const BodyDescription& body = scene.bodies[b];
+    CHECK(body.name == names[b]);
+    CHECK(body.color == default_color(b));
+    if (b == 0) continue;
+    CHECK(body.mesh == "icosphere:1");
+    const bool is_last = b == 6;
+    CHECK(body.velocity == glm::dvec3(0, 0, is_last ? 7 : 0));
+    CHECK(body.total_mass == (is_last ? std::nullopt : std::optional(5.0)));
+    CHECK(body.vertex_mass == (is_last ? 3 : 1));
+    const double x = b > 3 ? 1 : 0, z = static_cast<double>((b - 1) % 3);
+    CHECK(body.position == (is_last ? glm::dvec3(1, 2, 3) : glm::dvec3(10 + 2 * x, 20, 30 - 4 * z)));
+  }
+  CHECK_THAT(scene.bodies[6].where, Catch::EndsWith(":11"));
+}
+
+TEST_CASE("overrides reach all bodies in rows, or one of them") {
+  const std::vector<std::string> overrides = {"body.ball.scale=2", "body.ball[0,0,1].scale=3", "body.ball[1,0,2].total_mass=8",
+                                              "body.ball.count=[2,2,3]"};
+  const SceneDescription scene = load_text(in_rows, overrides);
+  REQUIRE(scene.bodies.size() == 13);
+  for (std::size_t b = 1; b < 13; ++b) CHECK(scene.bodies[b].scale == (scene.bodies[b].name == "ball[0,0,1]" ? 3 : 2));
+  const auto last = std::ranges::find(scene.bodies, "ball[1,0,2]", &BodyDescription::name);
+  CHECK(last->total_mass == 8);  // in place of the file's vertex_mass
+  check_override_error(in_rows, "body.ball[2,0,0].scale=1", {"[2,0,0]", "none of the bodies", "[1,0,2]"});
+  check_override_error(in_rows, "body.ball[0,0].scale=1", {"there is no body"});
+  check_override_error(in_rows, "body.a[0,0,0].scale=1", {"there is no body"});
+}
+
+TEST_CASE("bodies in rows that can't be are an error that says what to write") {
+  const std::string body = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\n",
+                    rows = body + "count = [2, 1, 1]\nspacing = [3, 0, 0]\n";
+  check_input_error(body + "count = [2, 1, 1]\n", 1, {"has no spacing"});
+  check_input_error(body + "spacing = [2, 1, 1]\n", 4, {"spacing", "unknown key"});
+  check_input_error(body + "count = [0, 1, 1]\nspacing = [3, 0, 0]\n", 4, {"count", "out of range"});
+  check_input_error(body + "count = 2\nspacing = [3, 0, 0]\n", 4, {"count", "array of 3"});
+  check_input_error(body + "count = [300, 300, 1]\nspacing = [3, 0, 0]\n", 4, {"makes 90000 bodies", "65535"});
+  check_input_error(rows + "\"[2,0,0]\" = { scale = 2 }\n", 6, {"none of the bodies"});
+  check_input_error(rows + "\"[1, 0, 0]\" = { scale = 2 }\n", 6, {"none of the bodies", "[0,0,0]"});
+  check_input_error(rows + "\"[1,0,0]\" = 2\n", 6, {"is a whole number", "write a table"});
+  check_input_error(rows + "\"[1,0,0]\" = { name = \"b\" }\n", 6, {"named by its place"});
+  check_input_error(rows + "\"[1,0,0]\" = { scal = 2 }\n", 6, {"body.ball[1,0,0].scal", "unknown key"});
+  check_input_error(rows + "\"[1,0,0]\" = { stiffness = 2, total_stiffness = 2 }\n", 6, {"can't be combined"});
+  check_input_error(rows + "scal = 2\n", 6, {"body.ball.scal", "unknown key", "scale"});
+  check_input_error(body + "\"[0,0,0]\" = { scale = 2 }\n", 4, {"unknown key"});
+  check_input_error("[[body]]\nname = \"ball[1,0,0]\"\nmesh = \"icosphere:1\"\n" + rows, 4, {"the name is taken"});
+}
+
+}  // namespace
+}  // namespace pliant
