@@ -23,7 +23,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       body_count_(bodies.body_count),
       has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
-      body_pairs_(bodies),
+      body_pairs_(bodies, model, description.broad_phase),
       trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       response_row_(row_of(description, searches() || !model.grounds.empty())) {
@@ -37,8 +37,9 @@ bool Collider::uses_trees() const { return description_.search == ContactSearch:
 
 std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
   if (!searches()) return {};
-  if (has_static_) return {bounding_pass(half), body_pairs_.pairing_pass()};
-  return {body_pairs_.pairing_pass()};
+  std::vector<Pass> passes = body_pairs_.pairing_passes();
+  if (has_static_) passes.insert(passes.begin(), bounding_pass(half));
+  return passes;
 }
 
 std::vector<Pass> Collider::refitting_passes(std::uint32_t half) const {

@@ -28,6 +28,8 @@ constexpr const char* name_of(DampingLaw law) {
   constexpr const char* names[] = {"none", "constant", "adaptive", "internal"};
   return names[static_cast<unsigned>(law)];
 }
+/// How pairs of bodies are found. Results do not depend on it.
+enum class BroadPhase { automatic, all_pairs, grid };
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };
 enum class Coloring { body, deformation };
@@ -60,6 +62,7 @@ struct CollisionDescription {
   double friction = 0.5;
   std::optional<double> restitution = {};  // of bodies that have none of their own
   double gap = 0.05;                       // that contacts keep, in mean edges of the meshes
+  BroadPhase broad_phase = BroadPhase::automatic;
   ContactSearch search = ContactSearch::tree;
   Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;

@@ -45,6 +45,12 @@ bool is_finite(const State& state, const Model& model) {
          std::ranges::all_of(state.world_positions(model), [](const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); });
 }
 
+void expect_room_for_pairs(const Control& control) {
+  if (total(control, physics::body_pairs_lost) == 0) return;
+  throw Error(ErrorKind::device, "", "more bodies are near each other at once than there is room for",
+              "start with bodies further apart");
+}
+
 void expect_groups_met(const std::vector<physics::Status>& statuses) {
   if (std::ranges::find(statuses, physics::halted_waiting, &physics::Status::activity) == statuses.end()) return;
   throw Error(
@@ -175,6 +181,7 @@ StepReport Simulation::report() {
   const std::uint64_t searches = report.steps + report.substeps + (report.adaptive ? report.adaptive->rejected : 0);
   if (collider_.response() != nullptr && collider_.uses_trees())
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
+  expect_room_for_pairs(control);
   expect_groups_met(bodies_.statuses.download());
   add_force_counts(report, model_, bodies_.tallies.download());
   return report;

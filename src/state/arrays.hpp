@@ -15,6 +15,7 @@
 #include "device/array_list.hpp"
 #include "device/device.hpp"
 #include "physics/body.glsl"
+#include "physics/collision/grid.glsl"
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/impact.glsl"
@@ -55,6 +56,7 @@ PLIANT_ELEMENT(physics::Pose, "Pose")
 PLIANT_ELEMENT(physics::FrameChange, "FrameChange")
 PLIANT_ELEMENT(physics::BoxBits, "BoxBits")
 PLIANT_ELEMENT(physics::Status, "Status")
+PLIANT_ELEMENT(physics::GridEntry, "GridEntry")
 PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")

@@ -65,8 +65,8 @@ physics::BoxBits empty_box() {
   return box;
 }
 
-physics::Status first_status(const ModelBody& body) {
-  return {.activity = body.is_static ? physics::immovable : physics::moving,
+physics::Status first_status(bool is_static) {
+  return {.activity = is_static ? physics::immovable : physics::moving,
           .non_finite_vertex = physics::no_vertex,
           .deformed = 0,
           .force_stale = 1};
@@ -74,7 +74,8 @@ physics::Status first_status(const ModelBody& body) {
 
 std::vector<physics::Status> first_statuses(const Model& model) {
   std::vector<physics::Status> statuses;
-  for (const ModelBody& body : model.bodies) statuses.push_back(first_status(body));
+  for (const ModelBody& body : model.bodies) statuses.push_back(first_status(body.is_static));
+  statuses.push_back(first_status(false));  // stands for all
   return statuses;
 }
 

@@ -109,9 +109,17 @@ inline std::vector<double> numbers_of(const physics::Debt& debt) {
   return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2], double(debt.is_for_cuts)};
 }
 
+// The next one in a list depends on threads.
+inline std::vector<double> numbers_of(const physics::GridEntry& entry) {
+  std::vector<double> numbers(entry.lower, entry.lower + 3);
+  numbers.insert(numbers.end(), entry.upper, entry.upper + 3);
+  numbers.push_back(entry.level);
+  return numbers;
+}
+
 // Its motion means nothing if it has no bodies, and its velocity nothing if it cannot fly.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first),      double(cluster.bodies), double(cluster.is_held),
+  std::vector<double> numbers{double(cluster.first),      double(cluster.bodies),           double(cluster.is_held),
                               double(cluster.cannot_fly), double(cluster.is_beside_static), double(cluster.island)};
   if (cluster.cannot_fly == 0) numbers.insert(numbers.end(), cluster.island_velocity, cluster.island_velocity + 3);
   if (cluster.bodies == 0) return numbers;

@@ -6,6 +6,7 @@ WRITE(status)
 READ(rest_position)
 READ(world_position)
 PARAMETER(uint, first_position)
+PARAMETER(uint, body_count)
 #include "parts/bound.glsl"
 
 void bound_bodies(uint i) {

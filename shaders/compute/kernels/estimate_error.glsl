@@ -12,7 +12,9 @@ READ(acceleration)
 READ(error_weight)
 READ(error_scale)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, stage_count)
+#include "parts/note_non_finite.glsl"
 
 uint bits_of(dvec3 difference) { return floatBitsToUint(float(sqrt(dot(difference, difference)))) & 0x7fffffffu; }
 
@@ -35,5 +37,5 @@ void estimate_error(uint i) {
   uint error = joined_error(first, second);
   RAISE_TO(pace[0].error, error)
   // If the error ends the run, the first such vertex is noted. If the step is undone, so is the note.
-  if (failure_of(pace[0], h, error) != no_failure) atomicMin(status[b].non_finite_vertex, i);
+  if (failure_of(pace[0], h, error) != no_failure) note_non_finite(b, i);
 }

@@ -135,13 +135,20 @@ void prepare_next_step(uint b) {
   meeting[b] = 0u;
 }
 
+// All bodies note their first such vertex together, too.
+void tell_non_finite() {
+  uint first = status[body_count].non_finite_vertex;
+  if (first != no_vertex && control[0].non_finite_step == 0u) control[0].non_finite_vertex = first;
+}
+
 void follow_bodies(uint b) {
   dvec3 origin = LOAD3(pose[b].reference, 0u);
   Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
   prepare_next_step(b);
+  if (b == 0u) tell_non_finite();
   if (status[b].activity != moving) return;
-  if (status[b].non_finite_vertex != no_vertex) atomicMin(control[0].non_finite_vertex, status[b].non_finite_vertex);
-  for (uint other = 0u; other < body_count; ++other)
-    if (status[other].non_finite_vertex != no_vertex) status[b].activity = halted_for_good;
-  if (status[b].activity == moving) follow_rotation(b, samples, origin);
+  if (status[body_count].non_finite_vertex != no_vertex)
+    status[b].activity = halted_for_good;
+  else
+    follow_rotation(b, samples, origin);
 }

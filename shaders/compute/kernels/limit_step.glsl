@@ -1,10 +1,10 @@
-// One thread compares two bodies, and bounds the length of the step. No two of their vertices may approach by more than the distance of
-// the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a bound of their
-// own. The thread also finds how much further than expected bodies that are far from each other may move without meeting, how bodies that
+// Compares bodies that may reach each other, and bounds the length of the step. No two of their vertices may approach by more than the
+// distance of the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a
+// bound of their own. It also finds how much further than expected bodies may move without meeting others that are far, how bodies that
 // meet may push each other, and which bodies are one island.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/collision/box.glsl"
+#include "../physics/collision/grid.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
@@ -17,8 +17,11 @@ READ(pressed)
 WRITE(step_parts)
 WRITE(room)
 WRITE(cluster)
+READ(grid_list)
+READ(grid_entry)
+READ(grid_level)
 PARAMETER(uint, body_count)
-#include "parts/is_in_cluster.glsl"
+#include "parts/reach.glsl"
 
 // The largest that a number of the first box can be above one of the second.
 double above(uint upper, uint lower) { return double(from_ordered_bits(upper)) - double(from_ordered_bits(lower)); }
@@ -79,6 +82,7 @@ void join(uint a, uint b) {
   if (a == b) return;
   ATOMIC_STORE(cluster[a].has_company, 1u);
   ATOMIC_STORE(cluster[b].has_company, 1u);
+  ATOMIC_STORE(cluster[body_count].has_company, 1u);
   while (a != b) {
     uint earlier = min(a, b), later = max(a, b), before = atomicMin(cluster[later].island, earlier);
     if (before == later) return;
@@ -86,6 +90,31 @@ void join(uint a, uint b) {
     b = before;
   }
 }
+
+void bound_step(double longest) {
+  if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
+}
+
+Box box_to_meet(uint b) { return reach_box_of(b); }
+
+void meet(uint a, uint b) {
+  if (!moves(a) && !moves(b)) return;
+  dvec3 between = way_between(a, b);
+  double longest = step_parts[0].full, speed = approach(a, b), distance = length(between);
+  double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
+  if (speed * longest > most) longest = most / speed;
+  if (speed * longest > distance) {
+    push_away(a, b, speed);
+    push_away(b, a, speed);
+  }
+  if (moves(a) && moves(b) && distance <= edge_of_pair(surface[a], surface[b])) join(a, b);
+  if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
+  keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
+  bound_step(longest);
+}
+
+#include "parts/each_pair.glsl"
+#include "parts/is_in_cluster.glsl"
 
 // A body begins as an island of its own, together with its cluster. One that breaks apart does not fly. That compares bits, because
 // compilers turn comparisons of floats round as if there were no NaN.
@@ -96,25 +125,24 @@ void begin_flight(uint b) {
   if (is_in_cluster(b)) join(b, cluster[b].first);
 }
 
+// Its reach has room for as much more than is expected. The expected way takes half of that in the reach. One body alone has all the room.
+void bound_room(uint b) {
+  if (body_count == 1u) return;
+  double room_in_reach = way_of(b) + play_of(b, box_of_body(b));
+  LOWER_TO(room[b].to_others, floatBitsToUint(float(room_in_reach) * 0.9f))
+}
+
+// A body that was pressed a while ago has a bound of its own.
+void bound_pressed(uint b) {
+  if (pressed[b] != 0u && step_parts[0].parts + 1u - pressed[b] <= pressed_for) bound_step(surface[b].longest_pressed);
+}
+
 void limit_step(uint item) {
-  uint a = item / body_count, b = item % body_count;
-  if (a > b || (!moves(a) && !moves(b))) return;
-  double longest = step_parts[0].full;
-  if (a == b) {
-    begin_flight(a);
-    if (pressed[a] != 0u && step_parts[0].parts + 1u - pressed[a] <= pressed_for) longest = surface[a].longest_pressed;
-  } else {
-    dvec3 between = way_between(a, b);
-    double speed = approach(a, b), distance = length(between);
-    double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
-    if (speed * longest > most) longest = most / speed;
-    if (speed * longest > distance) {
-      push_away(a, b, speed);
-      push_away(b, a, speed);
-    }
-    if (moves(a) && moves(b) && distance <= edge_of_pair(surface[a], surface[b])) join(a, b);
-    if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
-    keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
+  uint b = body_of(item);
+  if (b != no_body && moves(b)) {
+    begin_flight(b);
+    bound_pressed(b);
+    bound_room(b);
   }
-  if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
+  visit_pairs(item);
 }

@@ -20,10 +20,12 @@ WRITE(body_box)
 WRITE(status)
 WRITE(cluster)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 #include "parts/bound.glsl"
 
 void leave_island(uint b) {
+  if (b == 0u) cluster[body_count].has_company = 0u;
   cluster[b].island = b;
   cluster[b].has_company = 0u;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;

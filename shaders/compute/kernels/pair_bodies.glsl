@@ -1,37 +1,41 @@
-// One thread compares the boxes of two bodies, and lists the pair if they overlap. All later collision work is for listed pairs alone.
+// Lists the pairs of bodies whose boxes overlap. All later collision work is for listed pairs alone.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
-#include "../physics/collision/box.glsl"
+#include "../physics/collision/grid.glsl"
 WRITE(control)
 READ(tree)
 READ(body_box)
 READ(status)
+READ(grid_list)
+READ(grid_entry)
+READ(grid_level)
 WRITE(near_pair)
 WRITE(partner_step)
 PARAMETER(uint, body_count)
+PARAMETER(uint, pair_count)  // of bodies that might touch
+PARAMETER(uint, near_pair_capacity)
+#include "parts/box_to_touch.glsl"
 
-Box box_of(uint b) {
-  Box box;
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = from_ordered_bits(body_box[b].lower[k]);
-    box.upper[k] = from_ordered_bits(body_box[b].upper[k]);
-  }
-  return box;
-}
+Box box_to_meet(uint b) { return box_to_touch(b); }
 
-void pair_bodies(uint item) {
-  uint a = item / body_count;
-  uint b = item % body_count;
-  if (a >= b || tree[a].y == 0u || tree[b].y == 0u) return;
+void meet(uint a, uint b) {
   if (status[a].activity != moving && status[b].activity != moving) return;
-  if (status[a].non_finite_vertex != no_vertex || status[b].non_finite_vertex != no_vertex) return;
-  if (!overlaps(box_of(a), box_of(b))) {
-    atomicAdd(control[0].count[body_pairs_skipped], 1u);
+  uint at = atomicAdd(control[0].near_pair_count, 1u);
+  if (at >= near_pair_capacity) {
+    atomicAdd(control[0].near_pair_count, ~0u);  // minus one
+    atomicAdd(control[0].count[body_pairs_lost], 1u);
     return;
   }
-  atomicAdd(control[0].count[body_pairs_near], 1u);
-  uint at = atomicAdd(control[0].near_pair_count, 1u);
   near_pair[at] = uvec2(a, b);
+  atomicAdd(control[0].count[body_pairs_skipped], ~0u);
   ATOMIC_STORE(partner_step[a], control[0].step);
   ATOMIC_STORE(partner_step[b], control[0].step);
+}
+
+#include "parts/each_pair.glsl"
+
+void pair_bodies(uint item) {
+  bool is_made = control[0].time_step > double(0) && control[0].non_finite_step == 0u;
+  if (item == 0u && is_made) atomicAdd(control[0].count[body_pairs_skipped], pair_count);
+  visit_pairs(item);
 }

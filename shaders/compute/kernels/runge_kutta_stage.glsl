@@ -19,6 +19,7 @@ WRITE(acceleration)
 WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
 #include "parts/stages.glsl"

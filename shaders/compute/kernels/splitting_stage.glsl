@@ -18,6 +18,7 @@ READ(added_force)
 WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
 PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if they can fall into parts; else 0

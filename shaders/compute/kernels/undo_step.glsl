@@ -12,6 +12,7 @@ WRITE(placement)
 WRITE(motion)
 WRITE(world_position)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 #include "parts/place.glsl"
 
@@ -31,4 +32,5 @@ void undo_step(uint i) {
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]),
           motion[displacement_of(before) + k] - pose[b].start_reference[k]);
   if (i == body[b].first_vertex) rest_body(b);
+  if (i == 0u) status[body_count].non_finite_vertex = no_vertex;
 }

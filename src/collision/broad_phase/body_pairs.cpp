@@ -1,24 +1,79 @@
 #include "collision/broad_phase/body_pairs.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/expect.hpp"
 
 namespace pliant {
+namespace {
 
-BodyPairs::BodyPairs(DeviceBodies& bodies)
-    : bodies_(bodies), most_pairs_(std::max(bodies.body_count * (bodies.body_count - 1) / 2, 1u)) {
+constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 16;
+// With fewer bodies comparing each with each takes less time (docs/benchmarks).
+constexpr std::uint32_t fewest_in_a_grid = 256;
+
+// Of bodies with triangles, one of which moves.
+std::uint32_t pairs_that_may_touch(const Model& model) {
+  std::uint32_t moving = 0, fixed = 0;
+  for (const ModelBody& body : model.bodies)
+    if (body.triangle_count > 0) ++(body.is_static ? fixed : moving);
+  return moving * (moving - std::min(moving, 1u)) / 2 + moving * fixed;
+}
+
+std::uint32_t room_for_pairs(std::uint32_t body_count) {
+  const std::uint32_t all = body_count * (body_count - std::min(body_count, 1u)) / 2;
+  return std::clamp(all, 1u, std::max(fewest_near_pairs, near_pairs_of_body * body_count));
+}
+
+// Twice as many lists as bodies, at least, or none without a grid.
+std::uint32_t lists_for(BroadPhase broad_phase, std::uint32_t body_count) {
+  if (broad_phase == BroadPhase::automatic)
+    broad_phase = body_count < fewest_in_a_grid ? BroadPhase::all_pairs : BroadPhase::grid;
+  return broad_phase == BroadPhase::grid ? std::bit_ceil(2 * body_count) : 0;
+}
+
+}  // namespace
+
+BodyPairs::BodyPairs(DeviceBodies& bodies, const Model& model, BroadPhase broad_phase)
+    : bodies_(bodies),
+      pair_count_(pairs_that_may_touch(model)),
+      most_pairs_(room_for_pairs(bodies.body_count)),
+      grid_lists_(lists_for(broad_phase, bodies.body_count)) {
   PLIANT_EXPECT(bodies.body_count <= 65535);
-  bodies.arrays.make<std::uint32_t>("partner_step", bodies.body_count);
-  bodies.arrays.make<glm::uvec2>("near_pair", most_pairs_);
+  Arrays& arrays = bodies.arrays;
+  arrays.make<std::uint32_t>("partner_step", bodies.body_count);
+  arrays.make<glm::uvec2>("near_pair", most_pairs_);
+  arrays.make<std::uint32_t>("grid_list", std::max(grid_lists_, 1u));
+  arrays.make<physics::GridEntry>("grid_entry", grid_lists_ > 0 ? bodies.body_count : 1);
+  arrays.make<std::uint32_t>("grid_level", physics::level_words);
+  arrays.set_parameter("grid_lists", grid_lists_);
+  arrays.set_parameter("threads_of_body", arrays.device().info().kind == DeviceKind::gpu ? 27u : 1u);
 }
 
 Pass BodyPairs::bounding_pass(std::uint32_t half) const {
   return make_pass(bodies_.arrays, "bound_bodies", {{"first_position", bodies_.first_of_half(half)}}, bodies_.vertex_count);
 }
 
-Pass BodyPairs::pairing_pass() const {
-  return make_pass(bodies_.arrays, "pair_bodies", {}, bodies_.body_count * bodies_.body_count);
+std::vector<Pass> BodyPairs::pairing_passes() const {
+  return passes_over_pairs(
+      "enter_boxes", make_pass(bodies_.arrays, "pair_bodies", {{"pair_count", pair_count_}, {"near_pair_capacity", most_pairs_}},
+                               visiting_threads()));
+}
+
+std::vector<Pass> BodyPairs::limiting_passes() const {
+  return passes_over_pairs("enter_reaches", make_pass(bodies_.arrays, "limit_step", {}, visiting_threads()));
+}
+
+std::vector<Pass> BodyPairs::passes_over_pairs(std::string_view entering, Pass visiting) const {
+  if (grid_lists_ == 0) return {std::move(visiting)};
+  const Arrays& arrays = bodies_.arrays;
+  return {make_pass(arrays, entering, {}, bodies_.body_count), std::move(visiting),
+          beside_next(make_pass(arrays, "leave_grid", {}, bodies_.body_count))};
+}
+
+std::uint32_t BodyPairs::visiting_threads() const {
+  const std::uint32_t threads_of_body = std::get<std::uint32_t>(*bodies_.arrays.parameter("threads_of_body"));
+  return bodies_.body_count * (grid_lists_ == 0 ? bodies_.body_count : threads_of_body);
 }
 
 }  // namespace pliant

@@ -138,8 +138,8 @@ class Impulse final : public Response {
       passes.push_back(
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
-    passes.push_back(make_pass(arrays, "limit_step", {}, bodies_.body_count * bodies_.body_count));
-    if (bodies_.body_count > 1) passes.push_back(make_pass(arrays, "find_flights", {}, bodies_.body_count));
+    std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
+    if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
@@ -149,7 +149,7 @@ class Impulse final : public Response {
     if (has_pairs_) {
       // A GPU waits for its slowest thread. One in software gains nothing, but so tests see what others do.
       const bool is_gpu = arrays.device().info().kind == DeviceKind::gpu;
-      passes.push_back(body_pairs_.pairing_pass());
+      std::ranges::move(body_pairs_.pairing_passes(), std::back_inserter(passes));
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity_), std::back_inserter(passes));
       passes.push_back(make_pass(arrays, "find_contacts",
                                  {{"triangle_pair_capacity", triangle_pair_capacity_},
@@ -330,6 +330,8 @@ class Impulse final : public Response {
     arrays.make("vertex_part_range", all.ranges);
     arrays.make<physics::PartSums>("part_sum", part_count_);
     arrays.make<physics::Cluster>("cluster", bodies_.body_count + 1);
+    arrays.make<std::uint32_t>("island_scale", 2 * bodies_.body_count);
+    arrays.make<glm::uvec2>("island_sum", 4 * bodies_.body_count);
     arrays.make<physics::Debt>("debt", bodies_.body_count + 1);
   }
 

@@ -23,10 +23,10 @@ std::vector<std::uint32_t> corners_of(const Forest& forest) {
   return corners;
 }
 
-// A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy. It needs nothing above that
-// depth.
+// A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy if each body is near another,
+// or 16 pairs of few bodies are. It needs nothing above that depth.
 unsigned start_depth_for(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
-  const std::uint32_t pairs = std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, 16);
+  const std::uint32_t pairs = std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, std::max(body_count, 16u));
   const auto depth = static_cast<unsigned>(std::bit_width(std::max(parallel_items / pairs, 1u)) - 1) / 2;
   return std::min(depth, forest.depth);
 }

@@ -15,7 +15,7 @@ std::vector<Force>& rows() {
 
 void count_as_deformed(DeviceBodies& bodies, const Force& force, const Model& model) {
   std::vector<physics::Status> statuses = bodies.statuses.download();
-  for (std::size_t b = 0; b < statuses.size(); ++b)
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!force.is_zero_at_rest && feels(model.bodies[b], force)) statuses[b].deformed = 1;
   bodies.statuses.upload(statuses);
 }

@@ -5,7 +5,7 @@ void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity,
   uint after = in_half(other_half(from_half), vertex_count, i);
   motion[displacement_of(after) + k] = displacement;
   motion[velocity_of(after) + k] = velocity;
-  if (!is_finite(float(velocity))) atomicMin(status[s.body_index].non_finite_vertex, i);
+  if (!is_finite(float(velocity))) note_non_finite(s.body_index, i);
   if (i == s.body.first_vertex) pose[s.body_index].reference[k] = reference;
 }
 

@@ -27,7 +27,7 @@ struct Cluster {
 
   uint first;        // the first body of the cluster of the body with this number
   uint island;       // the first body of its island
-  uint has_company;  // 1: its island has other bodies, too
+  uint has_company;  // 1: its island has other bodies, too; behind the last body: some island has
   uint bodies;       // of the cluster
   uint is_held;      // 1: one of the cluster's bodies was cut short in the world
 };

@@ -1,0 +1,29 @@
+// What a body can reach in a step. Bodies whose reaches are apart have nothing to do with each other. Needs the arrays `surface`,
+// `body_box`, `body_motion` and `step_parts`.
+#include "box_of_body.glsl"
+
+// How far the body's vertices may be expected to go [m].
+double way_of(uint b) {
+  dvec3 fastest;
+  for (int k = 0; k < 3; ++k)
+    fastest[k] = max(abs(double(from_ordered_bits(body_motion[b].lower[k]))), abs(double(from_ordered_bits(body_motion[b].upper[k]))));
+  return step_parts[0].full * length(fastest);
+}
+
+// How much further than expected it may go [m]. No body gets so far: forces within a body move its vertices by less than its size in a
+// step.
+double play_of(uint b, IN(Box) box) {
+  vec3 size = box.upper - box.lower;
+  return max(surface[b].edge, double(0.5) * double(max(size.x, max(size.y, size.z))));
+}
+
+// Twice the expected way, because bodies must not come near each other in the next step, either. Rounded outward.
+Box reach_box_of(uint b) {
+  Box box = box_of_body(b);
+  if (surface[b].inverse_mass == double(0)) return box;
+  vec3 far = vec3(float(double(2) * way_of(b) + play_of(b, box)));
+  vec3 slack = (max(abs(box.lower), abs(box.upper)) + far) * 2.4e-7f;
+  box.lower -= far + slack;
+  box.upper += far + slack;
+  return box;
+}

@@ -1,0 +1,182 @@
+// Pairs of bodies whose boxes overlap. The oracle compares each box with each.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "collision/collider.hpp"
+#include "support/evolve.hpp"
+#include "support/expect_error.hpp"
+#include "support/has.hpp"
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+CollisionDescription found_by(BroadPhase broad_phase, const char* response) {
+  CollisionDescription description;
+  description.response = {response};
+  description.broad_phase = broad_phase;
+  return description;
+}
+
+// Bodies of one triangle each. Every seventh is static.
+ModelAndState triangles(std::size_t count) {
+  std::vector<BodySetup> setups;
+  for (std::size_t b = 0; b < count; ++b) {
+    setups.push_back(soft({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, "triangle"));
+    if (b % 7 == 6) setups.back().description.kind = BodyKind::immovable;
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+// Boxes of sizes from 2^least to 2^most, each beside one of those before, so that there are near ones of all sizes. Some are
+// flat, and some share corners.
+std::vector<glm::vec4> strewn(std::size_t count, int least, int most, float from_origin, std::mt19937& random) {
+  std::uniform_int_distribution exponent(least, most);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  std::vector<glm::vec4> positions;
+  std::vector<float> sizes;
+  for (std::size_t b = 0; b < count; ++b) {
+    sizes.push_back(std::ldexp(1.0f, exponent(random)));
+    const std::size_t other = std::uniform_int_distribution<std::size_t>(0, b)(random);
+    const glm::vec3 from = other == b ? glm::vec3(from_origin) : glm::vec3(positions[3 * other]);
+    const float far = b % 5 == 4 ? 0 : 4 * std::max(sizes[b], sizes[other]);
+    const glm::vec3 corner = from + far * glm::vec3(unit(random), unit(random), unit(random));
+    positions.emplace_back(corner, 1);
+    for (int k = 1; k < 3; ++k)
+      positions.emplace_back(corner + sizes[b] * glm::vec3(unit(random), unit(random), b % 4 == 3 ? 0 : unit(random)), 1);
+  }
+  return positions;
+}
+
+Pairs oracle_pairs(const Model& model, const std::vector<glm::vec4>& positions) {
+  const std::size_t count = model.bodies.size();
+  std::vector<physics::Box> boxes(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    boxes[b] = physics::empty_box();
+    for (std::size_t k = 0; k < 3; ++k) boxes[b] = physics::grow(boxes[b], glm::vec3(positions[3 * b + k]));
+  }
+  Pairs pairs;
+  for (std::uint32_t a = 0; a < count; ++a)
+    for (std::uint32_t b = a + 1; b < count; ++b)
+      if (!(model.bodies[a].is_static && model.bodies[b].is_static) && physics::overlaps(boxes[a], boxes[b])) pairs.emplace(a, b);
+  return pairs;
+}
+
+Pairs near_pairs(Device& device, const ModelAndState& start, const std::vector<glm::vec4>& positions, BroadPhase broad_phase) {
+  DeviceBodies bodies(device, start.model, start.state);
+  bodies.set_time_step(1e-3);
+  const Collider collider(bodies, start.model, found_by(broad_phase, "reflect"));
+  bodies.world_positions.upload(positions);
+  std::vector<glm::uvec2> listed;
+  for (int search = 0; search < 2; ++search) {  // the first one leaves nothing behind
+    bodies.prepare_search();
+    physics::Control control = bodies.control.download().front();
+    control.near_pair_count = 0;
+    bodies.control.upload(std::span(&control, 1));
+    const Pass bounding = collider.bounding_pass(0);
+    device.run({&bounding, 1});
+    device.run(collider.pairing_passes(0));
+    listed = bodies.arrays.get<glm::uvec2>("near_pair").download(0, bodies.control.download().front().near_pair_count);
+  }
+  Pairs pairs;
+  for (const glm::uvec2& pair : listed) pairs.emplace(pair.x, pair.y);
+  CHECK(pairs.size() == listed.size());  // none twice
+  return pairs;
+}
+
+void check_pairs(Device& device, std::size_t bodies) {
+  std::mt19937 random(20261126);
+  const ModelAndState start = triangles(bodies);
+  for (const auto& [least, most] : {std::pair(0, 0), std::pair(-3, 3), std::pair(-20, 0), std::pair(-40, 40)})
+    for (const float from_origin : {0.0f, 1000.0f}) {
+      CAPTURE(bodies, least, most, from_origin);
+      const std::vector<glm::vec4> positions = strewn(bodies, least, most, from_origin, random);
+      const Pairs expected = oracle_pairs(start.model, positions);
+      CHECK(expected.size() > bodies / 4);
+      CHECK(expected.size() < bodies * bodies / 4);
+      CHECK(near_pairs(device, start, positions, BroadPhase::grid) == expected);
+      CHECK(near_pairs(device, start, positions, BroadPhase::all_pairs) == expected);
+    }
+}
+
+TEST_CASE("a grid finds the pairs of boxes that overlap, of any size, on any number of threads") {
+  for (const unsigned threads : {1u, 4u}) check_pairs(*make_cpu_device(threads, 32), 400);
+  check_pairs(*make_cpu_device(1, 64), 60);
+}
+
+TEST_CASE("a grid finds the pairs of boxes that overlap, of any size, on a GPU", "[gl]") {
+  if (test::lacks_gl()) return;
+  check_pairs(*make_gpu_device(0), 400);
+}
+
+TEST_CASE("a box as large as numbers go overlaps all others, and one that is not finite none") {
+  const ModelAndState start = triangles(40);
+  std::mt19937 random(1);
+  std::vector<glm::vec4> positions = strewn(40, -2, 2, 0, random);
+  for (int k = 0; k < 3; ++k) {
+    positions[k] = glm::vec4(glm::vec3(k == 0 ? -2.9e38f : 2.9e38f), 1);
+    positions[3 + k] = glm::vec4(glm::vec3(k == 0 ? -2.8e38f : 2.8e38f), 1);
+    positions[6 + k].y = std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto device = make_cpu_device(2, 32);
+  const Pairs found = near_pairs(*device, start, positions, BroadPhase::grid);
+  CHECK(found == near_pairs(*device, start, positions, BroadPhase::all_pairs));
+  for (std::uint32_t b = 0; b < 40; ++b) {
+    CHECK(found.contains({0, b}) == (b != 0 && b != 2));
+    CHECK((found.contains({2, b}) || found.contains({b, 2})) == false);
+  }
+}
+
+// Balls of three sizes that fall in a heap on a ground, beside one that flies past fast.
+ModelAndState heap() {
+  std::vector<BodySetup> setups;
+  for (int k = 0; k < 27; ++k) {
+    setups.push_back(soft(generate_mesh("icosphere:1"), "ball"));
+    BodyDescription& ball = setups.back().description;
+    ball.scale = k % 3 == 0 ? 0.2 : k % 3 == 1 ? 0.5 : 0.05;
+    ball.position = {1.1 * (k % 3), 1 + 1.1 * (k / 9), 1.1 * (k / 3 % 3)};
+    ball.velocity = {0.3 * (k % 2), -2, 0.2};
+  }
+  setups.back().description.velocity = {-40, -10, -40};
+  GroundDescription ground;
+  ground.point = {0, 0, 0};
+  return build_model(setups, {0, -9.81, 0}, {&ground, 1});
+}
+
+TEST_CASE("how pairs of bodies are found does not change a run") {
+  const ModelAndState start = heap();
+  for (const char* response : {"impulse", "reflect"}) {
+    CAPTURE(response);
+    ModelAndState from = start;
+    if (std::string_view(response) == "reflect") from.model.grounds.clear();
+    const auto run = [&](BroadPhase broad_phase, unsigned threads) {
+      const auto device = make_cpu_device(threads, 32);
+      Simulation simulation(*device, from.model, from.state, plan_of({"verlet", 0.002}), found_by(broad_phase, response));
+      simulation.advance(150);
+      return std::pair(simulation.state().motion, simulation.report());
+    };
+    const auto plain = run(BroadPhase::all_pairs, 1), one = run(BroadPhase::grid, 1), three = run(BroadPhase::grid, 3);
+    CHECK(plain.second.contact_steps > 0);
+    CHECK(plain.second.body_pairs_skipped > 0);
+    CHECK(one == plain);
+    CHECK(three == plain);
+  }
+}
+
+TEST_CASE("more near pairs than there is room for are an error that tells it") {
+  const ModelAndState start = build_model(std::vector(400, soft(generate_mesh("icosphere:0"), "one")), glm::dvec3(0.0));
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 1e-4}), found_by(BroadPhase::automatic, "reflect"));
+  simulation.advance(1);
+  CHECK(error_of([&] { return simulation.report(); }).kind() == ErrorKind::device);
+}
+
+}  // namespace
+}  // namespace pliant
