@@ -174,8 +174,11 @@ void bounce(uint c, uint kick_round, bool is_settled) {
   store_least_impulse(c);
 }
 
-// For a contact that jams. What it gives at least may have come about in the jam, too, and nothing but its friction may hold that.
+// For a contact that jams. Its friction shrinks from what it uses of it on. What it gives at least may have come about in the jam, too, and
+// nothing but its friction may hold that.
 void loosen(uint c) {
+  real sideways = length(real3(held.impulse.y, held.impulse.z, held.impulse.w));
+  if (sideways < held.goal_row.w * held.impulse.x) held.goal_row.w = sideways / held.impulse.x;
   held.goal_row.w *= real(0.9);
   held.least_impulse *= real(0.9);
   contact_row[contact_rows * c + 2u] = held.goal_row;
@@ -203,7 +206,7 @@ void answer(uint c, uint kick_round, bool ends) {
   if (!turns) held.ahead += momentum_after(kick_round - first) * (held.impulse - before);
   if (!changes) return;
   note_unsettled(kick_round);
-  if (kick_round >= jam_rounds) loosen(c);
+  if (kick_round >= max(jam_rounds, first + jam_rounds - forced_bounce)) loosen(c);
 }
 
 // Where a contact has a thread to itself, the thread keeps it from the first round to the last.

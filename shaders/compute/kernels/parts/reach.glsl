@@ -2,12 +2,14 @@
 // `body_box`, `body_motion` and `step_parts`.
 #include "box_of_body.glsl"
 
+// The most that a component of an expected velocity can be [m/s].
+double fastest_along(uint b, uint k) {
+  return double(max(abs(from_ordered_bits(body_motion[b].lower[k])), abs(from_ordered_bits(body_motion[b].upper[k]))));
+}
+
 // How far the body's vertices may be expected to go [m].
 double way_of(uint b) {
-  dvec3 fastest;
-  for (int k = 0; k < 3; ++k)
-    fastest[k] = max(abs(double(from_ordered_bits(body_motion[b].lower[k]))), abs(double(from_ordered_bits(body_motion[b].upper[k]))));
-  return step_parts[0].full * length(fastest);
+  return step_parts[0].full * length(dvec3(fastest_along(b, 0u), fastest_along(b, 1u), fastest_along(b, 2u)));
 }
 
 // How much further than expected it may go [m]. No body gets so far: forces within a body move its vertices by less than its size in a

@@ -111,7 +111,8 @@ const uint forced_bounce = 64u;
 const uint fewest_rounds_from_bounce = 3u;  // its own is one of them
 const uint most_kick_rounds = 129u;
 const uint no_round = ~0u;
-// From this one on contacts that have not settled jam: impulses along and across the normal raise each other. They lose friction.
+// From this one on contacts that have not settled jam: impulses along and across the normal raise each other. They lose friction. After a
+// bounce they have as many rounds before that as after a forced one.
 const uint jam_rounds = 81u;
 // `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
