@@ -56,8 +56,7 @@ class TableReader {
     if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
   }
 
-  /// If both are there, an override replaces the other one of the file, and the table in front that of the other table. Call it
-  /// before either is read.
+  /// If both are there, the stronger one replaces the other: see peek(). Call it before either is read.
   void keep_one_of(const char* first, const char* second) {
     const toml::node *one = peek(first), *other = peek(second);
     if (one == nullptr || other == nullptr) return;
@@ -67,14 +66,28 @@ class TableReader {
     replaced_.emplace_back(rank(first, *one) > rank(second, *other) ? second : first);
   }
 
-  /// Returns null if the key is absent. Does not make the key a known one.
+  /// Returns null if the key is absent. An override is stronger than the file, and the table in front than the one behind.
+  /// Does not make the key a known one.
   const toml::node* peek(const char* key) const {
     if (std::ranges::find(replaced_, key) != replaced_.end()) return nullptr;
     return is_in_front(key) ? front_->get(key) : table_.get(key);
   }
 
-  /// Leaves a key of the table behind to others.
-  void leave(std::string_view key) { left_.emplace_back(key); }
+  /// Whether peek() takes the key from the table in front.
+  [[nodiscard]] bool is_in_front(std::string_view key) const {
+    const toml::node* const in_front = front_ == nullptr ? nullptr : front_->get(key);
+    const toml::node* const behind = table_.get(key);
+    return in_front != nullptr && (behind == nullptr || is_override(*in_front) || !is_override(*behind));
+  }
+
+  /// Forgets what the table behind says of these keys.
+  void forget_behind(std::initializer_list<const char*> keys) {
+    for (const char* key : keys)
+      if (!is_in_front(key)) replaced_.emplace_back(key);
+  }
+
+  /// Makes a key known that others read.
+  void know(const char* key) { known_.emplace_back(key); }
 
   const toml::node* find(const char* key) {
     known_.emplace_back(key);
@@ -95,7 +108,7 @@ class TableReader {
 
   void finish() const {
     for (const auto& [key, node] : table_)
-      if (std::ranges::find(left_, key.str()) == left_.end()) expect_known(key.str(), node);
+      if (front_path_.empty() || !key.str().starts_with('[')) expect_known(key.str(), node);  // other bodies in the rows
     if (front_ == nullptr) return;
     for (const auto& [key, node] : *front_) expect_known(key.str(), node);
   }
@@ -104,7 +117,6 @@ class TableReader {
   void expect_known(std::string_view key, const toml::node& node) const {
     if (std::ranges::find(known_, key) == known_.end()) fail(node, path_of(key), "unknown key", suggest(key, known_));
   }
-  [[nodiscard]] bool is_in_front(std::string_view key) const { return front_ != nullptr && front_->contains(key); }
   [[nodiscard]] std::string path_of(std::string_view key) const {
     const std::string& path = is_in_front(key) ? front_path_ : path_;
     return fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
@@ -112,8 +124,8 @@ class TableReader {
 
   const toml::table& table_;
   const toml::table* front_;
-  std::string path_, front_path_;                     // such as "collision.tree"
-  std::vector<std::string> known_, left_, replaced_;  // keys
+  std::string path_, front_path_;              // such as "collision.tree"
+  std::vector<std::string> known_, replaced_;  // keys
 };
 
 // ---- The scene's keys ----
@@ -209,10 +221,19 @@ void note_idle(const TableReader& table, BodyDescription& body) {
   if (body.pressure == 0) note({"pressure_law"}, "without pressure");
 }
 
+// If one of the bodies in rows is static, what the others do means nothing for it.
+void forget_motion_of_rows(TableReader& table) {
+  table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "stiffness", "total_stiffness", "vertex_mass",
+                       "total_mass", "damping"});
+}
+
 void read_table(TableReader& table, BodyDescription& body) {
   table.require("mesh");
+  table.know("count");
+  table.know("spacing");
   table.read("name", body.name);
   table.read("kind", body.kind, kinds);
+  if (body.kind == BodyKind::immovable && table.is_in_front("kind")) forget_motion_of_rows(table);
   body.kind_where = table.where("kind");
   table.read("mesh", body.mesh);
   body.mesh_where = table.where("mesh");
@@ -258,6 +279,7 @@ class BodyReader {
   void read(const toml::node& node, std::size_t index) {
     const std::string name = name_of(node, index);
     const toml::table* table = node.as_table();
+    take_name(node, name);
     if (table == nullptr || !table->contains("count"))
       read_one(node, name);
     else
@@ -273,36 +295,32 @@ class BodyReader {
     reader.require("spacing");
     reader.read("spacing", rows.spacing, coordinate);
     expect_few(table, path, rows.count);
-    std::vector<std::string> others = {"count", "spacing"};  // keys that say nothing of one body
-    for (const auto& [key, node] : table) {
-      if (!key.str().starts_with('[')) continue;
-      others.emplace_back(key.str());
-      expect_one_of(rows.count, key.str(), node, path);
-    }
+    for (const auto& [key, node] : table)
+      if (key.str().starts_with('[')) expect_one_of(rows.count, key.str(), node, path);
     for (std::uint32_t x = 0; x < rows.count.x; ++x)
       for (std::uint32_t y = 0; y < rows.count.y; ++y)
-        for (std::uint32_t z = 0; z < rows.count.z; ++z) read_in_row(table, name, others, {x, y, z}, rows.spacing);
+        for (std::uint32_t z = 0; z < rows.count.z; ++z) read_in_row(table, name, {x, y, z}, rows.spacing);
   }
 
-  void read_in_row(const toml::table& table, const std::string& name, const std::vector<std::string>& others,
-                   const glm::uvec3& place, const glm::dvec3& spacing) {
+  void read_in_row(const toml::table& table, const std::string& name, const glm::uvec3& place, const glm::dvec3& spacing) {
     const std::string key = key_of_place(place);
     const toml::table* own = table.get_as<toml::table>(key);
     TableReader reader(table, "body." + name, own, "body." + name + key);
-    for (const std::string& other : others) reader.leave(other);
     BodyDescription body = next_body(own != nullptr ? *own : table);
     read_table(reader, body);
     reader.finish();
     body.name = name + key;
-    if (own == nullptr || !own->contains("position")) body.position += glm::dvec3(place) * spacing;
-    add(table, std::move(body));
+    if (!reader.is_in_front("position")) body.position += glm::dvec3(place) * spacing;
+    take_name(table, body.name);
+    bodies_.push_back(std::move(body));
   }
 
   void read_one(const toml::node& node, const std::string& name) {
+    if (const toml::table* table = node.as_table()) expect_no_rows(*table, "body." + name);
     BodyDescription body = next_body(node);
     body.name = name;
     TableReader::section(node, "body." + name, body);
-    add(node, std::move(body));
+    bodies_.push_back(std::move(body));
   }
 
   [[nodiscard]] BodyDescription next_body(const toml::node& node) const {
@@ -312,11 +330,18 @@ class BodyReader {
     return body;
   }
 
-  void add(const toml::node& node, BodyDescription body) {
-    if (!names_.insert(body.name).second)
-      fail(node, "body." + body.name, "the name is taken",
-           "give each body a name of its own; without one it is called by its index");
-    bodies_.push_back(std::move(body));
+  void take_name(const toml::node& node, const std::string& name) {
+    if (!names_.insert(name).second)
+      fail(node, "body." + name, "the name is taken", "give each body a name of its own; without one it is called by its index");
+  }
+
+  static void expect_no_rows(const toml::table& table, const std::string& path) {
+    for (const auto& [key, node] : table) {
+      const bool is_place = key.str().starts_with('[');
+      if (is_place || key.str() == "spacing")
+        fail(node, fmt::format("{}{}{}", path, is_place ? "" : ".", key.str()), "is for bodies in rows, which have a count",
+             "add count, as in count = [2, 1, 2]");
+    }
   }
 
   static void expect_few(const toml::table& table, const std::string& path, const glm::uvec3& count) {
@@ -333,8 +358,10 @@ class BodyReader {
            "write the place of one of them, as in \"[0,0,0]\"");
     if (!node.is_table())
       fail(node, place, fmt::format("is {}", type_name(node)), "write a table, as in { velocity = [1, 0, 0] }");
-    if (const toml::node* name = node.as_table()->get("name"))
-      fail(*name, place + ".name", "a body in rows is named by its place", "remove the name");
+    for (const char* of_rows : {"name", "count", "spacing"})
+      if (const toml::node* given = node.as_table()->get(of_rows))
+        fail(*given, fmt::format("{}.{}", place, of_rows), "is for all bodies in the rows together",
+             fmt::format("remove {}", of_rows));
   }
 
   std::vector<BodyDescription>& bodies_;

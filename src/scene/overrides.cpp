@@ -51,8 +51,9 @@ toml::table& table_below(toml::table& table, const std::string& key, const std::
   return *below;
 }
 
-/// Returns null if there is none, and adds the names of others.
+/// Returns null if there is none, and the names of others.
 toml::table* table_of_body(toml::table& root, std::string_view name, std::vector<std::string>& names) {
+  names.clear();
   toml::array* bodies = root.get_as<toml::array>("body");
   for (std::size_t i = 0; bodies != nullptr && i < bodies->size(); ++i) {
     names.push_back(name_of((*bodies)[i], i));

@@ -46,22 +46,50 @@ TEST_CASE("overrides reach all bodies in rows, or one of them") {
   check_override_error(in_rows, "body.a[0,0,0].scale=1", {"there is no body"});
 }
 
+TEST_CASE("an override of all bodies in rows is stronger than what the file says of one") {
+  const SceneDescription scene = load_text(in_rows, {"body.ball.velocity=[1,2,3]", "body.ball.total_mass=6"});
+  for (std::size_t b = 1; b < scene.bodies.size(); ++b) {
+    CHECK(scene.bodies[b].velocity == glm::dvec3(1, 2, 3));
+    CHECK(scene.bodies[b].total_mass == 6);
+  }
+  const SceneDescription moved = load_text(in_rows, {"body.ball.position=[0,0,0]"});
+  CHECK(moved.bodies[6].position == glm::dvec3(2, 0, -8));
+  const SceneDescription one = load_text(in_rows, {"body.ball.velocity=[1,2,3]", "body.ball[1,0,2].velocity=[4,5,6]"});
+  CHECK(one.bodies[6].velocity == glm::dvec3(4, 5, 6));
+  check_override_error(in_rows, "body.none[0,0,0].scale=1", {"there is no body", "known here: a, ball"});
+}
+
+TEST_CASE("a static one of bodies in rows has none of what the others do") {
+  const std::string moving = "velocity = [1, 0, 0]\nspin = [1, 0, 0]\npressure = 2\ndamping = 3\ntotal_mass = 5\n";
+  const std::string rows = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\n" + moving;
+  const SceneDescription scene = load_text(rows + "\"[1,0,0]\" = { kind = \"static\" }\n");
+  CHECK(scene.bodies[0].velocity == glm::dvec3(1, 0, 0));
+  CHECK(scene.bodies[1].kind == BodyKind::immovable);
+  CHECK(scene.bodies[1].velocity == glm::dvec3(0, 0, 0));
+  CHECK(scene.bodies[1].spin == glm::dvec3(0, 0, 0));
+  CHECK(scene.bodies[1].pressure == 0);
+  CHECK(scene.bodies[1].idle_keys.empty());
+  check_input_error(rows + "\"[1,0,0]\" = { kind = \"static\", spin = [0, 1, 0] }\n", 11, {"body.ball[1,0,0].spin", "static"});
+}
+
 TEST_CASE("bodies in rows that can't be are an error that says what to write") {
   const std::string body = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\n",
                     rows = body + "count = [2, 1, 1]\nspacing = [3, 0, 0]\n";
   check_input_error(body + "count = [2, 1, 1]\n", 1, {"has no spacing"});
-  check_input_error(body + "spacing = [2, 1, 1]\n", 4, {"spacing", "unknown key"});
+  check_input_error(body + "spacing = [2, 1, 1]\n", 4, {"spacing", "count"});
+  check_input_error(body + "counts = [2, 1, 1]\n", 4, {"counts", "unknown key", "count"});
   check_input_error(body + "count = [0, 1, 1]\nspacing = [3, 0, 0]\n", 4, {"count", "out of range"});
   check_input_error(body + "count = 2\nspacing = [3, 0, 0]\n", 4, {"count", "array of 3"});
   check_input_error(body + "count = [300, 300, 1]\nspacing = [3, 0, 0]\n", 4, {"makes 90000 bodies", "65535"});
   check_input_error(rows + "\"[2,0,0]\" = { scale = 2 }\n", 6, {"none of the bodies"});
   check_input_error(rows + "\"[1, 0, 0]\" = { scale = 2 }\n", 6, {"none of the bodies", "[0,0,0]"});
   check_input_error(rows + "\"[1,0,0]\" = 2\n", 6, {"is a whole number", "write a table"});
-  check_input_error(rows + "\"[1,0,0]\" = { name = \"b\" }\n", 6, {"named by its place"});
+  check_input_error(rows + "\"[1,0,0]\" = { name = \"b\" }\n", 6, {"[1,0,0].name", "for all bodies"});
   check_input_error(rows + "\"[1,0,0]\" = { scal = 2 }\n", 6, {"body.ball[1,0,0].scal", "unknown key"});
   check_input_error(rows + "\"[1,0,0]\" = { stiffness = 2, total_stiffness = 2 }\n", 6, {"can't be combined"});
   check_input_error(rows + "scal = 2\n", 6, {"body.ball.scal", "unknown key", "scale"});
-  check_input_error(body + "\"[0,0,0]\" = { scale = 2 }\n", 4, {"unknown key"});
+  check_input_error(body + "\"[0,0,0]\" = { scale = 2 }\n", 4, {"body.ball[0,0,0]", "count"});
+  check_input_error(body + rows, 4, {"the name is taken"});
   check_input_error("[[body]]\nname = \"ball[1,0,0]\"\nmesh = \"icosphere:1\"\n" + rows, 4, {"the name is taken"});
 }
 

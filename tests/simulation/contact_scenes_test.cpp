@@ -239,13 +239,13 @@ TEST_CASE("a bunny falls on a teapot and does not go into it", "[long]") {
 
 TEST_CASE("a hundred spheres stay in their box and out of each other, and make no energy", "[long]") {
   Play play("hundred_spheres");
-  const double energy = play.energy();
-  double most = 0;
-  for (const double time : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+  double before = play.energy();
+  for (const double time : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     CHECK(play.intersections_until(time, 20) == 0);
-    most = larger(most, play.energy());
+    const double energy = play.energy();
+    CHECK(energy < before);  // damping and friction take more than 1 J in each tenth of a second
+    before = energy;
   }
-  CHECK(most < energy);
   CHECK(play.report().contact_steps > 100);
   CHECK(play.report().held_parts == 0);
 }

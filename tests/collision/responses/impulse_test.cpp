@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <random>
 
 #include "bench/contact/encounter.hpp"
@@ -142,14 +143,15 @@ struct Squeeze {
   CollisionDescription collision;
 };
 
-// A body of 1 kg between two others, all else by chance.
-Squeeze random_squeeze(std::uint32_t seed) {
+// A body of 1 kg between two others, all else by chance, or with this friction.
+Squeeze random_squeeze(std::uint32_t seed, std::optional<double> given_friction = {}) {
   std::mt19937 random(seed);
   const auto part = [&] { return static_cast<double>(random()) / 4294967296.0; };
   const auto between = [&](double low, double high) { return low + (high - low) * part(); };
   const auto by_magnitude = [&](double low, double high) { return low * std::pow(high / low, part()); };
   double elasticity = between(0, 1);
-  const double friction = std::array{0.0, 0.3, 1.0, 3.0, 10.0, 100.0}[random() % 6];
+  const double by_chance = std::array{0.0, 0.3, 1.0, 3.0, 10.0, 100.0}[random() % 6];
+  const double friction = given_friction.value_or(by_chance);
   const std::uint32_t common_one = random() % 4;
   if (common_one < 2) elasticity = common_one == 0 ? 1.0 : 0.7;
   const double below = by_magnitude(1, 100), above = by_magnitude(1, 100), speed = by_magnitude(0.5, 8);
@@ -173,12 +175,21 @@ Squeeze random_squeeze(std::uint32_t seed) {
           {.response = {"impulse"}, .elasticity = elasticity, .friction = friction}};
 }
 
-// In a jam impulses grow from round to round. If bodies kept what had grown, they would gain up to three times their energy here.
-// Of 2,000 seeds these gain most then.
+// In a jam impulses grow from round to round. Of 1,500 random squeezes these were found to gain energy, as a part of the kinetic
+// one, if
+// - what a contact gives at least does not shrink: 2240 (0.02), 1818
+// - contacts that have not settled bounce: 1595 (0.03)
+// - both: 1796 (1.3), 1109, 1818
+// - friction shrinks from its coefficient, and not from what is used: 1548 (3.7), 2496, with a coefficient of 1e8
 TEST_CASE("contacts with elasticity and friction that jam make no energy") {
-  for (const std::uint32_t seed : {1143u, 1595u, 1974u, 3086u}) {
+  struct Case {
+    std::uint32_t seed;
+    std::optional<double> friction;
+  };
+  for (const auto& [seed, friction] :
+       {Case{1109, {}}, Case{1595, {}}, Case{1796, {}}, Case{1818, {}}, Case{2240, {}}, Case{1548, 1e8}, Case{2496, 1e8}}) {
     CAPTURE(seed);
-    const Squeeze squeeze = random_squeeze(seed);
+    const Squeeze squeeze = random_squeeze(seed, friction);
     const auto device = make_cpu_device(1, 64);
     const bench::Seen seen = watch(*device, squeeze.start, Method{"cv8", squeeze.time_step}, squeeze.steps, squeeze.collision);
     CHECK(seen.report.contact_steps > 10);
