@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "run/step_cost.hpp"
 
@@ -66,14 +68,31 @@ std::string time_of_steps(const Estimate& estimate) {
   return fmt::format("{} {:.3g} s, and more once bodies meet", estimate.is_least ? "at least" : "about", estimate.seconds);
 }
 
+// Bodies in rows that have equally many vertices and triangles share a line.
+void show_bodies(std::span<const ModelBody> bodies) {
+  const auto of_rows = [](const ModelBody& body) { return std::string_view(body.name).substr(0, body.name.rfind('[')); };
+  for (auto first = bodies.begin(); first != bodies.end();) {
+    const auto next = std::find_if(first, bodies.end(), [&](const ModelBody& body) {
+      return of_rows(body) != of_rows(*first) || body.vertex_count != first->vertex_count ||
+             body.triangle_count != first->triangle_count;
+    });
+    const auto count = next - first;
+    const std::string size = fmt::format("{} vertices, {} triangles", first->vertex_count, first->triangle_count);
+    if (count == 1)
+      fmt::print("body:             {} ({})\n", first->name, size);
+    else
+      fmt::print("bodies:           {}, {} to {} ({} each)\n", count, first->name, (next - 1)->name, size);
+    first = next;
+  }
+}
+
 }  // namespace
 
 void show_check(const PreparedRun& run) {
   const std::size_t bytes = bytes_of_run(run);
   const Estimate estimate = run.plan.tolerance ? estimate_adaptive(run) : estimate_fixed(run);
   fmt::print("scene:            {}\n", run.scene.title.empty() ? run.scene.file.string() : run.scene.title);
-  for (const ModelBody& body : run.start.model.bodies)
-    fmt::print("body:             {} ({} vertices, {} triangles)\n", body.name, body.vertex_count, body.triangle_count);
+  show_bodies(run.start.model.bodies);
   fmt::print("response:         {}\n", run.scene.collision.response.value);
   fmt::print("damping law:      {}\n", name_of(run.plan.damping_law));
   fmt::print("integrator:       {}\n", run.plan.integrator->name);
