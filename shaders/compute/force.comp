@@ -276,5 +276,5 @@ void serve_stages(Share s) { serve(s, deformed(s)); }
 
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-  if (group < item_count) serve_stages(share[group]);
+  if (group < item_count) serve_stages(share[first_share + group]);
 }

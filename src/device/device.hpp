@@ -106,8 +106,8 @@ class Device {
   /// 0 if that is not known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// Returns the variant that is fastest for so many vertices in all, with one dispatch per sum.
-  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t vertex_count) const = 0;
+  /// Returns the variant that is fastest for a body of so many vertices among so many in all, with one dispatch per sum.
+  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t all_vertices, std::uint32_t vertices_of_body) const = 0;
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

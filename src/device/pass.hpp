@@ -13,6 +13,11 @@ namespace pliant {
   return pass;
 }
 
+/// Lets all of these run beside each other.
+inline void run_together(std::span<Pass> passes) {
+  for (std::size_t k = 0; k + 1 < passes.size(); ++k) passes[k].beside_next = true;
+}
+
 /// Runs passes one by one, none beside another, and adds to `seconds` what each took. Costs more than Device::run, because the
 /// device has to read its clock in between.
 inline void run_timed(Device& device, std::span<const Pass> passes, std::map<std::string_view, double>& seconds) {

@@ -141,9 +141,14 @@ Pass Stepper::restating_pass(std::uint32_t from_half) const {
   return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
-Pass Stepper::refresh_pass() const {
-  const KernelId kernel = bodies_.arrays.device().force_kernel("refresh_force", bodies_.force_variant);
-  return make_pass(bodies_.arrays, "refresh_force", kernel, {}, static_cast<std::uint32_t>(bodies_.shares.size()));
+std::vector<Pass> Stepper::refresh_passes() const {
+  std::vector<Pass> passes;
+  for (const ForceGroup& group : bodies_.force_groups) {
+    const KernelId kernel = bodies_.arrays.device().force_kernel("refresh_force", group.variant);
+    passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel, {{"first_share", group.first_share}}, group.share_count));
+  }
+  run_together(passes);
+  return passes;
 }
 
 std::vector<Pass> Stepper::force_passes(const StageState& at) const {
@@ -156,24 +161,28 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
                                         const StateOfStage& state_of_stage) const {
   const DeviceBodies& b = bodies_;
   const bool at_once = b.all_stages_at_once && adds_force() == 0;  // added forces come between stages
-  const KernelId kernel = b.arrays.device().force_kernel(name, b.force_variant, at_once);
   std::vector<Pass> passes;
   for (std::uint32_t stage = 0; stage < (at_once ? 1 : stage_count_); ++stage) {
     std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
-    passes.push_back(make_pass(b.arrays, name, kernel,
-                               {{"from_half", from_half},
-                                {"damping_law", law_},
-                                {"adds_force", adds_force()},
-                                {"stage_index", stage},
-                                {"stage_count", stage_count_}},
-                               static_cast<std::uint32_t>(b.shares.size())));
+    std::vector<Pass> of_groups;
+    for (const ForceGroup& group : b.force_groups)
+      of_groups.push_back(make_pass(b.arrays, name, b.arrays.device().force_kernel(name, group.variant, at_once),
+                                    {{"from_half", from_half},
+                                     {"damping_law", law_},
+                                     {"adds_force", adds_force()},
+                                     {"stage_index", stage},
+                                     {"stage_count", stage_count_},
+                                     {"first_share", group.first_share}},
+                                    group.share_count));
+    run_together(of_groups);
+    std::ranges::move(of_groups, std::back_inserter(passes));
   }
   return passes;
 }
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
   const double first_kick = seconds(method.kick[0], time_step_);
-  std::vector<Pass> result = {refresh_pass()};
+  std::vector<Pass> result = refresh_passes();
   std::ranges::move(force_passes({physics::start_slot, from_half, 0, first_kick}), std::back_inserter(result));
   result.push_back(make_pass(bodies_.arrays, "first_kick",
                              {{"from_half", from_half},

@@ -35,7 +35,7 @@ class Stepper {
   [[nodiscard]] Pass following_pass(std::uint32_t from_half) const;
   [[nodiscard]] Pass restating_pass(std::uint32_t from_half) const;
   /// Sums the spring forces at the step's start, for bodies whose kept ones are stale. It is part of a splitting's step.
-  [[nodiscard]] Pass refresh_pass() const;
+  [[nodiscard]] std::vector<Pass> refresh_passes() const;
 
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 

@@ -22,35 +22,59 @@ std::vector<physics::Body> bodies_of(const Model& model, double strain_bias) {
   return bodies;
 }
 
-std::vector<physics::Share> shares_of(const Model& model, std::uint32_t share_size, double strain_bias) {
-  std::vector<physics::Share> shares;
-  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
-    const ModelBody& body = model.bodies[b];
-    if (body.is_static) continue;
-    for (std::uint32_t first = 0; first < body.vertex_count; first += std::min(share_size, body.vertex_count - first))
-      shares.push_back({.body = body_of(body, strain_bias),
-                        .body_index = b,
-                        .first_vertex = body.first_vertex + first,
-                        .vertex_count = std::min(share_size, body.vertex_count - first),
-                        .tableau_row = 0});
+// Groups have the order of variants.
+std::vector<ForceGroup> groups_of(const Device& device, const Model& model, const std::vector<std::size_t>& variants) {
+  std::vector<ForceGroup> groups;
+  std::uint32_t first_share = 0;
+  for (std::size_t variant = 0; variant < device.force_variants().size(); ++variant) {
+    const std::uint32_t share_size = device.force_variants()[variant].share_size;
+    std::uint32_t count = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (!model.bodies[b].is_static && variants[b] == variant) count += (model.bodies[b].vertex_count - 1) / share_size + 1;
+    if (count > 0) groups.push_back({variant, first_share, count});
+    first_share += count;
   }
+  return groups;
+}
+
+void add_shares(const Model& model, std::uint32_t b, std::uint32_t share_size, double strain_bias,
+                std::vector<physics::Share>& shares) {
+  const ModelBody& body = model.bodies[b];
+  for (std::uint32_t first = 0; first < body.vertex_count; first += std::min(share_size, body.vertex_count - first))
+    shares.push_back({.body = body_of(body, strain_bias),
+                      .body_index = b,
+                      .first_vertex = body.first_vertex + first,
+                      .vertex_count = std::min(share_size, body.vertex_count - first),
+                      .tableau_row = 0});
+}
+
+std::vector<physics::Share> shares_of(Device& device, const Model& model, const std::vector<std::size_t>& variants,
+                                      std::span<const ForceGroup> groups) {
+  std::vector<physics::Share> shares;
+  for (const ForceGroup& group : groups)
+    for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
+      if (!model.bodies[b].is_static && variants[b] == group.variant)
+        add_shares(model, b, device.force_variants()[group.variant].share_size, device.strain_bias(), shares);
   return shares;
 }
 
-bool runs_all_stages(const Device& device, const Model& model, std::size_t variant) {
-  const ForceVariant& lanes = device.force_variants()[variant];
-  std::size_t shares = 0;
-  for (const ModelBody& body : model.bodies)
-    if (!body.is_static) shares += (body.vertex_count + lanes.share_size - 1) / lanes.share_size;
-  return lanes.all_stages && shares <= device.shares_at_once();
+bool runs_all_stages(const Device& device, std::span<const ForceGroup> groups) {
+  return groups.size() == 1 && device.force_variants()[groups[0].variant].all_stages &&
+         groups[0].share_count <= device.shares_at_once();
 }
 
-// Running all stages at once saves more than the best lanes do.
-std::size_t best_force_variant(const Device& device, const Model& model) {
-  const std::size_t best = device.best_force_variant(model.vertex_count());
-  for (std::size_t variant = best; variant < device.force_variants().size(); ++variant)
-    if (runs_all_stages(device, model, variant)) return variant;
-  return best;
+// Running all stages at once saves more than the best lanes do. Then all bodies have one variant.
+std::vector<std::size_t> best_force_variants(const Device& device, const Model& model) {
+  for (std::size_t variant = 0; variant < device.force_variants().size(); ++variant) {
+    const std::vector<std::size_t> same(model.bodies.size(), variant);
+    if (variant >= device.best_force_variant(model.vertex_count(), model.vertex_count()) &&
+        runs_all_stages(device, groups_of(device, model, same)))
+      return same;
+  }
+  std::vector<std::size_t> variants;
+  for (const ModelBody& body : model.bodies)
+    variants.push_back(device.best_force_variant(model.vertex_count(), body.vertex_count));
+  return variants;
 }
 
 std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& state) {
@@ -89,21 +113,24 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, best_force_variant(device, model)) {}
+    : DeviceBodies(device, model, state, best_force_variants(device, model)) {}
 
-DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t variant)
+DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
+    : DeviceBodies(device, model, state, std::vector(model.bodies.size(), force_variant)) {}
+
+DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants)
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
-      force_variant(variant),
+      force_groups(groups_of(device, model, force_variants)),
       arrays(device),
-      shares(arrays.make("share", shares_of(model, device.force_variants()[variant].share_size, device.strain_bias()))),
+      shares(arrays.make("share", shares_of(device, model, force_variants, force_groups))),
       poses(arrays.make("pose", state.poses)),
       statuses(arrays.make("status", first_statuses(model))),
       tallies(arrays.make<physics::Tally>("tally", body_count)),
       motions(arrays.make<double>("motion", std::size_t{2} * physics::motion_size * vertex_count)),
       world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
       control(arrays.make("control", std::vector{first_control()})) {
-  all_stages_at_once = runs_all_stages(device, model, variant);
+  all_stages_at_once = runs_all_stages(device, force_groups);
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);

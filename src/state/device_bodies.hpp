@@ -12,17 +12,24 @@
 
 namespace pliant {
 
+/// The shares of the bodies that one variant of the force kernels serves.
+struct ForceGroup {
+  std::size_t variant;
+  std::uint32_t first_share, share_count;
+};
+
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
 struct DeviceBodies {
-  /// Cuts bodies into shares for the device's best force variant, or for the given one.
+  /// Cuts bodies into shares for the device's best force variants, for the given one, or for one for each body.
   DeviceBodies(Device& device, const Model& model, const State& state);
   DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant);
+  DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants);
 
   DeviceBodies(const DeviceBodies&) = delete;
   DeviceBodies& operator=(const DeviceBodies&) = delete;
 
   std::uint32_t vertex_count = 0, body_count = 0;
-  std::size_t force_variant;
+  std::vector<ForceGroup> force_groups;
   bool all_stages_at_once = false;  // whether bodies are small enough for all stages of a step in one dispatch
   Arrays arrays;                    // these, and those that others make for the same simulation
   DeviceArray<physics::Share>& shares;

@@ -323,7 +323,7 @@ TEST_CASE("what scratch memory a body takes is known beforehand") {
 
 TEST_CASE("the widest vectors are the best way of summing") {
   const auto device = make_cpu_device(1, 32);
-  const std::size_t best = device->best_force_variant(1000);
+  const std::size_t best = device->best_force_variant(1000, 1000);
   CHECK(device->force_variants()[best].name == name_of(available_isas().back()));
   CHECK(device->force_variants().size() == available_isas().size() + 1);
 }
@@ -332,7 +332,7 @@ std::vector<double> spring_forces(Device& device, const ModelAndState& start, st
   DeviceBodies bodies(device, start.model, start.state, variant);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 0.01);
   device.run(stepper.first_passes());
-  const Pass pass = stepper.refresh_pass();
+  const Pass pass = stepper.refresh_passes().front();
   device.run({&pass, 1});
   return bodies.arrays.get<double>("kept_force").download();
 }

@@ -104,6 +104,45 @@ void for_each_variant(Check check) {
     }
 }
 
+// The motion after some steps, with a force variant for each body.
+std::vector<double> motion_by(Device& device, const ModelAndState& start, const Method& method,
+                              const std::vector<std::size_t>& variants) {
+  DeviceBodies bodies(device, start.model, start.state, variants);
+  bodies.all_stages_at_once = false;
+  const Stepper stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step);
+  device.run(stepper.first_passes());
+  for (std::uint32_t step = 0; step < 4; ++step) {
+    device.run(stepper.passes(step % 2));
+    for (const Pass& pass : {stepper.following_pass(step % 2), stepper.restating_pass(step % 2)}) device.run({&pass, 1});
+  }
+  return bodies.download(0).motion;
+}
+
+// How a body moves depends on its own variant alone.
+TEST_CASE("each body has its own force variant", "[gl]") {
+  std::vector<BodySetup> setups{sphere(1), sphere(2), sphere(1), sphere(3)};
+  for (BodySetup& setup : setups) setup.description.stretch = {0.8, 1.1, 1};
+  const ModelAndState start = build_model(setups, {0, -1, 0});
+  const auto of_body = [&](const std::vector<double>& motion, std::size_t b) {
+    const ModelBody& body = start.model.bodies[b];
+    const auto first = motion.begin() + physics::motion_size * body.first_vertex;
+    return std::vector(first, first + physics::motion_size * body.vertex_count);
+  };
+  for (const TestDevice& test : all_devices())
+    for (const Method& method : {Method{"verlet", 0.05}, Method{"rk4", 0.05, DampingLaw::constant}}) {
+      const std::size_t variants = test.device->force_variants().size();
+      std::vector<std::vector<double>> alone;
+      for (std::size_t variant = 0; variant < variants; ++variant)
+        alone.push_back(motion_by(*test.device, start, method, std::vector(start.model.bodies.size(), variant)));
+      for (std::size_t k = 0; k < variants; ++k) {
+        const std::vector<std::size_t> chosen = {k, (k + 1) % variants, (k + 2) % variants, k};
+        const std::vector<double> mixed = motion_by(*test.device, start, method, chosen);
+        CAPTURE(test.name, method.integrator, k);
+        for (std::size_t b = 0; b < chosen.size(); ++b) CHECK(of_body(mixed, b) == of_body(alone[chosen[b]], b));
+      }
+    }
+}
+
 TEST_CASE("all stages in one dispatch give the very bits of a dispatch a stage", "[gl]") { for_each_variant(check_all_stages); }
 
 TEST_CASE("so do adaptive steps, rejected and empty ones among them", "[gl]") { for_each_variant(check_adaptive); }

@@ -109,7 +109,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     const auto signature = [&](Device& device) {
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
-      return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000)) : device.kernel(name));
+      return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000, 1000)) : device.kernel(name));
     };
     const KernelSignature on_cpu = signature(*cpu), on_gpu = signature(*gpu);
     const auto described = [](const KernelSignature::Array& array) {

@@ -49,7 +49,7 @@ class ForcesAt {
 
   // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
   std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
-    if (!on_cpu() && !all_variants_) return {device_->best_force_variant(vertices)};
+    if (!on_cpu() && !all_variants_) return {device_->best_force_variant(vertices, vertices)};
     std::vector<std::size_t> chosen;
     for (std::size_t v = 0; v < device_->force_variants().size(); ++v)
       if (all_variants_ || sums_in_tiles(v)) chosen.push_back(v);
@@ -101,8 +101,8 @@ class ForcesAt {
     DeviceBodies bodies(*device_, body.model, body.state, variant);
     const Stepper stepper(bodies, body.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
     device_->run(stepper.first_passes());
-    const Pass pass = stepper.refresh_pass();  // kept forces stay marked as stale, so it sums them every time
-    return seconds_each(*device_, effort_, [&] { device_->run({&pass, 1}); });
+    const std::vector<Pass> passes = stepper.refresh_passes();  // kept forces stay marked as stale, so they sum them every time
+    return seconds_each(*device_, effort_, [&] { device_->run(passes); });
   }
 
   // The CPU's variants are named after instruction sets, except the plain one, which is compiled for every processor.

@@ -116,7 +116,7 @@ class CpuDevice final : public Device {
   const KernelSignature& signature(KernelId kernel) const override { return signatures_[kernel % kernels_.size()]; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::uint32_t shares_at_once() const override { return 0; }
-  std::size_t best_force_variant(std::uint32_t) const override { return variants_.size() - 1; }
+  std::size_t best_force_variant(std::uint32_t, std::uint32_t) const override { return variants_.size() - 1; }
 
   double strain_bias() override { return 0; }
 

@@ -32,7 +32,8 @@ struct Lanes {
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
                           // memory has room for, in multiples that keep the order of additions
-  std::uint32_t most_vertices;  // of all bodies together, up to which this is the fastest
+  std::uint32_t most_vertices;          // of all bodies together, up to which this is the fastest
+  std::uint32_t most_vertices_of_body;  // beyond, another one is faster
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
 };
@@ -41,11 +42,17 @@ struct Lanes {
 // - With many vertices, a lane serves several of them with what it loads.
 // - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
 // The third is only for all stages at once, where every group has a multiprocessor to itself.
-constexpr Lanes lane_choices[] = {{1, 4, 64, 2, 2, 0, 0},
-                                  {64, 1, 10, 4, 4, 768, 2600},
-                                  {64, 2, 10, 4, 8, 512, 0},
-                                  {32, 2, 20, 4, 20, 640, 8000},
-                                  {64, 4, 8, 3, 18, 0, 0xffffffffu}};
+// The fourth has a thread for each vertex of small bodies, where many lanes mostly idle. Until it has been measured it is chosen
+// for none.
+constexpr std::uint32_t any_number = 0xffffffffu;
+constexpr Lanes lane_choices[] = {
+    {1, 4, 64, 2, 2, 0, 0, 0},  //
+    {64, 1, 10, 4, 4, 768, 2600, any_number},
+    {64, 2, 10, 4, 8, 512, 0, 0},
+    {1, 1, 64, 2, 2, 0, any_number, 0},
+    {32, 2, 20, 4, 20, 640, 8000, any_number},
+    {64, 4, 8, 3, 18, 0, any_number, any_number},
+};
 
 class GpuDevice final : public Device {
  public:
@@ -112,11 +119,12 @@ class GpuDevice final : public Device {
   // takes, as long as the driver has memory for all threads: rounds.comp has a measurement.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t vertex_count) const override {
+  std::size_t best_force_variant(std::uint32_t all_vertices, std::uint32_t vertices_of_body) const override {
     if (context_.adapter().is_software) return 0;
-    std::size_t best = 1;
-    while (vertex_count > lane_choices[best].most_vertices) ++best;
-    return best;
+    const auto fits = [&](const Lanes& lanes) {
+      return all_vertices <= lanes.most_vertices && vertices_of_body <= lanes.most_vertices_of_body;
+    };
+    return static_cast<std::size_t>(std::ranges::find_if(lane_choices, fits) - std::begin(lane_choices));
   }
 
   double strain_bias() override {

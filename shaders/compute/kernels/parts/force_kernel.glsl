@@ -3,6 +3,8 @@
 // - before_force(), whose loads hide behind the sum
 // - after_force(), which returns the coordinate it came to
 // - settle() with all three coordinates, if the kernel settles()
+PARAMETER(uint, first_share)  // of those that this variant serves
+
 bool halted(IN(Share) s) { return status[s.body_index].activity != moving; }
 
 // Whether springs have to be summed. If no vertex moves relative to another, every spring is at rest. Halted bodies need no sum either,
