@@ -93,10 +93,12 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
+    bodies.make_placements(physics::slots_of_stages);
     bodies.arrays.make<double>("acceleration", coordinates * stage_count_);
   } else {
     const auto& splitting = std::get<Splitting>(integrator.method);
     stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
+    bodies.make_placements(physics::slots_of_splitting(stage_count_));
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
   }

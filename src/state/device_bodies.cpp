@@ -139,7 +139,6 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.make<std::uint32_t>("meeting", body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
-  make_placements();
   const std::vector<glm::vec4> positions = rounded_world_positions(model, state);
   for (std::uint32_t half = 0; half < 2; ++half) {  // static bodies stay as they are in both
     motions.upload(state.motion, physics::displacement_of(first_of_half(half)));
@@ -148,10 +147,10 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 }
 
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.
-void DeviceBodies::make_placements() {
+void DeviceBodies::make_placements(std::uint32_t slots) {
   const std::size_t slot_size = std::size_t{4} * physics::slot_vectors * vertex_count;
-  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", physics::slot_count * slot_size);
-  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / physics::slot_count;
+  const DeviceArray<std::uint32_t>& placements = arrays.make_reals("placement", slots * slot_size);
+  const std::size_t slot_bytes = placements.size() * sizeof(std::uint32_t) / slots;
   arrays.carry_part("placement", physics::start_slot * slot_bytes, slot_bytes);
 }
 

@@ -51,9 +51,8 @@ struct DeviceBodies {
   void set_time_step(double time_step);
   /// Sets where each body's own tableau begins.
   void set_tableau_rows(std::span<const std::uint32_t> rows);
-
- private:
-  void make_placements();
+  /// Makes room for placements, as many slots as the method needs.
+  void make_placements(std::uint32_t slots);
 };
 
 }  // namespace pliant

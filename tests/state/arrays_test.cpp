@@ -79,6 +79,7 @@ TEST_CASE("parameters go by name, and each has the kernel's type") {
   DeviceBodies bodies(*device, start.model, start.state);
   bodies.arrays.make<double>("kept_force", 3 * start.model.vertex_count());
   bodies.arrays.make<std::uint32_t>("mark", start.model.vertex_count());
+  bodies.make_placements(physics::slots_of_stages);
   const auto record = [&](Parameters parameters) { return make_pass(bodies.arrays, "reflect", parameters, 1); };
   CHECK_NOTHROW(record({{"elasticity", 0.9}, {"from_half", 0u}}));
   CHECK(record({{"elasticity", 0.9}, {"from_half", 1u}}).call.parameters ==
@@ -109,7 +110,8 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     const auto signature = [&](Device& device) {
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
-      return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000, 1000)) : device.kernel(name));
+      return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000, 1000))
+                                           : device.kernel(name));
     };
     const KernelSignature on_cpu = signature(*cpu), on_gpu = signature(*gpu);
     const auto described = [](const KernelSignature::Array& array) {

@@ -37,7 +37,7 @@ void first_kick(uint i) {
                              motion[velocity_of(before) + k], part_of_step() * kick_time);
     double relative = (motion[displacement_of(before) + k] - motion[displacement_of(first) + k]) +
                       part_of_step() * drift_time * (velocity - motion[velocity_of(first) + k]);
-    place(0u, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
+    place(slot_of_force(0u), i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), relative);
     motion[displacement_of(after) + k] = motion[displacement_of(before) + k] + part_of_step() * drift_time * velocity;
     motion[velocity_of(after) + k] = velocity;
   }

@@ -11,7 +11,7 @@
 ARRAY(rest_position, vec4, vertex, fixed, "x, y, z in the body's frame, about its centroid [m]; w: the body's index")
 ARRAY(motion, double, vertex, carried, "[half][vertex][6] u [m], w [m/s]")
 ARRAY(world_position, vec4, vertex, carried, "[half][vertex] x, y, z [m]; w: 1")
-ARRAY(placement, real, vertex, carried, "[slot][2][vertex][4] position, then displacement, relative to the body's reference [body's unit]; slots 0 and 1 serve stages in turn, slot 2 a step's start, which alone is carried, slot 3 notes what rounding has done")
+ARRAY(placement, real, vertex, carried, "[slot][2][vertex][4] position, then displacement, relative to the body's reference [body's unit]; slot 0 serves a step's start, and it alone is carried; slots 1 and 2 serve stages in turn, slot 3 notes what rounding has done; as many as the method needs")
 ARRAY(body, Body, body, fixed, "material, and the range of vertices")
 ARRAY(share, Share, share, fixed, "vertices that one work group of a force kernel serves, with their body")
 ARRAY(pose, Pose, body, carried, "the body's moving frame, and what placements are relative to")

@@ -27,10 +27,11 @@ FN uint impulse_sum_of(uint buffer_index, uint vertex_count, uint i) { return 3u
 // Where the k-th number of a vector of four stands in an array that a kernel uses as single numbers.
 FN uint number_of(uint vector, uint k) { return 4u * vector + k; }
 
-// `placement` has four slots of all vertices. Stages use the first two in turn.
-const uint start_slot = 2u;     // the step's start, which the end of the step before writes
+// `placement` has up to four slots of all vertices. Stages use the second and the third in turn.
+const uint start_slot = 0u;     // the step's start, which the end of the step before writes
 const uint rounding_slot = 3u;  // notes what rounding has done
-const uint slot_count = 4u;
+const uint slots_of_stages = 4u;
+FN uint slots_of_splitting(uint forces) { return forces == 1u ? 2u : 3u; }
 
 // Where the position and the displacement of vertex i stand in `placement`, counted in vectors of four.
 const uint slot_vectors = 2u;  // of each vertex in a slot
@@ -38,9 +39,9 @@ FN uint position_at(uint slot, uint vertex_count, uint i) { return slot_vectors 
 FN uint displacement_at(uint slot, uint vertex_count, uint i) { return (slot_vectors * slot + 1u) * vertex_count + i; }
 // slot_of_stage() is the slot that a stage reads, slot_of_force() the one that a stage of a splitting reads after its first kick.
 // slot_after_stage() is the one that either writes for the next stage.
-FN uint slot_of_stage(uint stage) { return stage == 0u ? start_slot : stage & 1u; }
-FN uint slot_of_force(uint stage) { return stage & 1u; }
-FN uint slot_after_stage(uint stage) { return (stage + 1u) & 1u; }
+FN uint slot_of_stage(uint stage) { return stage == 0u ? start_slot : 1u + (stage & 1u); }
+FN uint slot_of_force(uint stage) { return 1u + (stage & 1u); }
+FN uint slot_after_stage(uint stage) { return 1u + ((stage + 1u) & 1u); }
 
 // Where the k-th vertex of triangle t stands in `triangle`, and where the corners of node n's box stand in `node_box`.
 FN uint corner_of(uint t, uint k) { return 3u * t + k; }
