@@ -9,8 +9,8 @@ namespace pliant {
 namespace {
 
 constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 16;
-// With fewer bodies comparing each with each takes less time (docs/benchmarks).
-constexpr std::uint32_t fewest_in_a_grid = 256;
+// With fewer bodies comparing each with each takes less time (docs/benchmarks). A GPU has passes to start for a grid.
+std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind == DeviceKind::gpu ? 256 : 32; }
 
 // Of bodies with triangles, one of which moves.
 std::uint32_t pairs_that_may_touch(const Model& model) {
@@ -26,10 +26,10 @@ std::uint32_t room_for_pairs(std::uint32_t body_count) {
 }
 
 // Twice as many lists as bodies, at least, or none without a grid.
-std::uint32_t lists_for(BroadPhase broad_phase, std::uint32_t body_count) {
-  if (broad_phase == BroadPhase::automatic)
-    broad_phase = body_count < fewest_in_a_grid ? BroadPhase::all_pairs : BroadPhase::grid;
-  return broad_phase == BroadPhase::grid ? std::bit_ceil(2 * body_count) : 0;
+std::uint32_t lists_for(BroadPhase broad_phase, const DeviceBodies& bodies) {
+  const bool is_grid = broad_phase == BroadPhase::automatic ? bodies.body_count >= fewest_in_a_grid(bodies.arrays.device())
+                                                            : broad_phase == BroadPhase::grid;
+  return is_grid ? std::bit_ceil(2 * bodies.body_count) : 0;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ BodyPairs::BodyPairs(DeviceBodies& bodies, const Model& model, BroadPhase broad_
     : bodies_(bodies),
       pair_count_(pairs_that_may_touch(model)),
       most_pairs_(room_for_pairs(bodies.body_count)),
-      grid_lists_(lists_for(broad_phase, bodies.body_count)) {
+      grid_lists_(lists_for(broad_phase, bodies)) {
   PLIANT_EXPECT(bodies.body_count <= 65535);
   Arrays& arrays = bodies.arrays;
   arrays.make<std::uint32_t>("partner_step", bodies.body_count);
