@@ -135,7 +135,7 @@ void prepare_next_step(uint b) {
   meeting[b] = 0u;
 }
 
-// All bodies note their first such vertex together, too.
+// Tells the first vertex of all bodies that is not finite, if there is one.
 void tell_non_finite() {
   uint first = status[body_count].non_finite_vertex;
   if (first != no_vertex && control[0].non_finite_step == 0u) control[0].non_finite_vertex = first;

@@ -423,6 +423,8 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .gap = body.surface.gap.value_or(description.gap),
           .restitution = restitution_of(body, description).value_or(-1),
           .longest_pressed = body.is_static ? 1e30 : longest_pressed / std::max(stiffest_frequency(body), 1e-30),
+          .frequency = body.is_static ? 0 : stiffest_frequency(body),
+          .diameter = 2 * body.radius,
           .nearness = 0};
 }
 

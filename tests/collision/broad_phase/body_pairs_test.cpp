@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "collision/collider.hpp"
@@ -167,6 +168,29 @@ TEST_CASE("how pairs of bodies are found does not change a run") {
     CHECK(plain.second.body_pairs_skipped > 0);
     CHECK(one == plain);
     CHECK(three == plain);
+  }
+}
+
+// A body has room for what it does by itself, in steps up to the bound.
+TEST_CASE("bodies far from each other move to the bit as without contact, however deformed") {
+  for (const auto& [integrator, part_of_bound, stretch] :
+       {std::tuple("verlet", 0.95, glm::dvec3(1.5)), std::tuple("cv8", 0.7, glm::dvec3(4, 0.25, 1)),
+        std::tuple("rk4", 0.3, glm::dvec3(10)), std::tuple("cv8", 0.7, glm::dvec3(0.2, 2, 2))}) {
+    CAPTURE(integrator, part_of_bound, stretch.x);
+    std::vector<BodySetup> setups(2, soft(generate_mesh("icosphere:2"), "ball"));
+    for (BodySetup& setup : setups) setup.description.stretch = stretch;
+    setups[1].description.position = {100, 0, 0};
+    const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+    const double bound = step_bound(find_integrator(integrator), start.model.bodies[0], DampingLaw::none);
+    const auto run = [&](const char* response) {
+      const auto device = make_cpu_device(1, 32);
+      Simulation simulation(*device, start.model, start.state, plan_of({integrator, part_of_bound * bound}),
+                            found_by(BroadPhase::grid, response));
+      simulation.advance(40);
+      CHECK(simulation.report().reverted_vertices == 0);
+      return simulation.state().motion;
+    };
+    CHECK(run("impulse") == run("none"));
   }
 }
 

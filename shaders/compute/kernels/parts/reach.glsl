@@ -12,11 +12,12 @@ double way_of(uint b) {
   return step_parts[0].full * length(dvec3(fastest_along(b, 0u), fastest_along(b, 1u), fastest_along(b, 2u)));
 }
 
-// How much further than expected it may go [m]. No body gets so far: forces within a body move its vertices by less than its size in a
-// step.
+// How much further than expected it may go [m]. In a step h forces within a body move a vertex by (h omega)^2 times what it is out of
+// place, which is hardly more than half of the body's size, now or at rest.
 double play_of(uint b, IN(Box) box) {
   vec3 size = box.upper - box.lower;
-  return max(surface[b].edge, double(0.5) * double(max(size.x, max(size.y, size.z))));
+  double step_omega = step_parts[0].full * surface[b].frequency;
+  return max(surface[b].edge, step_omega * step_omega * max(surface[b].diameter, double(max(size.x, max(size.y, size.z)))));
 }
 
 // Twice the expected way, because bodies must not come near each other in the next step, either. Rounded outward.

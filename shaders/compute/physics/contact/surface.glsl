@@ -12,6 +12,8 @@ struct Surface {
   double gap;              // that contacts keep, in edges
   double restitution;      // negative: none
   double longest_pressed;  // step in which contacts do not pump energy into the body [s]
+  double frequency;        // the stiffest of the body's vibrations, omega [1/s], 0 if it is immovable
+  double diameter;         // at rest, at most [m]
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
 };
 
