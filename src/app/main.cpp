@@ -161,6 +161,7 @@ void add_run(CLI::App& program, RunOptions& options) {
   add_checkpoints(*run, options);
   run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little")
       ->excludes(run->get_option("--checkpoint"));
+  run->add_flag("!--no-skipping", options.skipping, "Also do what is known to change nothing, with the same results");
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
   refuse_beside_resume(*run);

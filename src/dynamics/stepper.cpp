@@ -102,6 +102,7 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
   }
+  bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
 }
 
 void Stepper::use_tableaus(Stages stages) {

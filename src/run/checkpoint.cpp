@@ -18,8 +18,8 @@ namespace {
 
 // A checkpoint holds these structs as bytes of memory. If you change one, raise checkpoint_version too: the sizes here do not
 // show a changed order. It also holds a scene's text. If a default of scenes changes, raise it, too: a run must end as it began.
-static_assert(checkpoint_version == 21 && sizeof(physics::Cluster) == 288 && sizeof(physics::Pose) == 200 &&
-                  sizeof(physics::Status) == 16 && sizeof(physics::Tally) == 12 && sizeof(physics::Control) == 160 &&
+static_assert(checkpoint_version == 22 && sizeof(physics::Cluster) == 288 && sizeof(physics::Pose) == 200 &&
+                  sizeof(physics::Status) == 32 && sizeof(physics::Tally) == 16 && sizeof(physics::Control) == 160 &&
                   sizeof(physics::Pace) == 192 && sizeof(physics::StepParts) == 40 && sizeof(physics::Debt) == 40 &&
                   sizeof(physics::Impact) == 16 && sizeof(RunProgress) == 328,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
@@ -28,10 +28,10 @@ static_assert(checkpoint_version == 21 && sizeof(physics::Cluster) == 288 && siz
 template <class Archive, class Options>
 void visit_options(Archive& archive, Options& options) {
   auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
-         interval, resume, scene_text, timings, check, quiet] = options;
+         interval, resume, scene_text, timings, skipping, check, quiet] = options;
   auto& [kind, gpu_index, precision, threads] = device;
   archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
-          interval);
+          interval, skipping);
 }
 
 // Serves writing and reading.

@@ -172,6 +172,7 @@ Summary summary_of(const RunStatus& status) {
   s.interrupted = is_interrupted();
   s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
   s.skipped = {{"force_evaluations", report.forces_skipped},
+               {"bodies_at_rest", report.steps_at_rest},
                {"body_pairs", report.body_pairs_skipped},
                {"tree_refits", report.refits_skipped}};
   s.timings_ms = {{"load", 1e3 * times.loading.seconds()},

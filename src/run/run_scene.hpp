@@ -39,6 +39,7 @@ struct RunOptions {
   std::filesystem::path resume;
   std::optional<std::string> scene_text;  // used instead of the scene file's content
   bool timings = false;                   // measure each kind of pass
+  bool skipping = true;                   // leave out what is known to change nothing
   bool check = false;                     // validate and estimate only
   bool quiet = false;
 };

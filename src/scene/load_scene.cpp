@@ -80,10 +80,10 @@ class TableReader {
     return in_front != nullptr && (behind == nullptr || is_override(*in_front) || !is_override(*behind));
   }
 
-  /// Forgets what the table behind says of these keys.
+  /// Forgets what the table behind says of keys that the one in front lacks.
   void forget_behind(std::initializer_list<const char*> keys) {
     for (const char* key : keys)
-      if (!is_in_front(key)) replaced_.emplace_back(key);
+      if (front_ == nullptr || front_->get(key) == nullptr) replaced_.emplace_back(key);
   }
 
   /// Makes a key known that others read.

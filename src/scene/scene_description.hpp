@@ -28,7 +28,7 @@ constexpr const char* name_of(DampingLaw law) {
   constexpr const char* names[] = {"none", "constant", "adaptive", "internal"};
   return names[static_cast<unsigned>(law)];
 }
-/// How pairs of bodies are found. Results do not depend on it.
+/// How pairs of bodies are found. Results do not depend on it, and no scene says it: tests do.
 enum class BroadPhase { automatic, all_pairs, grid };
 enum class ContactSearch { tree, brute_force };
 enum class TriangleTest : unsigned { certified = 0, moller = 1 };

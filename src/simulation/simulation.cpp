@@ -35,6 +35,7 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
     report.force_evaluations += tallies[b].force_evaluations;
     report.forces_skipped += tallies[b].forces_skipped;
     report.frame_changes += tallies[b].frame_changes;
+    report.steps_at_rest += tallies[b].steps_at_rest;
     report.pair_interactions += tallies[b].force_evaluations * vertices * (vertices - 1);
   }
 }
@@ -45,10 +46,10 @@ bool is_finite(const State& state, const Model& model) {
          std::ranges::all_of(state.world_positions(model), [](const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); });
 }
 
-void expect_room_for_pairs(const Control& control) {
-  if (total(control, physics::body_pairs_lost) == 0) return;
+void expect_room_for_pairs(std::uint64_t lost) {
+  if (lost == 0) return;
   throw Error(ErrorKind::device, "", "more bodies are near each other at once than there is room for",
-              "start with bodies further apart");
+              "use fewer bodies, or bodies that are further apart");
 }
 
 void expect_groups_met(const std::vector<physics::Status>& statuses) {
@@ -79,6 +80,12 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     known_pace_ = pacer_->pace();
   }
   device.run(stepper_.first_passes());
+  skip(true);
+}
+
+void Simulation::skip(bool skips) {
+  bodies_.arrays.set_parameter("skips", skips ? 1u : 0u);
+  if (!skips) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
 }
 
@@ -181,7 +188,8 @@ StepReport Simulation::report() {
   const std::uint64_t searches = report.steps + report.substeps + (report.adaptive ? report.adaptive->rejected : 0);
   if (collider_.response() != nullptr && collider_.uses_trees())
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
-  expect_room_for_pairs(control);
+  if (!collider_.response_row().keeps_apart)
+    expect_room_for_pairs(total(control, physics::body_pairs_lost));  // else the step is held
   expect_groups_met(bodies_.statuses.download());
   add_force_counts(report, model_, bodies_.tallies.download());
   return report;
@@ -207,6 +215,7 @@ void Simulation::restore(std::string_view saved) {
   is_restored_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
+  bodies_.look_at_bodies_at_rest();
   if (collider_.response() != nullptr) collider_.response()->restore(from.get<std::string>());
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();
@@ -234,20 +243,26 @@ Intersections Simulation::intersections() {
   probe.non_finite_vertex = physics::no_vertex;
   const std::uint32_t current = half();
   const std::vector<std::uint32_t> marks_before = collider_.touching().marks();
+  const std::vector<physics::Status> statuses_before = bodies_.statuses.download();
+  auto& boxes = bodies_.arrays.get<physics::BoxBits>("body_box");
+  const std::vector<physics::BoxBits> boxes_before = boxes.download();
   bodies_.control.upload(std::span(&probe, 1));
   bodies_.prepare_search();
   const Pass bounding = collider_.bounding_pass(current);
   device_.run({&bounding, 1});
   device_.run(collider_.search_passes(current));
 
-  Intersections result{.pairs = bodies_.control.download().front().count[physics::contact_pairs], .bodies = {}};
+  const Control found = bodies_.control.download().front();
+  Intersections result{.pairs = found.count[physics::contact_pairs], .bodies = {}};
   const std::vector<std::uint32_t> marks = collider_.touching().marks();
   for (std::uint32_t i = 0; i < marks.size(); ++i)
     if (marks[i] == probe.step && (result.bodies.empty() || result.bodies.back() != model_.body_index(i)))
       result.bodies.push_back(model_.body_index(i));
   collider_.touching().restore_marks(marks_before);
   bodies_.control.upload(std::span(&saved, 1));
-  bodies_.prepare_search();  // the next step needs empty boxes again
+  bodies_.statuses.upload(statuses_before);
+  boxes.upload(boxes_before);
+  expect_room_for_pairs(found.count[physics::body_pairs_lost]);
   return result;
 }
 

@@ -62,7 +62,8 @@ struct StepReport {
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
-  std::uint64_t body_pairs_skipped = 0;     // pairs whose root boxes do not overlap
+  std::uint64_t steps_at_rest = 0;          // steps of one body in which it was left alone, because nothing moved it
+  std::uint64_t body_pairs_skipped = 0;     // pairs of bodies that were not listed as near
   std::uint64_t refits_skipped = 0;         // trees whose body's box overlapped no other
 
   bool operator==(const StepReport&) const = default;
@@ -95,6 +96,8 @@ class Simulation {
   StepReport advance_to(double time);
   /// Turns on or off that steps measure the time of each pass. Measured steps are slower: see run_timed.
   void time_passes(bool timed = true) { timed_ = timed; }
+  /// Turns on or off that steps leave out what is known to change nothing. Results are the same.
+  void skip(bool skips);
   /// Returns the device time of all measured passes by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.

@@ -65,11 +65,10 @@ bool runs_all_stages(const Device& device, std::span<const ForceGroup> groups) {
 
 // Running all stages at once saves more than the best lanes do. Then all bodies have one variant.
 std::vector<std::size_t> best_force_variants(const Device& device, const Model& model) {
-  for (std::size_t variant = 0; variant < device.force_variants().size(); ++variant) {
-    const std::vector<std::size_t> same(model.bodies.size(), variant);
-    if (variant >= device.best_force_variant(model.vertex_count(), model.vertex_count()) &&
-        runs_all_stages(device, groups_of(device, model, same)))
-      return same;
+  const std::size_t best_for_one = device.best_force_variant(model.vertex_count(), model.vertex_count());
+  for (std::size_t variant = best_for_one; variant < device.force_variants().size(); ++variant) {
+    std::vector<std::size_t> same(model.bodies.size(), variant);
+    if (runs_all_stages(device, groups_of(device, model, same))) return same;
   }
   std::vector<std::size_t> variants;
   for (const ModelBody& body : model.bodies)
@@ -93,7 +92,11 @@ physics::Status first_status(bool is_static) {
   return {.activity = is_static ? physics::immovable : physics::moving,
           .non_finite_vertex = physics::no_vertex,
           .deformed = 0,
-          .force_stale = 1};
+          .force_stale = 1,
+          .calm = 0,
+          .partner_step = 0,
+          .first_pair = 0,
+          .disturbed = 0};
 }
 
 std::vector<physics::Status> first_statuses(const Model& model) {
@@ -134,8 +137,10 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);
+  arrays.set_parameter("skips", 1u);
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
+  arrays.make("place_box", std::vector(body_count, empty_box()));
   arrays.make<std::uint32_t>("meeting", body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
@@ -160,6 +165,14 @@ void DeviceBodies::prepare_search() {
   for (physics::Status& status : moving_on)
     if (status.activity == physics::halted_for_now) status.activity = physics::moving;
   statuses.upload(moving_on);
+  look_at_bodies_at_rest();
+}
+
+void DeviceBodies::look_at_bodies_at_rest() {
+  std::vector<physics::Status> looked_at = statuses.download();
+  for (physics::Status& status : looked_at)
+    if (status.calm == physics::at_rest) status.calm = physics::forgotten;
+  statuses.upload(looked_at);
 }
 
 void DeviceBodies::set_time_step(double time_step) {

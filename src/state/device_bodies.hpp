@@ -44,9 +44,11 @@ struct DeviceBodies {
   [[nodiscard]] std::uint32_t first_of_half(std::uint32_t half) const { return physics::in_half(half, vertex_count, 0); }
   /// Returns the state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
-  /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, as follow_bodies does, and sets
-  /// bodies moving that are halted for now.
+  /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, and counts no body as
+  /// halted for now, or at rest.
   void prepare_search();
+  /// Has the next step look at bodies at rest, too, because what an earlier one found of them is lost.
+  void look_at_bodies_at_rest();
   /// Sets the length of all steps from here on [s].
   void set_time_step(double time_step);
   /// Sets where each body's own tableau begins.

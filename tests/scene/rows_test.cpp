@@ -70,6 +70,7 @@ TEST_CASE("a static one of bodies in rows has none of what the others do") {
   CHECK(scene.bodies[1].pressure == 0);
   CHECK(scene.bodies[1].idle_keys.empty());
   check_input_error(rows + "\"[1,0,0]\" = { kind = \"static\", spin = [0, 1, 0] }\n", 11, {"body.ball[1,0,0].spin", "static"});
+  check_override_error(rows + "\"[1,0,0]\" = { kind = \"static\", spin = [0, 1, 0] }\n", "body.ball.spin=[1,2,3]", {"static"});
 }
 
 TEST_CASE("bodies in rows that can't be are an error that says what to write") {

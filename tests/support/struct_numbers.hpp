@@ -43,11 +43,13 @@ inline std::vector<double> numbers_of(const physics::Room& room) {
 }
 
 inline std::vector<double> numbers_of(const physics::Status& status) {
-  return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale)};
+  return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale),
+          double(status.calm),     double(status.disturbed)};
 }
 
 inline std::vector<double> numbers_of(const physics::Tally& tally) {
-  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes)};
+  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes),
+          double(tally.steps_at_rest)};
 }
 
 inline std::vector<double> numbers_of(const physics::Moments& moments) {

@@ -4,7 +4,7 @@
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 READ(surface)
-READ(body_box)
+READ_AS(place_box, BoxBits, body_box)
 READ(body_motion)
 READ(step_parts)
 WRITE(grid_list)

@@ -9,11 +9,11 @@
 #include "../physics/contact/surface.glsl"
 READ(control)
 READ(pose)
+READ(status)
 READ(surface)
 READ(rest_position)
 WRITE(motion)
 READ(start)
-READ(unkicked)
 WRITE(cage)
 READ(cluster)
 READ(ground)
@@ -32,6 +32,7 @@ PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/flight.glsl"
 #include "parts/quantum.glsl"
 #include "parts/impulse_sums.glsl"
+#include "parts/is_left_alone.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
 
@@ -78,17 +79,18 @@ void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
 
 void expect_cuts(uint i) {
   if (i == 0u) add_contact_sums();
-  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint b = uint(rest_position[i].w);
   if (i == 0u || uint(rest_position[i - 1u].w) != b) {
     find_energy_due(b);
     cut[flight_stop_of(vertex_count, b)] = cut[flight_stop_of(vertex_count, body_count + b)] = at_no_cut;
   }
+  if (is_left_alone(b)) return;
+  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);
   dvec3 gone = dvec3(0);
-  if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked, force_of(i)))
+  if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(start, unkicked_velocity_of(i)))
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
   dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? flight_in_step(b, from) : dvec3(0), own = gone - together;
   STORE3(way, force_of(i), own)

@@ -41,9 +41,11 @@ void empty_lists() {
   contact_list[0].has_dues = 0u;
 }
 
-// How much further than expected a vertex may go, on all sides [m]. Bodies that are far from all others have more room.
+// How much further than expected a vertex may go, on all sides [m]. Bodies that are far from all others have more room. What quiet ones
+// have does not depend on others.
 double reach_beyond(uint b) {
   double edge = surface[b].edge;
+  if (status[b].calm >= quiet) return reach_in_edges() * edge;
   return clamp(double(uintBitsToFloat(room[b].to_others)), reach_in_edges() * edge, double(1000) * edge);
 }
 
@@ -67,40 +69,49 @@ void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
   }
 }
 
+void begin_part(double time_step, double longer) {
+  control[0].time_step = time_step;
+  contact_list[0].longer = longer;
+  empty_lists();
+}
+
+// Without a kick [m/s].
+dvec3 expected_velocity(uint i, double longer) {
+  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
+  return LOAD3(start, start_velocity_of(i)) + longer * (latest + double(0.5) * (latest - before));
+}
+
+void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {
+  cage[cage_of(i)] = vec4(vec3(lower), 0);
+  cage[cage_of(i) + 1u] = vec4(vec3(upper), 0);
+  for (uint k = 0u; k < 3u; ++k) {
+    bound(i, b, k, float(lower[int(k)]));
+    bound(i, b, k, float(upper[int(k)]));
+  }
+}
+
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w);
-  dvec3 position = LOAD3(start, start_position_of(i)), velocity = LOAD3(start, start_velocity_of(i));
-  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
+  bool is_left_alone = is_idle(status[b]);
   double time_step = next_part(step_parts[0]);
   double longer = step_parts[0].last > double(0) ? time_step / step_parts[0].last : double(1);
-  if (i == 0u) {
-    control[0].time_step = time_step;
-    contact_list[0].longer = longer;
-    empty_lists();
-  }
-  dvec3 mean = velocity + longer * (latest + double(0.5) * (latest - before));
-  STORE3(expected, force_of(i), mean)
-  contact_weight[i] = 0u;
-  dvec3 way = time_step * mean, lower = position, upper = position;
+  if (i == 0u) begin_part(time_step, longer);
+  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_left_alone ? dvec3(0) : expected_velocity(i, longer);
+  dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
     dvec3 most = max(dvec3(double(0.5) * surface[b].edge), abs(way)), beyond = dvec3(reach_beyond(b));
     dvec3 together = may_fly(b) ? way_of_flight(b, time_step, position) : dvec3(0);
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
-    end_flight_near_grounds(b, lower, upper);
+    if (!is_left_alone) end_flight_near_grounds(b, lower, upper);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
-  dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7);
-  lower -= slack;
-  upper += slack;
-  cage[cage_of(i)] = vec4(vec3(lower), 0);
-  cage[cage_of(i) + 1u] = vec4(vec3(upper), 0);
-  dvec3 end = position + way, near = dvec3(surface[b].nearness) + slack;
+  dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7), near = dvec3(surface[b].nearness) + slack;
   cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
-  for (uint k = 0u; k < 3u; ++k) {
-    bound(i, b, k, float(lower[int(k)]));
-    bound(i, b, k, float(upper[int(k)]));
-  }
+  if (is_left_alone) return;  // all else still stands, but the way that it went has been in the place of this box
+  STORE3(expected, force_of(i), mean)
+  contact_weight[i] = 0u;
+  keep_cage(i, b, lower - slack, upper + slack);
 }

@@ -1,11 +1,12 @@
 // A kernel in rounds. One thread serves one body, and finds the first one of its island. All bodies of an island add up their momenta and
 // masses there. The sums are whole numbers, so their order does not matter. If one of the bodies breaks apart, their island has no flight.
+// If one of them moves or is disturbed, all are disturbed.
 #include "../physics/body.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"
 READ(body)
-READ(status)
+WRITE(status)
 SHARED_WRITE(contact_list)
 SHARED_WRITE(cluster)
 SHARED_WRITE(island_scale)
@@ -32,6 +33,7 @@ double in_quanta(double part) { return nearest_whole(part * double(1099511627776
 void find_first(uint b) {
   uint first = first_of_island(b);
   ATOMIC_STORE(cluster[b].island, first);
+  if (status[b].calm < quiet || status[b].disturbed != 0u) ATOMIC_STORE(cluster[first].is_disturbed, 1u);
   if (cluster[b].cannot_fly != 0u) {
     ATOMIC_STORE(cluster[first].cannot_fly, 1u);
     return;
@@ -64,5 +66,6 @@ void find_flights(uint b, uint number) {
   if (status[b].activity == immovable || cluster[b].has_company == 0u) return;
   if (number == 0u) find_first(b);
   if (number == 1u && cluster[cluster[b].island].cannot_fly == 0u) add_to_island(b);
+  if (number == 1u && cluster[cluster[b].island].is_disturbed != 0u) status[b].disturbed = 1u;
   if (number == 2u && b == cluster[b].island) end_island(b);
 }

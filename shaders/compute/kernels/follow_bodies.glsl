@@ -3,12 +3,14 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/rotation.glsl"
 WRITE(control)
 READ(body)
 WRITE(pose)
 WRITE(frame_change)
 WRITE(body_box)
+WRITE(place_box)
 WRITE(status)
 WRITE(tally)
 WRITE(meeting)
@@ -17,6 +19,8 @@ READ(motion)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
+PARAMETER(uint, skips)  // 1: bodies at rest are left alone
+PARAMETER(uint, forces_of_a_step)
 
 // Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
 // the frame, relative to a point that moves with the body.
@@ -125,12 +129,33 @@ void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
   change_frame_of(b, q, samples.rest_mean, samples.moved_mean + origin);
 }
 
+// Whether the step left the body where it was, and the next one will, too. In a body that is not deformed all vertices move alike.
+bool is_left_where_it_was(uint b) {
+  if (status[b].activity == immovable) return true;
+  uint first = body[b].first_vertex;
+  uint before = in_half(from_half, vertex_count, first), after = in_half(other_half(from_half), vertex_count, first);
+  return status[b].deformed == 0u && LOAD3(pose[b].gravity, 0u) == dvec3(0) &&
+         LOAD3(motion, displacement_of(before)) == LOAD3(motion, displacement_of(after)) &&
+         LOAD3(motion, velocity_of(before)) == dvec3(0) && LOAD3(motion, velocity_of(after)) == dvec3(0);
+}
+
+void count_calm_steps(uint b) {
+  if (status[b].calm >= at_rest && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
+  if (is_idle(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
+  if (status[b].activity == moving || status[b].activity == immovable) {
+    uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
+    status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
+  }
+  status[b].disturbed = 0u;
+}
+
 // Empties what the next step adds to. The search has been through the boxes, and all groups have met.
 void prepare_next_step(uint b) {
-  for (uint k = 0u; k < 3u; ++k) {
-    body_box[b].lower[k] = 0xffffffffu;
-    body_box[b].upper[k] = 0u;
+  for (uint k = 0u; k < 3u && status[b].calm != at_rest; ++k) {
+    body_box[b].lower[k] = place_box[b].lower[k] = 0xffffffffu;
+    body_box[b].upper[k] = place_box[b].upper[k] = 0u;
   }
+  status[b].first_pair = 0u;
   frame_change[b].turned = 0u;
   meeting[b] = 0u;
 }
@@ -144,6 +169,7 @@ void tell_non_finite() {
 void follow_bodies(uint b) {
   dvec3 origin = LOAD3(pose[b].reference, 0u);
   Samples samples = take_samples(b, origin);  // before it is known whether they are needed: waiting costs more
+  count_calm_steps(b);
   prepare_next_step(b);
   if (b == 0u) tell_non_finite();
   if (status[b].activity != moving) return;

@@ -11,7 +11,8 @@
 READ(body)
 READ(surface)
 READ(start)
-READ(body_box)
+READ_AS(place_box, BoxBits, body_box)
+WRITE(status)
 READ(body_motion)
 READ(pressed)
 WRITE(step_parts)
@@ -40,10 +41,17 @@ dvec3 way_between(uint a, uint b) {
   return max(max(-all_above(body_box[a], body_box[b]), -all_above(body_box[b], body_box[a])), dvec3(0));
 }
 
-// Shares what is left of two bodies' distance on some axis after the step, so that boxes which grow by it on all sides stay apart there.
-// Rounding takes less than what is held back.
-void keep_apart(uint a, uint b, double on_an_axis) {
-  uint share_of_it = floatBitsToUint(max(float(on_an_axis) * 0.45f, 0.0f));
+// How far the body is expected to go up or down along each axis in so long a time [m].
+dvec3 way_up(uint b, double time) { return time * max(dvec3(box_of_bits(body_motion[b]).upper), dvec3(0)); }
+dvec3 way_down(uint b, double time) { return time * max(-dvec3(box_of_bits(body_motion[b]).lower), dvec3(0)); }
+
+// Shares what is left of two bodies' distance on some axis once each has gone its own way, so that boxes which grow by it on all sides
+// stay apart there. Rounding takes less than what is held back.
+void keep_apart(uint a, uint b, double time) {
+  dvec3 above_a = -all_above(body_box[a], body_box[b]) - way_up(a, time) - way_down(b, time);
+  dvec3 above_b = -all_above(body_box[b], body_box[a]) - way_up(b, time) - way_down(a, time);
+  dvec3 left = max(above_a, above_b);
+  uint share_of_it = floatBitsToUint(max(float(max(max(left.x, left.y), left.z)) * 0.45f, 0.0f));
   LOWER_TO(room[a].to_others, share_of_it)
   LOWER_TO(room[b].to_others, share_of_it)
 }
@@ -66,6 +74,11 @@ void push_away(uint a, uint b, double speed) {
 }
 
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }
+
+// A body that moves may reach the other one.
+void disturb(uint a, uint b) {
+  if (moves(a) && status[a].calm < quiet && status[b].activity != immovable) ATOMIC_STORE(status[b].disturbed, 1u);
+}
 
 // The mean velocity of the vertices that stand for the body [m/s].
 dvec3 mean_velocity(uint b) {
@@ -99,6 +112,8 @@ Box box_to_meet(uint b) { return reach_box_of(b); }
 
 void meet(uint a, uint b) {
   if (!moves(a) && !moves(b)) return;
+  disturb(a, b);
+  disturb(b, a);
   dvec3 between = way_between(a, b);
   double longest = step_parts[0].full, speed = approach(a, b), distance = length(between);
   double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
@@ -107,9 +122,9 @@ void meet(uint a, uint b) {
     push_away(a, b, speed);
     push_away(b, a, speed);
   }
-  if (moves(a) && moves(b) && distance <= edge_of_pair(surface[a], surface[b])) join(a, b);
+  if (moves(a) && moves(b) && distance <= max(edge_of_pair(surface[a], surface[b]), surface[a].nearness + surface[b].nearness)) join(a, b);
   if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
-  keep_apart(a, b, max(max(between.x, between.y), between.z) - speed * longest);
+  keep_apart(a, b, longest);
   bound_step(longest);
 }
 
@@ -125,11 +140,10 @@ void begin_flight(uint b) {
   if (is_in_cluster(b)) join(b, cluster[b].first);
 }
 
-// Its reach has room for as much more than is expected. The expected way takes half of that in the reach. One body alone has all the room.
+// Bodies whose reaches are apart keep so far from each other. One body alone has all the room.
 void bound_room(uint b) {
   if (body_count == 1u) return;
-  double room_in_reach = way_of(b) + play_of(b, box_of_body(b));
-  LOWER_TO(room[b].to_others, floatBitsToUint(float(room_in_reach) * 0.9f))
+  LOWER_TO(room[b].to_others, floatBitsToUint(float(play_of(b, box_of_body(b))) * 0.9f))
 }
 
 // A body that was pressed a while ago has a bound of its own.

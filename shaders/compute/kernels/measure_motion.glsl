@@ -14,9 +14,8 @@ READ(rest_position)
 READ(motion)
 READ(surplus)
 WRITE(start)
-WRITE(unkicked)
 WRITE(body_motion)
-WRITE(body_box)
+WRITE_AS(place_box, BoxBits, body_box)
 WRITE(status)
 WRITE(cluster)
 PARAMETER(uint, vertex_count)
@@ -28,21 +27,31 @@ void leave_island(uint b) {
   if (b == 0u) cluster[body_count].has_company = 0u;
   cluster[b].island = b;
   cluster[b].has_company = 0u;
+  cluster[b].is_disturbed = 0u;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
-  cluster[b].is_beside_static = 0u;
+  if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
+}
+
+// All else that a step finds of a body at rest still stands.
+void expect_rest(uint b) {
+  for (uint k = 0u; k < 3u; ++k) body_motion[b].lower[k] = body_motion[b].upper[k] = ordered_bits(0.0f);
 }
 
 void measure_motion(uint i) {
   if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
   uint b = uint(rest_position[i].w);
   if (i == body[b].first_vertex) leave_island(b);
+  if (is_idle(status[b])) {
+    if (i == body[b].first_vertex) expect_rest(b);
+    return;
+  }
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
   dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
-  STORE3(unkicked, force_of(i), in_frame)
+  STORE3(start, unkicked_velocity_of(i), in_frame)
   dvec3 mean = velocity + (latest + double(0.5) * (latest - before));
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));

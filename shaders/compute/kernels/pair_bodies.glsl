@@ -5,12 +5,11 @@
 WRITE(control)
 READ(tree)
 READ(body_box)
-READ(status)
+WRITE(status)
 READ(grid_list)
 READ(grid_entry)
 READ(grid_level)
 WRITE(near_pair)
-WRITE(partner_step)
 PARAMETER(uint, body_count)
 PARAMETER(uint, pair_count)  // of bodies that might touch
 PARAMETER(uint, near_pair_capacity)
@@ -19,17 +18,17 @@ PARAMETER(uint, near_pair_capacity)
 Box box_to_meet(uint b) { return box_to_touch(b); }
 
 void meet(uint a, uint b) {
-  if (status[a].activity != moving && status[b].activity != moving) return;
+  if ((status[a].activity != moving && status[b].activity != moving) || (is_idle(status[a]) && is_idle(status[b]))) return;
   uint at = atomicAdd(control[0].near_pair_count, 1u);
   if (at >= near_pair_capacity) {
     atomicAdd(control[0].near_pair_count, ~0u);  // minus one
     atomicAdd(control[0].count[body_pairs_lost], 1u);
     return;
   }
-  near_pair[at] = uvec2(a, b);
+  near_pair[at] = uvec4(a, b, atomicExchange(status[a].first_pair, at + 1u), atomicExchange(status[b].first_pair, at + 1u));
   atomicAdd(control[0].count[body_pairs_skipped], ~0u);
-  ATOMIC_STORE(partner_step[a], control[0].step);
-  ATOMIC_STORE(partner_step[b], control[0].step);
+  ATOMIC_STORE(status[a].partner_step, control[0].step);
+  ATOMIC_STORE(status[b].partner_step, control[0].step);
 }
 
 #include "parts/each_pair.glsl"

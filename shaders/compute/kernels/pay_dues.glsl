@@ -14,7 +14,7 @@
 READ(control)
 READ(body)
 READ(pose)
-READ(status)
+WRITE(status)
 READ(rest_position)
 WRITE(motion)
 READ(cut)
@@ -107,14 +107,18 @@ bool was_cut_short(uint b) { return (cuts_of(b) & cut_short_bit) != 0u; }
 bool was_at_a_cut(uint b) { return (cuts_of(b) & at_a_cut_bit) != 0u; }
 bool was_held(uint b) { return (cuts_of(b) & held_bit) != 0u; }
 
+// Whether there was room for all pairs of bodies. If not, which ones are in the list depends on threads.
+bool knows_all_pairs() { return control[0].count[body_pairs_lost] == 0u; }
+
 // Of the bodies near it that can move the first one from a number on, or no_vertex. The list of pairs is in no fixed order, and sums
 // need one.
 uint next_partner(uint b, uint from) {
   uint found = no_vertex;
-  for (uint k = 0u; k < control[0].near_pair_count; ++k) {
-    uvec2 pair = near_pair[k];
+  for (uint k = knows_all_pairs() ? status[b].first_pair : 0u; k != 0u;) {
+    uvec4 pair = near_pair[k - 1u];
     uint other = pair.x == b ? pair.y : pair.x;
-    if ((pair.x == b || pair.y == b) && other >= from && status[other].activity != immovable) found = min(found, other);
+    if (other >= from && status[other].activity != immovable) found = min(found, other);
+    k = pair.x == b ? pair.z : pair.w;
   }
   return found;
 }
@@ -230,11 +234,11 @@ bool belong_together(uint a, uint b) {
 
 // A body that owes belongs together with those near it that owe, too, or that were at a cut.
 void join_bodies() {
-  bool changed = true;
+  bool changed = knows_all_pairs();
   while (changed) {
     changed = false;
     for (uint k = 0u; k < control[0].near_pair_count; ++k) {
-      uvec2 pair = near_pair[k];
+      uvec4 pair = near_pair[k];
       uint first = min(cluster[pair.x].first, cluster[pair.y].first);
       if (cluster[pair.x].first == cluster[pair.y].first || !belong_together(pair.x, pair.y)) continue;
       cluster[pair.x].first = cluster[pair.y].first = first;
@@ -328,6 +332,8 @@ void pay(uvec4 part) {
   Means means = means_of(b);
   double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means), of_all = kept_together(b);
   if (of_deformation == double(1) && of_rigid == double(1) && of_all == double(1) && !was_cut_short(b)) return;
+  ATOMIC_STORE(status[b].deformed, 1u);
+  ATOMIC_STORE(status[b].calm, 0u);
   bool shares = is_in_cluster(b);
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {

@@ -1,4 +1,5 @@
 // One thread fits one leaf's box to its triangles where they stand, and its part of the boxes above.
+#include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -9,7 +10,7 @@ SHARED_WRITE(node_box)
 READ(triangle)
 READ(world_position)
 WRITE(arrival)
-READ(partner_step)
+READ(status)
 PARAMETER(uint, first_position)
 
 #include "parts/box_of_triangle.glsl"

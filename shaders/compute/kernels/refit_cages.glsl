@@ -1,5 +1,6 @@
 // One thread bounds the triangles of one leaf, by their corners' cages and ways. It fits the leaf's box and its part of the boxes above to
 // the cages.
+#include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -11,7 +12,7 @@ READ(triangle)
 READ(cage)
 WRITE(triangle_bounds)
 WRITE(arrival)
-READ(partner_step)
+READ(status)
 #include "parts/boxes_in_motion.glsl"
 #include "parts/kept_boxes.glsl"
 Box box_of_triangle(uint t) {
@@ -36,7 +37,7 @@ void bound_triangles(uint begin, uint end) {
 }
 
 void refit_cages(uint item) {
-  if (partner_step[leaf[item].y] != control[0].step) return;
+  if (status[leaf[item].y].partner_step != control[0].step) return;
   bound_triangles(node[leaf[item].x].z, node[leaf[item].x].w);
   refit_tree(item);
 }

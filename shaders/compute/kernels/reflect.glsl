@@ -31,5 +31,6 @@ void reflect(uint i) {
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
   ATOMIC_STORE(status[b].force_stale, 1u);
   ATOMIC_STORE(status[b].deformed, 1u);
+  ATOMIC_STORE(status[b].calm, 0u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }

@@ -32,6 +32,7 @@ PARAMETER(uint, contact_capacity)
 #include "parts/cut_before.glsl"
 #include "parts/stays.glsl"
 #include "parts/place.glsl"
+#include "parts/is_left_alone.glsl"
 
 double part_left(uint i, uint b) {
   if (all_stay() || (flight_was_stopped(b) && !goes_on_alone(i, b))) return double(0);
@@ -53,6 +54,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   ATOMIC_STORE(contact_list[0].has_dues, 1u);
   ATOMIC_STORE(status[b].force_stale, 1u);
   ATOMIC_STORE(status[b].deformed, 1u);
+  ATOMIC_STORE(status[b].calm, 0u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }
 
@@ -85,7 +87,7 @@ void prepare_next_step(uint i, uint b) {
 void settle(uint i) {
   uint b = uint(rest_position[i].w);
   prepare_next_step(i, b);
-  if (status[b].activity != moving) return;
+  if (status[b].activity != moving || is_left_alone(b)) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
   dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));

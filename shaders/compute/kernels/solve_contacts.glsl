@@ -174,8 +174,8 @@ void bounce(uint c, uint kick_round, bool is_settled) {
   store_least_impulse(c);
 }
 
-// For a contact that jams. Its friction shrinks from what it uses of it on. What it gives at least may have come about in the jam, too, and
-// nothing but its friction may hold that.
+// For a contact that jams. Its coefficient of friction first drops to what it uses, then goes down step by step. What it gives at least may
+// have come about in the jam, too, and nothing but its friction may hold that.
 void loosen(uint c) {
   real sideways = length(real3(held.impulse.y, held.impulse.z, held.impulse.w));
   if (sideways < held.goal_row.w * held.impulse.x) held.goal_row.w = sideways / held.impulse.x;
@@ -235,6 +235,7 @@ void kick(uint i, uint kick_round) {
   dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * double(quantum())) * rotate_back(pose[b], quanta);
   STORE3(motion, at, velocity)
   ATOMIC_STORE(status[b].deformed, 1u);
+  ATOMIC_STORE(status[b].calm, 0u);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
     if (quanta[int(k)] != double(0)) ADD_EXACTLY(contact_sum[k], quanta[int(k)])

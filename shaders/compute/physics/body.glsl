@@ -46,21 +46,31 @@ struct FrameChange {
   uint padding;
 };
 
-// The body's box at the step's end, as bits that order as floats do.
-struct BoxBits { uint lower[3]; uint upper[3]; };
-
 struct Status {
   uint activity;           // whether the body moves: see below
   uint non_finite_vertex;  // the body's first vertex that is not finite at the step's end or whose error ends the run, or no_vertex
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
+  uint calm;               // steps in a row that left the body where it was, counted up to at_rest
+  uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
+  uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
+  uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island
 };
+
+// Values of Status.calm. The first such step still expects motion, because of those before it. Nor does a body disturb others from
+// `quiet` on. One at rest has been through a whole step that found it quiet, and nothing near. All that a step would find is what
+// that one found, so it is left alone. Both halves of the state hold the same.
+const uint quiet = 2u;
+const uint at_rest = 3u;
+const uint forgotten = 4u;  // at rest, but what a step finds of it is lost, so that the next one has to look
+FN bool is_idle(IN(Status) s) { return s.calm == at_rest && s.disturbed == 0u; }
 
 // What was done for the body so far.
 struct Tally {
   uint force_evaluations;  // sums over all pairs of the body
   uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
   uint frame_changes;
+  uint steps_at_rest;  // in which it was left alone
 };
 
 // Values of Status.activity.

@@ -19,8 +19,9 @@ FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (st
 
 // `start` has six numbers a vertex: where it is in the world, and its velocity there. `surplus` holds that of the last step, then that of
 // the step before. `impulse_sum` has three sums a vertex in each of its buffers.
-FN uint start_position_of(uint i) { return 6u * i; }
-FN uint start_velocity_of(uint i) { return 6u * i + 3u; }
+FN uint start_position_of(uint i) { return 9u * i; }
+FN uint start_velocity_of(uint i) { return 9u * i + 3u; }
+FN uint unkicked_velocity_of(uint i) { return 9u * i + 6u; }
 FN uint surplus_of(uint age, uint vertex_count, uint i) { return 3u * (age * vertex_count + i); }
 FN uint impulse_sum_of(uint buffer_index, uint vertex_count, uint i) { return 3u * (buffer_index * vertex_count + i); }
 

@@ -8,7 +8,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 16;
+constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 20;
 // With fewer bodies comparing each with each takes less time (docs/benchmarks). A GPU has passes to start for a grid.
 std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind == DeviceKind::gpu ? 256 : 32; }
 
@@ -38,16 +38,16 @@ BodyPairs::BodyPairs(DeviceBodies& bodies, const Model& model, BroadPhase broad_
     : bodies_(bodies),
       pair_count_(pairs_that_may_touch(model)),
       most_pairs_(room_for_pairs(bodies.body_count)),
-      grid_lists_(lists_for(broad_phase, bodies)) {
+      grid_lists_(lists_for(broad_phase, bodies)),
+      threads_of_body_(bodies.arrays.device().info().kind == DeviceKind::gpu ? 27 : 1) {
   PLIANT_EXPECT(bodies.body_count <= 65535);
   Arrays& arrays = bodies.arrays;
-  arrays.make<std::uint32_t>("partner_step", bodies.body_count);
-  arrays.make<glm::uvec2>("near_pair", most_pairs_);
+  arrays.make<glm::uvec4>("near_pair", most_pairs_);
   arrays.make<std::uint32_t>("grid_list", std::max(grid_lists_, 1u));
   arrays.make<physics::GridEntry>("grid_entry", grid_lists_ > 0 ? bodies.body_count : 1);
   arrays.make<std::uint32_t>("grid_level", physics::level_words);
   arrays.set_parameter("grid_lists", grid_lists_);
-  arrays.set_parameter("threads_of_body", arrays.device().info().kind == DeviceKind::gpu ? 27u : 1u);
+  arrays.set_parameter("threads_of_body", threads_of_body_);
 }
 
 Pass BodyPairs::bounding_pass(std::uint32_t half) const {
@@ -72,8 +72,7 @@ std::vector<Pass> BodyPairs::passes_over_pairs(std::string_view entering, Pass v
 }
 
 std::uint32_t BodyPairs::visiting_threads() const {
-  const std::uint32_t threads_of_body = std::get<std::uint32_t>(*bodies_.arrays.parameter("threads_of_body"));
-  return bodies_.body_count * (grid_lists_ == 0 ? bodies_.body_count : threads_of_body);
+  return bodies_.body_count * (grid_lists_ == 0 ? bodies_.body_count : threads_of_body_);
 }
 
 }  // namespace pliant

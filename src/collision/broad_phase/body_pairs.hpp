@@ -28,7 +28,7 @@ class BodyPairs {
   [[nodiscard]] std::uint32_t visiting_threads() const;
 
   DeviceBodies& bodies_;
-  std::uint32_t pair_count_, most_pairs_, grid_lists_;
+  std::uint32_t pair_count_, most_pairs_, grid_lists_, threads_of_body_;
 };
 
 }  // namespace pliant

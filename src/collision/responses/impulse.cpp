@@ -121,6 +121,7 @@ class Impulse final : public Response {
     smallest_gap_ = smallest_gap(surfaces);
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
+    bodies_.arrays.set_parameter("gravity_size", gravity_size());
     make_grounds(setting);
     make_step_parts();
     make_motions();
@@ -288,8 +289,7 @@ class Impulse final : public Response {
                                                                       .least_push = {none, none, none},
                                                                       .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<double>("start", 6 * vertices);
-    arrays.make<double>("unkicked", 3 * vertices);
+    arrays.make<double>("start", 9 * vertices);
     arrays.make<double>("expected", 3 * vertices);
     arrays.make<double>("surplus", 6 * vertices);
     arrays.make<glm::vec4>("cage", 4 * vertices);
@@ -396,6 +396,12 @@ class Impulse final : public Response {
         words.insert(words.end(), {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32)});
     }
     array.upload(words);
+  }
+
+  // Frames turn the scene's gravity, and leave its size [m/s^2].
+  double gravity_size() const {
+    const physics::Pose pose = bodies_.poses.download(0, 1).front();
+    return std::hypot(pose.gravity[0], pose.gravity[1], pose.gravity[2]);
   }
 
   // Impulses are counted in quanta of what a vertex has at this speed, at least [m/s].

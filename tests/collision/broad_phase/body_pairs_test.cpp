@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "collision/collider.hpp"
+#include "support/device_bench.hpp"
 #include "support/evolve.hpp"
 #include "support/expect_error.hpp"
 #include "support/has.hpp"
@@ -75,7 +76,7 @@ Pairs near_pairs(Device& device, const ModelAndState& start, const std::vector<g
   bodies.set_time_step(1e-3);
   const Collider collider(bodies, start.model, found_by(broad_phase, "reflect"));
   bodies.world_positions.upload(positions);
-  std::vector<glm::uvec2> listed;
+  std::vector<glm::uvec4> listed;
   for (int search = 0; search < 2; ++search) {  // the first one leaves nothing behind
     bodies.prepare_search();
     physics::Control control = bodies.control.download().front();
@@ -84,10 +85,10 @@ Pairs near_pairs(Device& device, const ModelAndState& start, const std::vector<g
     const Pass bounding = collider.bounding_pass(0);
     device.run({&bounding, 1});
     device.run(collider.pairing_passes(0));
-    listed = bodies.arrays.get<glm::uvec2>("near_pair").download(0, bodies.control.download().front().near_pair_count);
+    listed = bodies.arrays.get<glm::uvec4>("near_pair").download(0, bodies.control.download().front().near_pair_count);
   }
   Pairs pairs;
-  for (const glm::uvec2& pair : listed) pairs.emplace(pair.x, pair.y);
+  for (const glm::uvec4& pair : listed) pairs.emplace(pair.x, pair.y);
   CHECK(pairs.size() == listed.size());  // none twice
   return pairs;
 }
@@ -171,6 +172,128 @@ TEST_CASE("how pairs of bodies are found does not change a run") {
   }
 }
 
+// Small bodies that fly through each other's way, from slowly to ten times their size in a step. A few are static.
+ModelAndState swarm(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  std::vector<BodySetup> setups;
+  for (int b = 0; b < 150; ++b) {
+    setups.push_back(soft(generate_mesh("icosphere:0"), "ball"));
+    BodyDescription& ball = setups.back().description;
+    ball.scale = 0.1;
+    ball.position = 1.5 * vector();
+    if (b % 10 == 9)
+      ball.kind = BodyKind::immovable;
+    else
+      ball.velocity = std::pow(10, 2 * unit(random)) * vector();
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+// What limit_step found of a step, without contacts.
+struct Limits {
+  std::vector<physics::Box> places, velocities;  // of each body [m], [m/s]
+  std::vector<physics::Room> rooms;
+  std::vector<physics::Cluster> clusters;
+  std::vector<physics::Surface> surfaces;
+  physics::StepParts parts{};
+};
+
+Limits limits_of(const ModelAndState& start, BroadPhase broad_phase, double h) {
+  Bench bench(make_cpu_device(2, 32), start, {"verlet", h}, found_by(broad_phase, "impulse"));
+  bench.begin();
+  for (const Pass& pass : bench.step(0)) {
+    if (pass.name == "find_flights") break;
+    bench.device->run({&pass, 1});
+  }
+  const Arrays& arrays = bench.bodies.arrays;
+  Limits found;
+  for (const physics::BoxBits& box : arrays.get<physics::BoxBits>("place_box").download())
+    found.places.push_back(physics::box_of_bits(box));
+  for (const physics::BoxBits& box : arrays.get<physics::BoxBits>("body_motion").download())
+    found.velocities.push_back(physics::box_of_bits(box));
+  found.rooms = arrays.get<physics::Room>("room").download();
+  found.clusters = arrays.get<physics::Cluster>("cluster").download();
+  found.surfaces = arrays.get<physics::Surface>("surface").download();
+  found.parts = arrays.get<physics::StepParts>("step_parts").download().front();
+  return found;
+}
+
+std::uint32_t island_of(const Limits& found, std::uint32_t b) {
+  while (found.clusters[b].island != b) b = found.clusters[b].island;
+  return b;
+}
+
+bool is_pushed(const physics::Room& room) {
+  bool is = false;
+  for (int k = 0; k < 3; ++k)
+    is = is || physics::from_ordered_bits(room.least_push[k]) < 0 || physics::from_ordered_bits(room.most_push[k]) > 0;
+  return is;
+}
+
+struct Encounter {
+  double distance = 0, speed = 0;  // of two bodies' boxes [m], and how fast they change it at most [m/s]
+  double left = -1e30;             // of the distance along some axis, once each has gone its own way [m]
+  bool could_touch = true;
+};
+
+// In a step h, of which the first part is a part of it.
+Encounter encounter_of(const Limits& found, std::uint32_t a, std::uint32_t b, double h, double part) {
+  const physics::Box &place = found.places[a], &other = found.places[b], &velocity = found.velocities[a],
+                     &against = found.velocities[b];
+  glm::dvec3 between(0.0), speed(0.0);
+  Encounter e;
+  for (int k = 0; k < 3; ++k) {
+    const double upward = double(velocity.upper[k]) - against.lower[k], downward = double(against.upper[k]) - velocity.lower[k];
+    const double if_above = double(other.lower[k]) - place.upper[k], if_below = double(place.lower[k]) - other.upper[k];
+    between[k] = std::max({if_above, if_below, 0.0});
+    speed[k] = std::max({upward, downward, 0.0});
+    e.could_touch = e.could_touch && if_above < h * std::max(upward, 0.0) && if_below < h * std::max(downward, 0.0);
+    const double together = std::max(velocity.upper[k], 0.0f) + std::max(-against.lower[k], 0.0f),
+                 apart = std::max(against.upper[k], 0.0f) + std::max(-velocity.lower[k], 0.0f);
+    e.left = std::max({e.left, if_above - part * together, if_below - part * apart});
+  }
+  e.distance = glm::length(between);
+  e.speed = glm::length(speed);
+  return e;
+}
+
+// The oracle looks at every pair, and knows no reaches.
+TEST_CASE("bodies that could touch in a step bound it and push each other, and others have room to stay apart") {
+  constexpr double h = 0.02;
+  int could_touch = 0, are_beside = 0;
+  for (const BroadPhase broad_phase : {BroadPhase::grid, BroadPhase::all_pairs})
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+      CAPTURE(seed);
+      const ModelAndState start = swarm(seed);
+      const Limits found = limits_of(start, broad_phase, h);
+      const double longest = std::bit_cast<float>(found.parts.longest);
+      for (std::uint32_t a = 0; a < found.places.size(); ++a)
+        for (std::uint32_t b = a + 1; b < found.places.size(); ++b) {
+          const bool a_moves = found.surfaces[a].inverse_mass > 0, b_moves = found.surfaces[b].inverse_mass > 0;
+          if (!a_moves && !b_moves) continue;
+          const Encounter e = encounter_of(found, a, b, h, std::min(h, longest));
+          const double edge = physics::edge_of_pair(found.surfaces[a], found.surfaces[b]);
+          if (e.could_touch) {
+            ++could_touch;
+            CHECK(longest * e.speed <= (e.distance + 0.25 * edge) * (1 + 1e-6));
+            if (a_moves) CHECK(is_pushed(found.rooms[a]));
+            if (b_moves) CHECK(is_pushed(found.rooms[b]));
+          }
+          if (a_moves && b_moves && e.distance <= edge) {
+            ++are_beside;
+            CHECK(island_of(found, a) == island_of(found, b));
+          }
+          const double room = (a_moves ? std::bit_cast<float>(found.rooms[a].to_others) : 0) +
+                              (b_moves ? std::bit_cast<float>(found.rooms[b].to_others) : 0);
+          if (e.left > 0) CHECK(room <= e.left);
+        }
+    }
+  CHECK(could_touch > 200);
+  CHECK(are_beside > 100);
+}
+
 // A body has room for what it does by itself, in steps up to the bound.
 TEST_CASE("bodies far from each other move to the bit as without contact, however deformed") {
   for (const auto& [integrator, part_of_bound, stretch] :
@@ -194,12 +317,71 @@ TEST_CASE("bodies far from each other move to the bit as without contact, howeve
   }
 }
 
-TEST_CASE("more near pairs than there is room for are an error that tells it") {
-  const ModelAndState start = build_model(std::vector(400, soft(generate_mesh("icosphere:0"), "one")), glm::dvec3(0.0));
+TEST_CASE("small soft bodies far from each other fall in long steps to the bit as without contact") {
+  std::vector<BodySetup> setups(2, soft(generate_mesh("icosphere:2"), "ball"));
+  for (BodySetup& setup : setups) {
+    setup.description.scale = 0.005;
+    setup.description.total_stiffness = 1;
+  }
+  setups[1].description.position = {100, 0, 0};
+  const ModelAndState start = build_model(setups, {0, -9.81, 0});
+  const auto run = [&](const char* response) {
+    const auto device = make_cpu_device(1, 32);
+    Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 1.0 / 60}), found_by(BroadPhase::grid, response));
+    simulation.advance(60);
+    CHECK(simulation.report().reverted_vertices == 0);
+    return simulation.state().motion;
+  };
+  CHECK(run("impulse") == run("none"));
+}
+
+TEST_CASE("bodies that fly along together in long steps have room, and none is held") {
+  std::vector<BodySetup> setups(125, soft(generate_mesh("icosphere:0"), "ball"));
+  for (std::size_t b = 0; b < setups.size(); ++b) {
+    setups[b].description.scale = 0.1;
+    setups[b].description.position = 0.55 * glm::dvec3(b % 5, b / 5 % 5, b / 25);
+    setups[b].description.velocity = {0, -20, 0};  // 0.33 m a step, where 0.35 m are between them
+  }
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 1.0 / 60}), found_by(BroadPhase::grid, "impulse"));
+  simulation.advance(20);
+  CHECK(simulation.report().held_parts == 0);
+  CHECK(simulation.report().substeps == 0);
+  CHECK(simulation.report().reverted_vertices == 0);
+  CHECK(simulation.report().body_pairs_skipped == 20 * 125 * 124 / 2);  // no two cages meet
+}
+
+// Thin triangles beside each other, whose boxes all overlap.
+ModelAndState blades(std::size_t count) {
+  std::vector<BodySetup> setups;
+  for (std::size_t b = 0; b < count; ++b) {
+    setups.push_back(soft({{{0, 0, 0}, {1, 1, 1}, {1, 1, 1.001}}, {{0, 1, 2}}}, "blade"));
+    setups.back().description.position = 1e-4 * static_cast<double>(b) * glm::dvec3(1, -1, 0);
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("all pairs of up to a thousand bodies may be near") {
+  const ModelAndState start = blades(1000);
+  const auto device = make_cpu_device(2, 32);
   Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 1e-4}), found_by(BroadPhase::automatic, "reflect"));
   simulation.advance(1);
-  CHECK(error_of([&] { return simulation.report(); }).kind() == ErrorKind::device);
+  CHECK(simulation.report().body_pairs_skipped == 0);
+  CHECK(simulation.report().contact_steps == 0);
+}
+
+TEST_CASE("more near pairs than there is room for are an error that tells it, or hold a step of contact by impulses") {
+  const ModelAndState start = blades(1500);
+  const auto device = make_cpu_device(2, 32);
+  Simulation reflecting(*device, start.model, start.state, plan_of({"verlet", 1e-4}), found_by(BroadPhase::automatic, "reflect"));
+  CHECK(error_of([&] { return reflecting.intersections(); }).kind() == ErrorKind::device);
+  reflecting.advance(1);
+  CHECK(error_of([&] { return reflecting.report(); }).kind() == ErrorKind::device);
+  Simulation holding(*device, start.model, start.state, plan_of({"verlet", 1e-4}), found_by(BroadPhase::automatic, "impulse"));
+  holding.advance(1);
+  CHECK(holding.report().held_parts == 1);
+  CHECK(holding.world_positions() == reflecting.world_positions());
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ Box box_of_children(uint left) {
 }
 
 void refit_tree(uint item) {
-  if (partner_step[leaf[item].y] != control[0].step) return;
+  if (status[leaf[item].y].partner_step != control[0].step) return;
   uint n = leaf[item].x;
   store_box(n, box_of_triangles(node[n].z, node[n].w));
   uint refitted = 1u;

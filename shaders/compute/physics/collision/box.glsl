@@ -66,5 +66,15 @@ FN float from_ordered_bits(uint bits) {
   return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
 }
 
+// A box as bits that order as floats do.
+struct BoxBits { uint lower[3]; uint upper[3]; };
+
+FN Box box_of_bits(IN(BoxBits) bits) {
+  Box box;
+  box.lower = vec3(from_ordered_bits(bits.lower[0]), from_ordered_bits(bits.lower[1]), from_ordered_bits(bits.lower[2]));
+  box.upper = vec3(from_ordered_bits(bits.upper[0]), from_ordered_bits(bits.upper[1]), from_ordered_bits(bits.upper[2]));
+  return box;
+}
+
 SHARED_END
 #endif

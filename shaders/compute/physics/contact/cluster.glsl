@@ -23,6 +23,7 @@ struct Cluster {
   // Of an island, at its first body. Those of a body alone stand at the body until islands are known.
   double island_velocity[3];  // of its bodies by their masses, at the step's start, in the world [m/s]
   uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
+  uint is_disturbed;          // 1: one moves, or may be reached by one that does
   uint is_beside_static;      // 1: one has a cage that meets a static triangle or comes near a ground, so it has no flight
 
   uint first;        // the first body of the cluster of the body with this number

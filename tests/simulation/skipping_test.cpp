@@ -1,0 +1,153 @@
+// What steps leave out changes nothing. The oracle is a run that leaves nothing out.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "support/evolve.hpp"
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+// Layers of spheres at rest, a static cube beside them, and two spheres that fly into them. Some rest within the gap of each other, and
+// those of `spacing` 0.82 within an edge. In some scenes there is a floor below.
+ModelAndState balls_into_others(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const double spacing = std::vector{0.82, 0.9, 1.1}[seed % 3];
+  std::vector<BodySetup> setups;
+  const auto add = [&](const char* mesh, const glm::dvec3& place) -> BodyDescription& {
+    setups.push_back(soft(generate_mesh(mesh), "ball"));
+    setups.back().description.scale = 0.4;
+    setups.back().description.position = place;
+    return setups.back().description;
+  };
+  for (int k = 0; k < 12; ++k) add("icosphere:1", spacing * glm::dvec3(k % 3, k / 3 % 2, k / 6));
+  add("cube:2", {-1.3, 0, 0}).kind = BodyKind::immovable;
+  for (int k = 0; k < 2; ++k) {
+    BodyDescription& ball = add("icosphere:1", {1 + unit(random), 0.5 + unit(random), spacing + 1.0 + k});
+    ball.velocity = {unit(random), unit(random), -3 - k};
+    ball.total_mass = k == 0 ? 0.3 : 3;
+  }
+  GroundDescription floor;
+  floor.normal = {0, 0, 1};
+  floor.point = {0, 0, -0.42 - 0.3 * (seed % 2)};
+  return build_model(setups, glm::dvec3(0.0), std::vector(seed % 4 < 2 ? 1 : 0, floor));
+}
+
+void check_same_results(Simulation& skips, Simulation& does_all) {
+  CHECK(skips.state().motion == does_all.state().motion);
+  CHECK(skips.world_positions() == does_all.world_positions());
+  const StepReport a = skips.report(), b = does_all.report();
+  CHECK(a.contact_steps == b.contact_steps);
+  CHECK(a.contact_pairs_max == b.contact_pairs_max);
+  CHECK(a.reverted_vertices == b.reverted_vertices);
+  CHECK(a.substeps == b.substeps);
+  CHECK(b.steps_at_rest == 0);
+  CHECK(b.forces_skipped == 0);
+}
+
+struct Skipping {
+  Skipping(Device& device, const ModelAndState& start, const TimePlan& plan, const CollisionDescription& collision)
+      : skips(device, start.model, start.state, plan, collision), does_all(device, start.model, start.state, plan, collision) {
+    does_all.skip(false);
+  }
+  void advance(std::uint64_t steps) {
+    for (Simulation* simulation : {&skips, &does_all}) simulation->advance(steps);
+  }
+  Simulation skips, does_all;
+};
+
+CollisionDescription answered_by(const char* response) {
+  CollisionDescription description;
+  description.response = {response};
+  description.elasticity = 0.9;
+  return description;
+}
+
+TEST_CASE("bodies fly into others at rest to the bit as if none were left alone") {
+  const auto device = make_cpu_device(2, 32);
+  for (const char* response : {"impulse", "reflect"})
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+      CAPTURE(response, seed);
+      ModelAndState start = balls_into_others(seed);
+      if (std::string_view(response) == "reflect") start.model.grounds.clear();
+      Skipping runs(*device, start, plan_of({seed % 2 == 0 ? "verlet" : "cv8", seed % 5 == 0 ? 0.005 : 0.002}),
+                    answered_by(response));
+      for (int look = 0; look < 8; ++look) {
+        runs.advance(40);
+        check_same_results(runs.skips, runs.does_all);
+      }
+      CHECK(runs.skips.report().contact_steps > 0);
+      CHECK(runs.skips.report().steps_at_rest > 0);
+    }
+}
+
+TEST_CASE("bodies at rest are left alone to the bit on every device", "[gl]") {
+  const ModelAndState start = balls_into_others(5);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Skipping runs(*test.device, start, plan_of({"verlet", 0.005}), answered_by("impulse"));
+    runs.advance(60);
+    check_same_results(runs.skips, runs.does_all);
+    CHECK(runs.skips.report().contact_steps > 0);
+    CHECK(runs.skips.report().steps_at_rest > 2 * 60);
+  }
+}
+
+TEST_CASE("with a tolerance, too, bodies at rest are left alone to the bit") {
+  const auto device = make_cpu_device(2, 64);
+  for (const char* response : {"impulse", "reflect"}) {
+    CAPTURE(response);
+    ModelAndState start = balls_into_others(2);
+    Skipping runs(*device, start, plan_of(Adaptive{.tolerance = 1e-5}, start.model), answered_by(response));
+    for (Simulation* simulation : {&runs.skips, &runs.does_all}) static_cast<void>(simulation->advance_to(0.3));
+    check_same_results(runs.skips, runs.does_all);
+    CHECK(runs.skips.report().steps == runs.does_all.report().steps);
+    CHECK(runs.skips.report().steps_at_rest > 0);
+  }
+}
+
+TEST_CASE("a body at rest moves when it is pulled, and wakes those that it meets") {
+  const auto device = make_cpu_device(1, 32);
+  for (const char* response : {"impulse", "reflect"}) {
+    CAPTURE(response);
+    std::vector<BodySetup> setups(2, soft(generate_mesh("icosphere:1"), "ball"));
+    setups[1].description.position = {2.2, 0, 0};
+    const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+    Skipping runs(*device, start, plan_of({"verlet", 0.005}), answered_by(response));
+    runs.advance(10);
+    CHECK(runs.skips.report().steps_at_rest == 2 * 7);  // of each body three pass until it is known to be at rest
+    CHECK(runs.skips.state().motion == start.state.motion);
+    for (int step = 0; step < 100; ++step) {
+      for (Simulation* simulation : {&runs.skips, &runs.does_all}) simulation->pull({.vertex = 3, .target = {3, 0, 0}}, 0.005);
+      runs.advance(1);
+    }
+    check_same_results(runs.skips, runs.does_all);
+    CHECK(runs.skips.report().contact_steps > 0);
+    CHECK(runs.skips.report().steps_at_rest < 2 * 100);
+  }
+}
+
+TEST_CASE("looking at bodies at rest, or saving them, leaves them at rest") {
+  const ModelAndState start = balls_into_others(1);
+  const auto device = make_cpu_device(1, 32);
+  const TimePlan plan = plan_of({"verlet", 0.002});
+  for (const char* response : {"impulse", "reflect"}) {
+    CAPTURE(response);
+    ModelAndState of_response = start;
+    if (std::string_view(response) == "reflect") of_response.model.grounds.clear();
+    Simulation whole(*device, of_response.model, of_response.state, plan, answered_by(response));
+    Simulation resumed(*device, of_response.model, of_response.state, plan, answered_by(response));
+    whole.advance(50);
+    static_cast<void>(whole.intersections());
+    resumed.restore(whole.save());
+    for (Simulation* simulation : {&whole, &resumed}) simulation->advance(250);
+    CHECK(whole.state().motion == resumed.state().motion);
+    CHECK(whole.report().contact_steps > 0);
+    CHECK(resumed.report().steps_at_rest > 0);
+    CHECK(whole.report().contact_steps == resumed.report().contact_steps);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
