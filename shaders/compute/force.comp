@@ -135,9 +135,11 @@ const uint stride = PLAINLY * LANES;
 
 #if LANES == 1
 void finish(uint i, Share s, dvec3 force) {
-  dvec3 position;
-  for (uint k = 0u; k < 3u; ++k) position[k] = after_force(i, k, s, force[k], dot(force, force), before_force(i, k, s));
-  for (uint k = 0u; k < 3u && settles(); ++k) settle(i, k, s, position);
+  double squared = dot(force, force);
+  double x = after_force(i, 0u, s, force.x, squared, before_force(i, 0u, s));
+  double y = after_force(i, 1u, s, force.y, squared, before_force(i, 1u, s));
+  double z = after_force(i, 2u, s, force.z, squared, before_force(i, 2u, s));
+  for (uint k = 0u; k < 3u && settles(); ++k) settle(i, k, s, dvec3(x, y, z));
 }
 
 #define FINISH(k) \

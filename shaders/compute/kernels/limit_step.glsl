@@ -115,14 +115,16 @@ void meet(uint a, uint b) {
   disturb(a, b);
   disturb(b, a);
   dvec3 between = way_between(a, b);
-  double longest = step_parts[0].full, speed = approach(a, b), distance = length(between);
+  double distance = length(between);
+  if (moves(a) && moves(b) && distance <= max(edge_of_pair(surface[a], surface[b]), surface[a].nearness + surface[b].nearness)) join(a, b);
+  if (status[a].calm >= quiet && status[b].calm >= quiet) return;  // neither moves, and what they have of room does not depend on others
+  double longest = step_parts[0].full, speed = approach(a, b);
   double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
   if (speed * longest > most) longest = most / speed;
   if (speed * longest > distance) {
     push_away(a, b, speed);
     push_away(b, a, speed);
   }
-  if (moves(a) && moves(b) && distance <= max(edge_of_pair(surface[a], surface[b]), surface[a].nearness + surface[b].nearness)) join(a, b);
   if (double(2) * speed * longest > distance) longest = min(longest, min(surface[a].longest_pressed, surface[b].longest_pressed));
   keep_apart(a, b, longest);
   bound_step(longest);

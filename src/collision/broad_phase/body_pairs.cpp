@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 20;
 // With fewer bodies comparing each with each takes less time (docs/benchmarks). A GPU has passes to start for a grid.
-std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind == DeviceKind::gpu ? 256 : 32; }
+std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind == DeviceKind::gpu ? 2048 : 32; }
 
 // Of bodies with triangles, one of which moves.
 std::uint32_t pairs_that_may_touch(const Model& model) {

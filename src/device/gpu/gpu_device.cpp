@@ -42,14 +42,13 @@ struct Lanes {
 // - With many vertices, a lane serves several of them with what it loads.
 // - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
 // The third is only for all stages at once, where every group has a multiprocessor to itself.
-// The fourth has a thread for each vertex of small bodies, where many lanes mostly idle. Until it has been measured it is chosen
-// for none.
+// The fourth has a thread for each vertex of small bodies, where many lanes mostly idle.
 constexpr std::uint32_t any_number = 0xffffffffu;
 constexpr Lanes lane_choices[] = {
     {1, 4, 64, 2, 2, 0, 0, 0},  //
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
-    {1, 1, 64, 2, 2, 0, any_number, 0},
+    {1, 1, 64, 2, 2, 0, any_number, 64},
     {32, 2, 20, 4, 20, 640, 8000, any_number},
     {64, 4, 8, 3, 18, 0, any_number, any_number},
 };
