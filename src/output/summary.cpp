@@ -24,8 +24,8 @@ Json adaptive_json(const Summary& summary) {
 }
 
 Json energy_json(const Summary& summary) {
-  const auto& [initial, final, max_drift] = summary.energy;
-  return {{"initial", initial}, {"final", final}, {"max_drift", max_drift}};
+  const auto& [initial, final, max_drift, slept] = summary.energy;
+  return {{"initial", initial}, {"final", final}, {"max_drift", max_drift}, {"slept", slept}};
 }
 
 Json contacts_json(const Summary& summary) {
@@ -70,6 +70,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"steps_per_second", summary.steps_per_second},
                      {"energy", energy_json(summary)},
                      {"contacts", contacts_json(summary)},
+                     {"bodies_asleep", summary.bodies_asleep},
                      {"final_intersecting_pairs", summary.final_intersecting_pairs},
                      {"non_finite", summary.non_finite},
                      {"interrupted", summary.interrupted},

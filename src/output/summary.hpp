@@ -37,6 +37,7 @@ struct Summary {
   struct {
     double initial = 0, final = 0;    // [J]
     std::optional<double> max_drift;  // relative; empty with damping or after contacts
+    double slept = 0;                 // that sleep took [J]
   } energy;
   struct {
     std::uint64_t steps = 0;              // steps with a contact, or parts of steps if they fall into such
@@ -45,6 +46,7 @@ struct Summary {
     std::uint64_t substeps = 0;           // parts that steps fell into, beyond one each
     double energy_given = 0, energy_taken = 0, friction_work = 0;  // [J]
   } contacts;
+  std::uint64_t bodies_asleep = 0;                        // at the end
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite
   bool non_finite = false;
   bool interrupted = false;

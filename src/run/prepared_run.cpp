@@ -65,6 +65,8 @@ void warn_of_idle_keys(PreparedRun& run) {
     for (const Origin& where : keys) warn(where, with_response);
   };
   warn_of_surface(run.scene.collision.surface_keys);
+  if (run.scene.simulation.sleep && !find_response(run.scene.collision.response).gives_impulses)
+    warn(run.scene.simulation.sleep_where, with_response);
   for (const BodyDescription& body : run.scene.bodies) {
     warn_of_surface(body.surface_keys);
     for (const IdleKey& key : body.idle_keys) warn(key.where, key.why);

@@ -166,6 +166,8 @@ Summary summary_of(const RunStatus& status) {
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
   s.contacts = {report.contact_steps,         report.contact_pairs_max,     report.reverted_vertices,     report.substeps,
                 report.response.energy_given, report.response.energy_taken, report.response.friction_work};
+  s.energy.slept = report.energy_slept;
+  s.bodies_asleep = report.bodies_asleep;
   s.non_finite = report.breakdown && !report.breakdown->is_finite;
   if (s.non_finite) s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   if (!report.breakdown) s.final_intersecting_pairs = intersecting_pairs(run);
@@ -173,6 +175,7 @@ Summary summary_of(const RunStatus& status) {
   s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
   s.skipped = {{"force_evaluations", report.forces_skipped},
                {"bodies_at_rest", report.steps_at_rest},
+               {"bodies_asleep", report.steps_asleep},
                {"body_pairs", report.body_pairs_skipped},
                {"tree_refits", report.refits_skipped}};
   s.timings_ms = {{"load", 1e3 * times.loading.seconds()},

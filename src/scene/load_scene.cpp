@@ -156,6 +156,8 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
   simulation.duration_where = table.where("duration");
   table.read("damping_law", simulation.damping_law, damping_laws);
   table.read("gravity", simulation.gravity, coordinate);
+  table.read("sleep", simulation.sleep);
+  simulation.sleep_where = table.where("sleep");
 }
 
 void read_table(TableReader& table, TreeDescription& tree) {

@@ -43,6 +43,8 @@ struct SimulationDescription {
   Origin time_step_where, tolerance_where, duration_where;
   std::optional<DampingLaw> damping_law;  // by the response and gravity if empty
   glm::dvec3 gravity{0.0};                // [m/s^2]
+  bool sleep = false;                     // whether bodies that rest on something stop to move
+  Origin sleep_where;                     // of the key `sleep`
 };
 
 /// A key that the scene has, and that changes nothing.

@@ -18,6 +18,11 @@ void convert(const toml::node& node, const std::string& path, unsigned& value, c
   value = static_cast<unsigned>(number);
 }
 
+void convert(const toml::node& node, const std::string& path, bool& value) {
+  if (!node.is_boolean()) fail(node, path, fmt::format("is {}", type_name(node)), "write true or false");
+  value = node.as_boolean()->get();
+}
+
 void convert(const toml::node& node, const std::string& path, std::string& value) {
   const auto* text = node.as_string();
   if (text == nullptr) fail(node, path, fmt::format("is {}", type_name(node)), "write a string in quotation marks");

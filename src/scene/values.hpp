@@ -42,6 +42,7 @@ struct Choice {
 void convert(const toml::node& node, const std::string& path, double& value, const Range& range);
 void convert(const toml::node& node, const std::string& path, unsigned& value, const Range& range);
 void convert(const toml::node& node, const std::string& path, std::string& value);
+void convert(const toml::node& node, const std::string& path, bool& value);
 void convert(const toml::node& node, const std::string& path, Named& named);
 
 template <typename T, typename... How>

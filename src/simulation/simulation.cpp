@@ -36,6 +36,7 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
     report.forces_skipped += tallies[b].forces_skipped;
     report.frame_changes += tallies[b].frame_changes;
     report.steps_at_rest += tallies[b].steps_at_rest;
+    report.steps_asleep += tallies[b].steps_asleep;
     report.pair_interactions += tallies[b].force_evaluations * vertices * (vertices - 1);
   }
 }
@@ -70,7 +71,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       bodies_(device, model, start),
       stepper_(bodies_, model, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
-      collider_(bodies_, model, collision, plan.tolerance ? StepLengths::varying : StepLengths::fixed),
+      collider_(bodies_, model, collision, plan.tolerance ? StepLengths::varying : StepLengths::fixed, {}, plan.sleep),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {
     pacer_.emplace(
@@ -190,7 +191,10 @@ StepReport Simulation::report() {
     report.refits_skipped = searches * model_.bodies.size() - total(control, physics::trees_refitted);
   if (!collider_.response_row().keeps_apart)
     expect_room_for_pairs(total(control, physics::body_pairs_lost));  // else the step is held
-  expect_groups_met(bodies_.statuses.download());
+  const std::vector<physics::Status> statuses = bodies_.statuses.download();
+  expect_groups_met(statuses);
+  for (const physics::Status& status : statuses) report.bodies_asleep += status.asleep;
+  for (const double energy : bodies_.arrays.get<double>("slept").download()) report.energy_slept += energy;
   add_force_counts(report, model_, bodies_.tallies.download());
   return report;
 }

@@ -63,6 +63,9 @@ struct StepReport {
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
   std::uint64_t steps_at_rest = 0;          // steps of one body in which it was left alone, because nothing moved it
+  std::uint64_t steps_asleep = 0;           // steps of one body that slept
+  std::uint64_t bodies_asleep = 0;          // now
+  double energy_slept = 0;                  // that sleep has taken from motion [J]
   std::uint64_t body_pairs_skipped = 0;     // pairs of bodies that were not listed as near
   std::uint64_t refits_skipped = 0;         // trees whose body's box overlapped no other
 

@@ -205,7 +205,8 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   TimePlan plan{.frame_rate = scene.output.frame_rate,
                 .damping_law = effective_law(damping_law_of(scene), model),
                 .tolerance = simulation.tolerance,
-                .duration = simulation.duration};
+                .duration = simulation.duration,
+                .sleep = simulation.sleep};
   plan.integrator = &choose_integrator(simulation, plan.damping_law);
   expect_method_estimates(plan, simulation.integrator.where);  // first, because its remedies also help with damping
   const bool divides = divides_steps(response, model);

@@ -24,6 +24,7 @@ struct TimePlan {
   DampingLaw damping_law = DampingLaw::none;  // the scene's law, or none if no body has damping
   std::optional<double> tolerance = {};       // of a step's error (see PaceLimits); empty: steps are fixed
   double duration = 0;                        // [s]; used with a tolerance
+  bool sleep = false;                         // whether bodies that rest on something stop to move
 
   /// Returns the step of frame n: the first one that ends at or after n / frame_rate. It is at most 1e18.
   [[nodiscard]] std::uint64_t step_of_frame(std::uint64_t frame) const;

@@ -96,6 +96,10 @@ physics::Status first_status(bool is_static) {
           .calm = 0,
           .partner_step = 0,
           .first_pair = 0,
+          .slow_for = 0,
+          .is_fast = 0,
+          .falls_asleep = 0,
+          .asleep = 0,
           .disturbed = 0};
 }
 
@@ -142,6 +146,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make("place_box", std::vector(body_count, empty_box()));
   arrays.make<std::uint32_t>("meeting", body_count);
+  arrays.make<double>("slept", body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
   const std::vector<glm::vec4> positions = rounded_world_positions(model, state);

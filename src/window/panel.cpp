@@ -163,6 +163,7 @@ void tell_of_work(const Facts& facts, Wishes& wishes) {
   const StepReport& report = facts.report;
   say("forces     {:>8} made {:>8} skipped", report.force_evaluations, report.forces_skipped);
   say("bodies at rest {:>18} skipped", report.steps_at_rest);
+  say("bodies asleep {:>19} skipped", report.steps_asleep);
   say("body pairs {:>22} skipped", report.body_pairs_skipped);
   say("tree refits{:>22} skipped", report.refits_skipped);
 }

@@ -38,6 +38,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "steps_per_second",
                              "energy",
                              "contacts",
+                             "bodies_asleep",
                              "final_intersecting_pairs",
                              "non_finite",
                              "interrupted",
@@ -47,7 +48,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "timings_ms",
                              "version"});
   CHECK(json["device"].keys() == Names{"kind", "name"});
-  CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift"});
+  CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift", "slept"});
   CHECK(json["contacts"].keys() ==
         Names{"steps", "pairs_max", "reverted_vertices", "substeps", "energy_given", "energy_taken", "friction_work"});
   CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
@@ -64,6 +65,8 @@ TEST_CASE("a summary's values read back as they were") {
   summary.energy.initial = 1.0 / 3;
   summary.energy.final = 2.5;
   summary.energy.max_drift = 1e-7;
+  summary.energy.slept = 0.25;
+  summary.bodies_asleep = 3;
   summary.contacts = {.steps = 2,
                       .pairs_max = 17,
                       .reverted_vertices = 5,
@@ -84,6 +87,8 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(json["energy"]["initial"] == summary.energy.initial);
   CHECK(json["energy"]["final"] == 2.5);
   CHECK(json["energy"]["max_drift"] == 1e-7);
+  CHECK(json["energy"]["slept"] == 0.25);
+  CHECK(json["bodies_asleep"] == 3);
   const ReadJson contacts = json["contacts"];
   CHECK((contacts["steps"] == 2 && contacts["pairs_max"] == 17 && contacts["reverted_vertices"] == 5));
   CHECK((contacts["substeps"] == 7 && contacts["energy_given"] == 0.25 && contacts["energy_taken"] == 0.5));

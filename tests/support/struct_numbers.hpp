@@ -43,13 +43,16 @@ inline std::vector<double> numbers_of(const physics::Room& room) {
 }
 
 inline std::vector<double> numbers_of(const physics::Status& status) {
-  return {double(status.activity), double(status.non_finite_vertex), double(status.deformed), double(status.force_stale),
-          double(status.calm),     double(status.disturbed)};
+  return {double(status.activity),     double(status.non_finite_vertex),
+          double(status.deformed),     double(status.force_stale),
+          double(status.calm),         double(status.disturbed),
+          double(status.slow_for),     double(status.is_fast),
+          double(status.falls_asleep), double(status.asleep)};
 }
 
 inline std::vector<double> numbers_of(const physics::Tally& tally) {
-  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes),
-          double(tally.steps_at_rest)};
+  return {double(tally.force_evaluations), double(tally.forces_skipped), double(tally.frame_changes), double(tally.steps_at_rest),
+          double(tally.steps_asleep)};
 }
 
 inline std::vector<double> numbers_of(const physics::Moments& moments) {

@@ -1,5 +1,5 @@
 // One thread serves one vertex. If the body's frame has turned, it restates the motion of both halves, the kept force and the placement
-// in the new frame. World positions stay as stored.
+// in the new frame. World positions stay as stored. A body that falls asleep ends in both halves where it is, without motion.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 READ(body)
@@ -9,6 +9,8 @@ READ(rest_position)
 WRITE(placement)
 WRITE(kept_force)
 WRITE(motion)
+WRITE(status)
+WRITE(world_position)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 #include "parts/place.glsl"
@@ -19,9 +21,16 @@ dvec3 turned(uint b, dvec3 p) {
                row_times(frame_change[b].turn[6], frame_change[b].turn[7], frame_change[b].turn[8], p));
 }
 
-void change_frame(uint i) {
-  uint b = uint(rest_position[i].w);
-  if (frame_change[b].turned == 0u) return;
+void fall_asleep(uint i) {
+  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  dvec3 displacement = LOAD3(motion, displacement_of(after));
+  STORE3(motion, displacement_of(before), displacement)
+  STORE3(motion, velocity_of(before), dvec3(0))
+  STORE3(motion, velocity_of(after), dvec3(0))
+  world_position[before] = world_position[after];
+}
+
+void restate(uint i, uint b) {
   dvec3 rest = dvec3(vec3(rest_position[i]));
   for (uint half_index = 0u; half_index < 2u; ++half_index) {
     uint at = in_half(half_index, vertex_count, i), u = displacement_of(at), w = velocity_of(at);
@@ -35,4 +44,12 @@ void change_frame(uint i) {
   }
   dvec3 kept = turned(b, LOAD3(kept_force, force_of(i)));
   STORE3(kept_force, force_of(i), kept)
+}
+
+void change_frame(uint i) {
+  uint b = uint(rest_position[i].w);
+  if (frame_change[b].turned != 0u) restate(i, b);
+  if (status[b].falls_asleep == 0u) return;
+  fall_asleep(i);
+  if (i == body[b].first_vertex) status[b].asleep = 1u;
 }

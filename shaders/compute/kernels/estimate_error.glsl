@@ -20,7 +20,7 @@ uint bits_of(dvec3 difference) { return floatBitsToUint(float(sqrt(dot(differenc
 
 void estimate_error(uint i) {
   uint b = uint(rest_position[i].w);
-  if (status[b].activity != moving || is_idle(status[b])) return;
+  if (status[b].activity != moving || is_still(status[b])) return;
   dvec3 position = dvec3(0), velocity = dvec3(0), second_position = dvec3(0), second_velocity = dvec3(0);
   for (uint stage = 0u; stage < stage_count; ++stage) {
     dvec3 a = LOAD3(acceleration, acceleration_of(stage, vertex_count, i));

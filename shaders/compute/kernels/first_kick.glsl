@@ -25,7 +25,7 @@ PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if
 
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
-  if (status[b].activity != moving || is_idle(status[b])) return;
+  if (status[b].activity != moving || is_still(status[b])) return;
   if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has summed the springs again
   dvec3 spring_force = LOAD3(kept_force, force_of(i));
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);

@@ -14,6 +14,7 @@ WRITE(place_box)
 WRITE(status)
 WRITE(tally)
 WRITE(meeting)
+WRITE(slept)
 READ(rest_position)
 READ(motion)
 PARAMETER(uint, vertex_count)
@@ -131,7 +132,7 @@ void follow_rotation(uint b, IN(Samples) samples, dvec3 origin) {
 
 // Whether the step left the body where it was, and the next one will, too. In a body that is not deformed all vertices move alike.
 bool is_left_where_it_was(uint b) {
-  if (status[b].activity == immovable) return true;
+  if (status[b].activity == immovable || is_asleep(status[b])) return true;
   uint first = body[b].first_vertex;
   uint before = in_half(from_half, vertex_count, first), after = in_half(other_half(from_half), vertex_count, first);
   return status[b].deformed == 0u && LOAD3(pose[b].gravity, 0u) == dvec3(0) &&
@@ -139,14 +140,32 @@ bool is_left_where_it_was(uint b) {
          LOAD3(motion, velocity_of(before)) == dvec3(0) && LOAD3(motion, velocity_of(after)) == dvec3(0);
 }
 
+void wake(uint b) {
+  status[b].asleep = status[b].calm = 0u;
+  status[b].slow_for = 0.0f;
+}
+
 void count_calm_steps(uint b) {
-  if (status[b].calm >= at_rest && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
-  if (is_idle(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
+  if (status[b].calm >= at_rest && status[b].asleep == 0u && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
+  if (is_still(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
   if (status[b].activity == moving || status[b].activity == immovable) {
     uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
   }
+  if (status[b].asleep != 0u && status[b].disturbed != 0u) wake(b);
+  if (is_asleep(status[b])) tally[b].steps_asleep += 1u;
+  if (status[b].falls_asleep != 0u) status[b].calm = forgotten;
   status[b].disturbed = 0u;
+}
+
+// The kinetic energy that the body has, and loses as it falls asleep.
+void note_energy_of_motion(uint b) {
+  double sum = double(0);
+  for (uint i = body[b].first_vertex; i < body[b].first_vertex + body[b].vertex_count; ++i) {
+    dvec3 velocity = LOAD3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)));
+    sum += dot(velocity, velocity);
+  }
+  slept[b] += sum / (double(2) * body[b].inverse_mass);
 }
 
 // Empties what the next step adds to. The search has been through the boxes, and all groups have met.
@@ -156,6 +175,7 @@ void prepare_next_step(uint b) {
     body_box[b].upper[k] = place_box[b].upper[k] = 0u;
   }
   status[b].first_pair = 0u;
+  if (status[b].falls_asleep != 0u) note_energy_of_motion(b);
   frame_change[b].turned = 0u;
   meeting[b] = 0u;
 }

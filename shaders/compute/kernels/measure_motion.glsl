@@ -12,7 +12,7 @@ WRITE(step_parts)
 READ(pose)
 READ(rest_position)
 READ(motion)
-READ(surplus)
+WRITE(surplus)
 WRITE(start)
 WRITE(body_motion)
 WRITE_AS(place_box, BoxBits, body_box)
@@ -28,8 +28,15 @@ void leave_island(uint b) {
   cluster[b].island = b;
   cluster[b].has_company = 0u;
   cluster[b].is_disturbed = 0u;
+  cluster[b].is_restless = 0u;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
   if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
+}
+
+// What sleeps is expected to stay.
+void forget_surplus(uint i) {
+  STORE3(surplus, surplus_of(0u, vertex_count, i), dvec3(0))
+  STORE3(surplus, surplus_of(1u, vertex_count, i), dvec3(0))
 }
 
 // All else that a step finds of a body at rest still stands.
@@ -45,6 +52,7 @@ void measure_motion(uint i) {
     if (i == body[b].first_vertex) expect_rest(b);
     return;
   }
+  if (status[b].asleep != 0u) forget_surplus(i);
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));

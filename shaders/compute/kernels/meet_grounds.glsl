@@ -5,6 +5,7 @@
 #include "../physics/contact/contact.glsl"
 READ(control)
 READ(rest_position)
+READ(status)
 READ(surface)
 READ(ground)
 READ(start)
@@ -38,6 +39,7 @@ void meet_ground(uint i, uint g) {
 
 void meet_grounds(uint i) {
   if (control[0].non_finite_step != 0u || control[0].time_step == double(0)) return;
-  if (surface[uint(rest_position[i].w)].inverse_mass == double(0)) return;
+  uint b = uint(rest_position[i].w);
+  if (surface[b].inverse_mass == double(0) || is_asleep(status[b])) return;
   for (uint g = 0u; g < ground_count; ++g) meet_ground(i, g);
 }

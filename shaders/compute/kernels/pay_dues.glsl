@@ -334,6 +334,7 @@ void pay(uvec4 part) {
   if (of_deformation == double(1) && of_rigid == double(1) && of_all == double(1) && !was_cut_short(b)) return;
   ATOMIC_STORE(status[b].deformed, 1u);
   ATOMIC_STORE(status[b].calm, 0u);
+  ATOMIC_STORE(status[b].asleep, 0u);
   bool shares = is_in_cluster(b);
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {

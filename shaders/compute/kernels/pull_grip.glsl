@@ -13,4 +13,5 @@ void pull_grip(uint g) {
   for (uint k = 0u; k < 3u; ++k) motion[velocity + k] += double(grip[g].weight) * aim[0].change[k];
   ATOMIC_STORE(status[aim[0].body].deformed, 1u);
   ATOMIC_STORE(status[aim[0].body].calm, 0u);
+  ATOMIC_STORE(status[aim[0].body].asleep, 0u);
 }

@@ -32,5 +32,6 @@ void reflect(uint i) {
   ATOMIC_STORE(status[b].force_stale, 1u);
   ATOMIC_STORE(status[b].deformed, 1u);
   ATOMIC_STORE(status[b].calm, 0u);
+  ATOMIC_STORE(status[b].asleep, 0u);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }

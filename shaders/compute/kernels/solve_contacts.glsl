@@ -236,6 +236,7 @@ void kick(uint i, uint kick_round) {
   STORE3(motion, at, velocity)
   ATOMIC_STORE(status[b].deformed, 1u);
   ATOMIC_STORE(status[b].calm, 0u);
+  ATOMIC_STORE(status[b].asleep, 0u);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
     if (quanta[int(k)] != double(0)) ADD_EXACTLY(contact_sum[k], quanta[int(k)])

@@ -17,7 +17,7 @@ PARAMETER(uint, stage_index)
 
 void sum_moments(uint item) {
   uvec4 part = moment_part[item];
-  if (status[part.x].deformed == 0u) return;
+  if (status[part.x].deformed == 0u || is_still(status[part.x])) return;
   uint first = body[part.x].first_vertex;
   dvec3 first_place = place_at_stage(first), first_velocity = velocity_at_stage(first);
   Moments sum = no_moments();

@@ -54,6 +54,10 @@ struct Status {
   uint calm;               // steps in a row that left the body where it was, counted up to at_rest
   uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
   uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
+  float slow_for;          // how long all of it has moved slowly, and something has held it [s]
+  uint is_fast;            // 1: one of its vertices went too fast in the last step for the body to sleep
+  uint falls_asleep;       // 1: it sleeps from the end of this step on
+  uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it
   uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island
 };
 
@@ -64,6 +68,9 @@ const uint quiet = 2u;
 const uint at_rest = 3u;
 const uint forgotten = 4u;  // at rest, but what a step finds of it is lost, so that the next one has to look
 FN bool is_idle(IN(Status) s) { return s.calm == at_rest && s.disturbed == 0u; }
+FN bool is_asleep(IN(Status) s) { return s.asleep != 0u && s.disturbed == 0u; }
+// Whether the step does not move it, unless something pushes it.
+FN bool is_still(IN(Status) s) { return is_idle(s) || is_asleep(s); }
 
 // What was done for the body so far.
 struct Tally {
@@ -71,6 +78,7 @@ struct Tally {
   uint forces_skipped;     // sums that were zero beforehand: no vertex moved relative to another
   uint frame_changes;
   uint steps_at_rest;  // in which it was left alone
+  uint steps_asleep;
 };
 
 // Values of Status.activity.

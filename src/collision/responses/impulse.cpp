@@ -27,6 +27,8 @@ constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
+// A body may sleep that moves by less than so many diameters of the smallest one a second.
+constexpr double sleep_diameters = 0.05;
 
 // Static bodies take part in impacts only if they have a restitution of their own.
 std::optional<double> restitution_of(const ModelBody& body, const CollisionDescription& description) {
@@ -49,6 +51,14 @@ std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
   for (const ModelBody& body : setting.model.bodies) surfaces.push_back(surface_of(setting.model, body, setting.description));
   find_nearness(surfaces);
   return surfaces;
+}
+
+// Of bodies that move [m].
+double smallest_diameter(const Model& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ModelBody& body : model.bodies)
+    if (!body.is_static) smallest = std::min(smallest, 2 * body.radius);
+  return smallest;
 }
 
 // Of bodies that move [m]. 0 if none does.
@@ -122,6 +132,7 @@ class Impulse final : public Response {
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
+    bodies_.arrays.set_parameter("sleep_speed", setting.sleeps ? sleep_diameters * smallest_diameter(setting.model) : 0.0);
     make_grounds(setting);
     make_step_parts();
     make_motions();

@@ -67,6 +67,7 @@ struct ResponseSetting {
   const BodyPairs& body_pairs;
   const TreeSearch& trees;
   StepLengths step_lengths;
+  bool sleeps;  // whether bodies that rest on something stop to move
 };
 
 /// A response, and what others have to know of it. A row that says no more than these defaults is "none".

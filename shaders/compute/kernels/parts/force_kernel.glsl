@@ -6,7 +6,7 @@
 PARAMETER(uint, first_share)  // of those that this variant serves
 PARAMETER(uint, skips)        // 1: what is known beforehand is left out
 
-bool halted(IN(Share) s) { return status[s.body_index].activity != moving || is_idle(status[s.body_index]); }
+bool halted(IN(Share) s) { return status[s.body_index].activity != moving || is_still(status[s.body_index]); }
 
 // Whether springs have to be summed. If no vertex moves relative to another, every spring is at rest. Halted bodies and those at
 // rest need no sum either, and the frame around may ask before it knows that a body is halted.

@@ -24,6 +24,7 @@ struct Cluster {
   double island_velocity[3];  // of its bodies by their masses, at the step's start, in the world [m/s]
   uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
   uint is_disturbed;          // 1: one moves, or may be reached by one that does
+  uint is_restless;           // 1: one has not been slow for long enough to sleep
   uint is_beside_static;      // 1: one has a cage that meets a static triangle or comes near a ground, so it has no flight
 
   uint first;        // the first body of the cluster of the body with this number

@@ -104,6 +104,9 @@ FN uint flight_stop_of(uint vertex_count, uint flight) { return cut_rows * verte
 // pump energy: up to 1.4 times the start's was measured.
 const uint pressed_for = 64u;
 
+const float sleeps_after = 0.5f;  // of being slow [s]
+const uint held_for = 2u;  // a body may sleep if a contact has pushed it in so many parts of steps, the latest ones
+
 const uint contact_rows = 6u;  // of four numbers in `contact`
 // A kick goes in rounds, until all contacts have settled. The first one adds what contacts at rest had in the last step. Impulses bounce in
 // one round: when all contacts have settled, or else in the first one from forced_bounce on. Then rounds go on until all have settled

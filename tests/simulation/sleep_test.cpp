@@ -1,0 +1,130 @@
+// Bodies that rest on something sleep until something may reach them.
+#include <catch2/catch.hpp>
+
+#include "support/evolve.hpp"
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+const glm::dvec3 downward(0, -9.81, 0);
+
+BodySetup lying_ball(const glm::dvec3& place) {
+  BodySetup setup = soft(generate_mesh("icosphere:1"), "ball");
+  setup.description.scale = 0.4;
+  setup.description.position = place;
+  setup.description.total_stiffness = 4000;
+  setup.description.damping = 2;
+  return setup;
+}
+
+ModelAndState on_floor(const std::vector<BodySetup>& balls) {
+  const GroundDescription floor;
+  return build_model(balls, downward, {&floor, 1});
+}
+
+TimePlan sleeping(std::string_view integrator = "verlet") {
+  TimePlan plan = plan_of({integrator, 0.002, DampingLaw::internal});
+  plan.sleep = true;
+  return plan;
+}
+
+void advance_to(Simulation& simulation, double time) {
+  while (simulation.report().time < time) simulation.advance(20);
+}
+
+TEST_CASE("balls that lie on a floor fall asleep, keep every bit from then on, and tell what that took", "[gl]") {
+  const ModelAndState start = on_floor({lying_ball({0, 0.5, 0}), lying_ball({2, 0.7, 0})});
+  for (const TestDevice& test : all_devices())
+    for (const char* integrator : {"verlet", "cv8"}) {
+      CAPTURE(test.name, integrator);
+      if (test.name == "gpu" && std::string_view(integrator) == "cv8") continue;  // slow in software
+      Simulation simulation(*test.device, start.model, start.state, sleeping(integrator), by_impulses);
+      advance_to(simulation, 2);
+      const StepReport report = simulation.report();
+      REQUIRE(report.bodies_asleep == 2);
+      CHECK(report.steps_asleep > 100);
+      CHECK(report.energy_slept > 0);
+      CHECK(report.energy_slept < 0.05);  // of 12 J. A part of it is what a kick takes in each step from what gravity gives in it
+      const std::vector<double> motion = simulation.state().motion;
+      simulation.advance(50);
+      CHECK(simulation.state().motion == motion);
+      CHECK(simulation.report().steps_asleep == report.steps_asleep + 100);
+      CHECK(simulation.intersections().pairs == 0);
+    }
+}
+
+TEST_CASE("a ball that falls on one that sleeps wakes it and its island, and they sleep again") {
+  std::vector<BodySetup> balls{lying_ball({0, 0.45, 0}), lying_ball({0.83, 0.45, 0}), lying_ball({3, 0.45, 0})};
+  balls.push_back(lying_ball({0.1, 16, 0}));  // falls for 1.75 s
+  std::vector<GroundDescription> trough(5);
+  for (std::size_t k = 1; k < 5; ++k) {
+    trough[k].normal = glm::dvec3(k == 1, 0, k == 3) - glm::dvec3(k == 2, 0, k == 4);
+    trough[k].point = glm::dvec3(k == 2 ? 3.45 : -0.45, 0, k == 4 ? 0.45 : -0.45);
+  }
+  const ModelAndState start = build_model(balls, downward, trough);
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, sleeping(), by_impulses);
+  advance_to(simulation, 1.7);
+  REQUIRE(simulation.report().bodies_asleep == 3);
+  const std::vector<double> asleep = simulation.state().motion;
+  advance_to(simulation, 1.9);
+  CHECK(simulation.report().bodies_asleep == 1);  // the one that lies apart
+  const std::vector<double> hit = simulation.state().motion;
+  const auto moved = [&](std::size_t b) {
+    const ModelBody& body = start.model.bodies[b];
+    return !std::equal(hit.begin() + 6 * body.first_vertex, hit.begin() + 6 * (body.first_vertex + body.vertex_count),
+                       asleep.begin() + 6 * body.first_vertex);
+  };
+  CHECK(moved(0));
+  CHECK(moved(1));
+  CHECK(!moved(2));
+  advance_to(simulation, 12);
+  CHECK(simulation.report().bodies_asleep == 4);
+  CHECK(simulation.intersections().pairs == 0);
+}
+
+TEST_CASE("what floats slowly does not sleep, and what is pulled wakes") {
+  const auto device = make_cpu_device(1, 32);
+  BodySetup floating = lying_ball({0, 3, 0});
+  floating.description.velocity = {1e-4, 0, 0};
+  const ModelAndState drift = build_model({&floating, 1}, glm::dvec3(0.0));
+  Simulation drifts(*device, drift.model, drift.state, sleeping(), by_impulses);
+  drifts.advance(1000);
+  CHECK(drifts.report().bodies_asleep == 0);
+
+  const ModelAndState start = on_floor({lying_ball({0, 0.45, 0})});
+  Simulation lies(*device, start.model, start.state, sleeping(), by_impulses);
+  advance_to(lies, 3);
+  REQUIRE(lies.report().bodies_asleep == 1);
+  const double before = lies.world_positions()[3].y;
+  for (int step = 0; step < 100; ++step) {
+    lies.pull({.vertex = 3, .target = {0, 2, 0}}, 0.002);
+    lies.advance(1);
+  }
+  CHECK(lies.report().bodies_asleep == 0);
+  CHECK(lies.world_positions()[3].y > before + 0.05);
+}
+
+TEST_CASE("sleep gives the same bits on any number of threads, after saving, and with nothing skipped") {
+  std::vector<BodySetup> balls{lying_ball({0, 0.45, 0}), lying_ball({0.83, 0.45, 0}), lying_ball({0.1, 8, 0})};
+  const ModelAndState start = on_floor(balls);
+  const auto one = make_cpu_device(1, 32), three = make_cpu_device(3, 32);
+  Simulation whole(*one, start.model, start.state, sleeping(), by_impulses),
+      shared_out(*three, start.model, start.state, sleeping(), by_impulses),
+      does_all(*one, start.model, start.state, sleeping(), by_impulses),
+      resumed(*one, start.model, start.state, sleeping(), by_impulses);
+  does_all.skip(false);
+  for (Simulation* simulation : {&whole, &shared_out, &does_all}) simulation->advance(580);
+  REQUIRE(whole.report().bodies_asleep == 2);
+  resumed.restore(whole.save());
+  for (Simulation* simulation : {&whole, &shared_out, &does_all, &resumed}) simulation->advance(300);
+  CHECK(whole.report().bodies_asleep == 0);
+  for (Simulation* other : {&shared_out, &does_all, &resumed}) {
+    CHECK(other->state().motion == whole.state().motion);
+    CHECK(other->report().steps_asleep == whole.report().steps_asleep);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
