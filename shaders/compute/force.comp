@@ -2,10 +2,10 @@
 // lanes. One lane takes every LANES-th vertex of the body and adds its springs to all vertices of the team. What it loads once thus
 // serves VERTICES pairs. The lanes' sums meet in shared memory. Other threads of the group are keepers, one for each coordinate.
 // Meanwhile they load what else is needed, and then they finish the vertices.
-// With LANES = 1, for devices without parallel lanes, one thread serves its own vertices alone.
+// With LANES = 1, for small bodies and for devices without parallel lanes, one thread serves its own vertices alone.
 //
 // With TILE the kernel runs all stages of a step in one dispatch. Between two stages the groups of a body wait for each other, which
-// costs a third of a dispatch. All of them must run at once. A group's own caches do not see what others write meanwhile. The group
+// costs a third of a dispatch. If a body has several, all of them must run at once. A group's own caches do not see what others write meanwhile. The group
 // therefore fetches the body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
@@ -84,7 +84,7 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #define PAIR(k) add_spring(sum##k, x##k - other_x, u##k - other_u, weight);
 #define CLOSE(k) add(total##k, rest##k, sum##k);
 
-#ifdef TILE
+#if defined(TILE) && LANES > 1
 #define SEE(j) vec3 other_x = seen[j].xyz, other_u = vec3(seen[j].w, seen_beside[j]);
 #else
 #define SEE(j) vec3 other_x = placed[j].xyz, other_u = placed[(j) + vertex_count].xyz;
@@ -249,6 +249,7 @@ void wait_for_others(Share s, uint often) {
   uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
   memoryBarrierBuffer();
   barrier();
+  if (groups == 1u) return;
   if (gl_LocalInvocationID.x == 0u) {
     atomicAdd(meeting[s.body_index], 1u);
     while (atomicAdd(meeting[s.body_index], 0u) < groups * often && polls < most_polls) ++polls;
@@ -264,6 +265,7 @@ void wait_for_others(Share s, uint often) {
 shared bool group_sums;  // one thread asks for it, so that all threads of the group go the same way
 
 void serve_stages(Share s) {
+  if (!runs(s)) return;
   if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
   barrier();
   for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
@@ -273,7 +275,9 @@ void serve_stages(Share s) {
   }
 }
 #else
-void serve_stages(Share s) { serve(s, deformed(s)); }
+void serve_stages(Share s) {
+  if (runs(s)) serve(s, deformed(s));
+}
 #endif
 
 void main() {

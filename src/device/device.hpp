@@ -60,6 +60,7 @@ struct ForceVariant {
   std::string name;
   std::uint32_t share_size = 0;  // vertices that one item of a force kernel serves, at most
   bool all_stages = false;       // whether its kernels can run every stage of a step in one dispatch
+  std::uint32_t largest_body = 0xffffffffu;  // in vertices: beyond, others are always faster
 };
 
 enum class DeviceKind { cpu, gpu };
@@ -99,7 +100,7 @@ class Device {
   /// most shares_at_once() of them, or one.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. With
-  /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch of at most shares_at_once() items.
+  /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch. Unless each body is one share, it has at most shares_at_once() items.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
   /// Returns how many items of a force kernel or a kernel in rounds run side by side, so that they may wait for each other. It is

@@ -162,23 +162,27 @@ std::vector<Pass> Stepper::force_passes(const StageState& at) const {
 
 std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half,
                                         const StateOfStage& state_of_stage) const {
-  const DeviceBodies& b = bodies_;
-  const bool at_once = b.all_stages_at_once && adds_force() == 0;  // added forces come between stages
-  std::vector<Pass> passes;
-  for (std::uint32_t stage = 0; stage < (at_once ? 1 : stage_count_); ++stage) {
-    std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
+  const bool comes_between = adds_force() != 0;  // added forces come between stages
+  const auto passes_of = [&](std::uint32_t stage, bool at_once) {
     std::vector<Pass> of_groups;
-    for (const ForceGroup& group : b.force_groups)
-      of_groups.push_back(make_pass(b.arrays, name, b.arrays.device().force_kernel(name, group.variant, at_once),
-                                    {{"from_half", from_half},
-                                     {"damping_law", law_},
-                                     {"adds_force", adds_force()},
-                                     {"stage_index", stage},
-                                     {"stage_count", stage_count_},
-                                     {"first_share", group.first_share}},
-                                    group.share_count));
+    for (const ForceGroup& group : bodies_.force_groups)
+      if ((group.all_stages && !comes_between) == at_once)
+        of_groups.push_back(make_pass(bodies_.arrays, name, bodies_.arrays.device().force_kernel(name, group.variant, at_once),
+                                      {{"from_half", from_half},
+                                       {"damping_law", law_},
+                                       {"adds_force", adds_force()},
+                                       {"stage_index", stage},
+                                       {"stage_count", stage_count_},
+                                       {"first_share", group.first_share}},
+                                      group.share_count));
     run_together(of_groups);
-    std::ranges::move(of_groups, std::back_inserter(passes));
+    return of_groups;
+  };
+  std::vector<Pass> passes = passes_of(0, true);
+  for (std::uint32_t stage = 0; stage < stage_count_; ++stage) {
+    std::vector<Pass> of_stage = passes_of(stage, false);
+    if (!of_stage.empty()) std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
+    std::ranges::move(of_stage, std::back_inserter(passes));
   }
   return passes;
 }

@@ -22,18 +22,24 @@ std::vector<physics::Body> bodies_of(const Model& model, double strain_bias) {
   return bodies;
 }
 
-// Groups have the order of variants.
+// Groups have the order of variants. Bodies of several shares wait for each other between stages, so that all shares have to run
+// at once, and nothing beside them.
 std::vector<ForceGroup> groups_of(const Device& device, const Model& model, const std::vector<std::size_t>& variants) {
   std::vector<ForceGroup> groups;
   std::uint32_t first_share = 0;
   for (std::size_t variant = 0; variant < device.force_variants().size(); ++variant) {
-    const std::uint32_t share_size = device.force_variants()[variant].share_size;
-    std::uint32_t count = 0;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (!model.bodies[b].is_static && variants[b] == variant) count += (model.bodies[b].vertex_count - 1) / share_size + 1;
-    if (count > 0) groups.push_back({variant, first_share, count});
+    const ForceVariant& lanes = device.force_variants()[variant];
+    std::uint32_t count = 0, bodies = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      if (model.bodies[b].is_static || variants[b] != variant) continue;
+      count += (model.bodies[b].vertex_count - 1) / lanes.share_size + 1;
+      ++bodies;
+    }
+    if (count > 0) groups.push_back({variant, first_share, count, lanes.all_stages && count == bodies});
     first_share += count;
   }
+  if (groups.size() == 1 && groups[0].share_count <= device.shares_at_once())
+    groups[0].all_stages = device.force_variants()[groups[0].variant].all_stages;
   return groups;
 }
 
@@ -58,17 +64,17 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
   return shares;
 }
 
-bool runs_all_stages(const Device& device, std::span<const ForceGroup> groups) {
-  return groups.size() == 1 && device.force_variants()[groups[0].variant].all_stages &&
-         groups[0].share_count <= device.shares_at_once();
-}
-
-// Running all stages at once saves more than the best lanes do. Then all bodies have one variant.
+// Running all stages at once saves more than the best lanes do, where dispatches take time. Then all bodies have one variant.
 std::vector<std::size_t> best_force_variants(const Device& device, const Model& model) {
+  std::uint32_t largest = 0;
+  for (const ModelBody& body : model.bodies)
+    if (!body.is_static) largest = std::max(largest, body.vertex_count);
   const std::size_t best_for_one = device.best_force_variant(model.vertex_count(), model.vertex_count());
   for (std::size_t variant = best_for_one; variant < device.force_variants().size(); ++variant) {
+    if (device.shares_at_once() == 0 || largest > device.force_variants()[variant].largest_body) continue;
     std::vector<std::size_t> same(model.bodies.size(), variant);
-    if (runs_all_stages(device, groups_of(device, model, same))) return same;
+    const std::vector<ForceGroup> groups = groups_of(device, model, same);
+    if (groups.size() == 1 && groups[0].all_stages) return same;
   }
   std::vector<std::size_t> variants;
   for (const ModelBody& body : model.bodies)
@@ -137,7 +143,6 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       motions(arrays.make<double>("motion", std::size_t{2} * physics::motion_size * vertex_count)),
       world_positions(arrays.make<glm::vec4>("world_position", std::size_t{2} * vertex_count)),
       control(arrays.make("control", std::vector{first_control()})) {
-  all_stages_at_once = runs_all_stages(device, force_groups);
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);
@@ -154,6 +159,10 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
     motions.upload(state.motion, physics::displacement_of(first_of_half(half)));
     world_positions.upload(positions, first_of_half(half));
   }
+}
+
+void DeviceBodies::run_all_stages(bool at_once) {
+  for (ForceGroup& group : force_groups) group.all_stages = at_once && arrays.device().force_variants()[group.variant].all_stages;
 }
 
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.

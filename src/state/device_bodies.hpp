@@ -16,6 +16,7 @@ namespace pliant {
 struct ForceGroup {
   std::size_t variant;
   std::uint32_t first_share, share_count;
+  bool all_stages;  // whether one dispatch can run all stages of a step
 };
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
@@ -30,7 +31,6 @@ struct DeviceBodies {
 
   std::uint32_t vertex_count = 0, body_count = 0;
   std::vector<ForceGroup> force_groups;
-  bool all_stages_at_once = false;  // whether bodies are small enough for all stages of a step in one dispatch
   Arrays arrays;                    // these, and those that others make for the same simulation
   DeviceArray<physics::Share>& shares;
   DeviceArray<physics::Pose>& poses;
@@ -53,6 +53,8 @@ struct DeviceBodies {
   void set_time_step(double time_step);
   /// Sets where each body's own tableau begins.
   void set_tableau_rows(std::span<const std::uint32_t> rows);
+  /// Has every stage be a dispatch of its own, or all stages one, if the variants can.
+  void run_all_stages(bool at_once);
   /// Makes room for placements, as many slots as the method needs.
   void make_placements(std::uint32_t slots);
 };

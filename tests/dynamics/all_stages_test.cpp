@@ -35,7 +35,7 @@ Outcome outcome_of(const DeviceBodies& bodies, std::uint32_t half) {
 
 Outcome after_five_steps(Device& device, const ModelAndState& start, const Method& method, std::size_t variant, bool all_stages) {
   DeviceBodies bodies(device, start.model, start.state, variant);
-  bodies.all_stages_at_once = all_stages;
+  bodies.run_all_stages(all_stages);
   const Stepper stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step);
   device.run(stepper.first_passes());
   const std::size_t passes = stepper.passes(0).size();
@@ -59,7 +59,7 @@ AdaptiveOutcome after_adaptive_steps(Device& device, const ModelAndState& start,
   const double omega = stiffest_omega(start.model);
   const TimePlan plan = plan_of(Adaptive{"vern8", 1e-5, 4 / omega, DampingLaw::constant}, start.model);
   DeviceBodies bodies(device, start.model, start.state, variant);
-  bodies.all_stages_at_once = all_stages;
+  bodies.run_all_stages(all_stages);
   const Stepper stepper(bodies, start.model, *plan.integrator, plan.damping_law, plan.time_step, Stages::of_estimates);
   Pacer pacer(bodies, start.model, stepper, *plan.integrator, plan.damping_law,
               {.tolerance = *plan.tolerance, .first_step = plan.time_step, .largest_step = plan.step_bound});
@@ -108,7 +108,7 @@ void for_each_variant(Check check) {
 std::vector<double> motion_by(Device& device, const ModelAndState& start, const Method& method,
                               const std::vector<std::size_t>& variants) {
   DeviceBodies bodies(device, start.model, start.state, variants);
-  bodies.all_stages_at_once = false;
+  bodies.run_all_stages(false);
   const Stepper stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step);
   device.run(stepper.first_passes());
   for (std::uint32_t step = 0; step < 4; ++step) {
@@ -150,7 +150,8 @@ TEST_CASE("so do adaptive steps, rejected and empty ones among them", "[gl]") { 
 TEST_CASE("a device that does not say how many work groups run at once is never made to wait", "[gl]") {
   const ModelAndState start = bodies_of(1, 8);
   for (const TestDevice& test : all_devices())
-    if (test.device->shares_at_once() == 0) CHECK_FALSE(DeviceBodies(*test.device, start.model, start.state).all_stages_at_once);
+    if (test.device->shares_at_once() == 0)
+      CHECK(std::ranges::none_of(DeviceBodies(*test.device, start.model, start.state).force_groups, &ForceGroup::all_stages));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Bench {
         collider(bodies, start.model, collision, StepLengths::fixed, 256),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
-    bodies.all_stages_at_once = false;  // every device runs stages one by one
+    bodies.run_all_stages(false);  // every device runs stages one by one
   }
 
   /// The same, with steps that a tolerance governs.
@@ -38,7 +38,7 @@ struct Bench {
         collider(bodies, start.model, collision, StepLengths::varying, 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
-    bodies.all_stages_at_once = false;
+    bodies.run_all_stages(false);
     pacer.emplace(bodies, start.model, stepper, find_integrator(method.integrator), method.law,
                   PaceLimits{.tolerance = tolerance, .first_step = method.time_step, .largest_step = 2 * method.time_step});
     pacer->aim_at(4 * method.time_step);

@@ -31,7 +31,7 @@ struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
-                          // memory has room for, in multiples that keep the order of additions
+                          // memory has room for, in multiples that keep the order of additions. One lane needs none
   std::uint32_t most_vertices;          // of all bodies together, up to which this is the fastest
   std::uint32_t most_vertices_of_body;  // beyond, another one is faster
 
@@ -48,7 +48,7 @@ constexpr Lanes lane_choices[] = {
     {1, 4, 64, 2, 2, 0, 0, 0},  //
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
-    {1, 1, 64, 2, 2, 0, any_number, 64},
+    {1, 1, 64, 2, 2, 64, any_number, 64},
     {32, 2, 20, 4, 20, 640, 8000, any_number},
     {64, 4, 8, 3, 18, 0, any_number, any_number},
 };
@@ -67,7 +67,8 @@ class GpuDevice final : public Device {
     for (const Lanes& choice : lane_choices)
       variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
                                        choice.vertices == 1 ? "vertex" : "vertices"),
-                           choice.teams * choice.vertices, choice.tile != 0});
+                           choice.teams * choice.vertices, choice.tile != 0,
+                           choice.most_vertices_of_body == 0 ? any_number : choice.most_vertices_of_body});
   }
 
   const DeviceInfo& info() const override { return info_; }
