@@ -219,7 +219,7 @@ void Simulation::restore(std::string_view saved) {
   is_restored_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
-  bodies_.look_at_bodies_at_rest();
+  bodies_.begin_anew();
   if (collider_.response() != nullptr) collider_.response()->restore(from.get<std::string>());
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();

@@ -176,9 +176,17 @@ void DeviceBodies::make_placements(std::uint32_t slots) {
 void DeviceBodies::prepare_search() {
   arrays.get<physics::BoxBits>("body_box").upload(std::vector(body_count, empty_box()));
   std::vector<physics::Status> moving_on = statuses.download();
-  for (physics::Status& status : moving_on)
+  for (physics::Status& status : moving_on) {
     if (status.activity == physics::halted_for_now) status.activity = physics::moving;
+    status.asleep = 0;
+  }
   statuses.upload(moving_on);
+  look_at_bodies_at_rest();
+}
+
+void DeviceBodies::begin_anew() {
+  for (const std::string_view boxes : {"body_box", "place_box"})
+    arrays.get<physics::BoxBits>(boxes).upload(std::vector(body_count, empty_box()));
   look_at_bodies_at_rest();
 }
 

@@ -45,8 +45,10 @@ struct DeviceBodies {
   /// Returns the state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
   /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, and counts no body as
-  /// halted for now, or at rest.
+  /// halted for now, at rest, or asleep.
   void prepare_search();
+  /// Has steps go on from carried arrays alone. Boxes that earlier steps kept of bodies at rest stand elsewhere.
+  void begin_anew();
   /// Has the next step look at bodies at rest, too, because what an earlier one found of them is lost.
   void look_at_bodies_at_rest();
   /// Sets the length of all steps from here on [s].

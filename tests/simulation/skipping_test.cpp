@@ -149,5 +149,38 @@ TEST_CASE("looking at bodies at rest, or saving them, leaves them at rest") {
   }
 }
 
+// A ball at rest is hit, and flies past a third one.
+TEST_CASE("going back in place, to before a body at rest was hit and forth again, changes no bit") {
+  const auto device = make_cpu_device(1, 32);
+  std::vector<BodySetup> setups(3, soft(generate_mesh("icosphere:1"), "ball"));
+  for (BodySetup& setup : setups) {
+    setup.description.scale = 0.4;
+    setup.description.total_stiffness = 8000;
+  }
+  setups[1].description.position = {-3.2, 0, 0};
+  setups[1].description.velocity = {6, 0, 0};
+  setups[2].description.position = {0.6, -3.9, 0};
+  setups[2].description.velocity = {0, 6, 0};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const char* response : {"impulse", "reflect"})
+    for (const std::uint64_t hit : {60u, 65u, 70u, 75u}) {
+      CAPTURE(response, hit);
+      Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 0.01}), answered_by(response));
+      const std::string early = simulation.save();
+      simulation.advance(hit);
+      const std::string late = simulation.save();
+      simulation.advance(100);
+      const std::vector<double> motion = simulation.state().motion;
+      const std::uint64_t pairs_skipped = simulation.report().body_pairs_skipped;
+      simulation.restore(early);
+      simulation.advance(4);
+      CHECK(simulation.report().steps_at_rest > 0);
+      simulation.restore(late);
+      simulation.advance(100);
+      CHECK(simulation.state().motion == motion);
+      CHECK(simulation.report().body_pairs_skipped == pairs_skipped);
+    }
+}
+
 }  // namespace
 }  // namespace pliant

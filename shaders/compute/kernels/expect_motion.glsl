@@ -110,8 +110,8 @@ void expect_motion(uint i) {
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7), near = dvec3(surface[b].nearness) + slack;
   cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
+  contact_weight[i] = 0u;
   if (is_left_alone) return;  // all else still stands, but the way that it went has been in the place of this box
   STORE3(expected, force_of(i), mean)
-  contact_weight[i] = 0u;
   keep_cage(i, b, lower - slack, upper + slack);
 }
