@@ -31,7 +31,7 @@ struct DeviceBodies {
 
   std::uint32_t vertex_count = 0, body_count = 0;
   std::vector<ForceGroup> force_groups;
-  Arrays arrays;                    // these, and those that others make for the same simulation
+  Arrays arrays;  // these, and those that others make for the same simulation
   DeviceArray<physics::Share>& shares;
   DeviceArray<physics::Pose>& poses;
   DeviceArray<physics::Status>& statuses;

@@ -92,11 +92,11 @@ void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {
 
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w);
-  bool is_left_alone = is_idle(status[b]);
+  bool is_at_rest = is_idle(status[b]);
   double time_step = next_part(step_parts[0]);
   double longer = step_parts[0].last > double(0) ? time_step / step_parts[0].last : double(1);
   if (i == 0u) begin_part(time_step, longer);
-  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_left_alone ? dvec3(0) : expected_velocity(i, longer);
+  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_at_rest ? dvec3(0) : expected_velocity(i, longer);
   dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
@@ -104,14 +104,14 @@ void expect_motion(uint i) {
     dvec3 together = may_fly(b) ? way_of_flight(b, time_step, position) : dvec3(0);
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
-    if (!is_left_alone) end_flight_near_grounds(b, lower, upper);
+    if (!is_at_rest) end_flight_near_grounds(b, lower, upper);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7), near = dvec3(surface[b].nearness) + slack;
   cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
   contact_weight[i] = 0u;
-  if (is_left_alone) return;  // all else still stands, but the way that it went has been in the place of this box
+  if (is_at_rest) return;  // all else still stands, but the way that it went has been in the place of this box
   STORE3(expected, force_of(i), mean)
   keep_cage(i, b, lower - slack, upper + slack);
 }

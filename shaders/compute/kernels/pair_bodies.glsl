@@ -1,4 +1,4 @@
-// Lists the pairs of bodies whose boxes overlap. All later collision work is for listed pairs alone.
+// Lists the pairs of bodies whose boxes overlap, if one of the two may move. All later collision work is for listed pairs alone.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/grid.glsl"

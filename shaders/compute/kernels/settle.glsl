@@ -69,7 +69,7 @@ void end_step_part(bool is_made) {
 }
 
 // The body's motion is taken when frames have followed.
-void fall_asleep(uint b) {
+void decide_to_sleep(uint b) {
   bool does = status[b].slow_for >= sleeps_after && cluster[cluster[b].island].is_restless == 0u && control[0].time_step > double(0);
   if (does && status[b].activity == moving && status[b].asleep == 0u) status[b].falls_asleep = 1u;
 }
@@ -83,7 +83,7 @@ void prepare_next_step(uint i, uint b) {
     end_step_part(control[0].non_finite_step == 0u && was_made);
   }
   if (i != body[b].first_vertex) return;
-  if (sleep_speed > double(0)) fall_asleep(b);
+  if (sleep_speed > double(0)) decide_to_sleep(b);
   if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
   room[b].to_others = no_bound;
   for (uint k = 0u; k < 3u; ++k) {
@@ -99,7 +99,7 @@ void settle(uint i) {
   if (status[b].activity != moving || is_left_alone(b)) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
-  if (length(gone) > sleep_speed * control[0].time_step && sleep_speed > double(0)) ATOMIC_STORE(status[b].is_fast, 1u);
+  if (sleep_speed > double(0) && length(gone) > sleep_speed * control[0].time_step) ATOMIC_STORE(status[b].is_fast, 1u);
   dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));
   uint latest = surplus_of(0u, vertex_count, i), oldest = surplus_of(1u, vertex_count, i);
   dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);

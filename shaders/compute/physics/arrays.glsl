@@ -4,7 +4,7 @@
 // - `fixed`: it is made from scene and meshes
 // - `carried`: it outlasts a step and belongs to a saved state
 // - `step`: it is written in a step before it is read there. The next step begins by reading contacts and their impulses once more, and
-//   the response saves what it needs of them
+//   the response saves what it needs of them. Of a body at rest an array keeps what the latest step wrote that looked at the body
 // docs/conventions.md repeats the layouts.
 
 // bodies

@@ -51,7 +51,7 @@ struct Status {
   uint non_finite_vertex;  // the body's first vertex that is not finite at the step's end or whose error ends the run, or no_vertex
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
-  uint calm;               // steps in a row that left the body where it was, counted up to at_rest
+  uint calm;               // steps in a row that left the body where it was, counted up to at_rest: see below
   uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
   uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
   float slow_for;          // how long all of it has moved slowly, and something has held it [s]

@@ -17,8 +17,8 @@ FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 
-// `start` has six numbers a vertex: where it is in the world, and its velocity there. `surplus` holds that of the last step, then that of
-// the step before. `impulse_sum` has three sums a vertex in each of its buffers.
+// `start` has nine numbers a vertex: where it is in the world, its velocity there, and in the body's frame. `surplus` holds that of the
+// last step, then that of the step before. `impulse_sum` has three sums a vertex in each of its buffers.
 FN uint start_position_of(uint i) { return 9u * i; }
 FN uint start_velocity_of(uint i) { return 9u * i + 3u; }
 FN uint unkicked_velocity_of(uint i) { return 9u * i + 6u; }

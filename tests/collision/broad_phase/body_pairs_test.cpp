@@ -294,6 +294,16 @@ TEST_CASE("bodies that could touch in a step bound it and push each other, and o
   CHECK(are_beside > 100);
 }
 
+// The motion after some steps in which no contact takes part.
+std::vector<double> undisturbed_motion(const ModelAndState& start, const Method& method, std::uint64_t steps,
+                                       const char* response) {
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(method), found_by(BroadPhase::grid, response));
+  simulation.advance(steps);
+  CHECK(simulation.report().reverted_vertices == 0);
+  return simulation.state().motion;
+}
+
 // A body has room for what it does by itself, in steps up to the bound.
 TEST_CASE("bodies far from each other move to the bit as without contact, however deformed") {
   for (const auto& [integrator, part_of_bound, stretch] :
@@ -305,15 +315,8 @@ TEST_CASE("bodies far from each other move to the bit as without contact, howeve
     setups[1].description.position = {100, 0, 0};
     const ModelAndState start = build_model(setups, glm::dvec3(0.0));
     const double bound = step_bound(find_integrator(integrator), start.model.bodies[0], DampingLaw::none);
-    const auto run = [&](const char* response) {
-      const auto device = make_cpu_device(1, 32);
-      Simulation simulation(*device, start.model, start.state, plan_of({integrator, part_of_bound * bound}),
-                            found_by(BroadPhase::grid, response));
-      simulation.advance(40);
-      CHECK(simulation.report().reverted_vertices == 0);
-      return simulation.state().motion;
-    };
-    CHECK(run("impulse") == run("none"));
+    const Method method{integrator, part_of_bound * bound};
+    CHECK(undisturbed_motion(start, method, 40, "impulse") == undisturbed_motion(start, method, 40, "none"));
   }
 }
 
@@ -325,14 +328,8 @@ TEST_CASE("small soft bodies far from each other fall in long steps to the bit a
   }
   setups[1].description.position = {100, 0, 0};
   const ModelAndState start = build_model(setups, {0, -9.81, 0});
-  const auto run = [&](const char* response) {
-    const auto device = make_cpu_device(1, 32);
-    Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 1.0 / 60}), found_by(BroadPhase::grid, response));
-    simulation.advance(60);
-    CHECK(simulation.report().reverted_vertices == 0);
-    return simulation.state().motion;
-  };
-  CHECK(run("impulse") == run("none"));
+  const Method method{"verlet", 1.0 / 60};
+  CHECK(undisturbed_motion(start, method, 60, "impulse") == undisturbed_motion(start, method, 60, "none"));
 }
 
 TEST_CASE("bodies that fly along together in long steps have room, and none is held") {
