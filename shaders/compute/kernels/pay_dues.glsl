@@ -50,6 +50,7 @@ uint moments_half() { return other_half(from_half); }
 #include "parts/full_lists.glsl"
 #include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
+#include "parts/rouse.glsl"
 
 dvec3 flight_of_vertex(uint i, uint b) {
   dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
@@ -332,9 +333,7 @@ void pay(uvec4 part) {
   Means means = means_of(b);
   double of_deformation = kept_of_deformation(means), of_rigid = kept_of_rigid(b, means), of_all = kept_together(b);
   if (of_deformation == double(1) && of_rigid == double(1) && of_all == double(1) && !was_cut_short(b)) return;
-  ATOMIC_STORE(status[b].deformed, 1u);
-  ATOMIC_STORE(status[b].calm, 0u);
-  ATOMIC_STORE(status[b].asleep, 0u);
+  rouse(b);
   bool shares = is_in_cluster(b);
   RigidMotion rigid = rigid_motion_of_body(b), restored = restored_motion_of(b), of_cluster = cluster[cluster[b].first].motion;
   for (uint i = part.y; i < part.z; ++i) {

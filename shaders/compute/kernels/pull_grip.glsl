@@ -7,11 +7,10 @@ READ(grip)
 WRITE(status)
 WRITE(motion)
 PARAMETER(uint, first_vertex)  // of the half that holds the state
+#include "parts/rouse.glsl"
 
 void pull_grip(uint g) {
   uint velocity = velocity_of(first_vertex + grip[g].vertex);
   for (uint k = 0u; k < 3u; ++k) motion[velocity + k] += double(grip[g].weight) * aim[0].change[k];
-  ATOMIC_STORE(status[aim[0].body].deformed, 1u);
-  ATOMIC_STORE(status[aim[0].body].calm, 0u);
-  ATOMIC_STORE(status[aim[0].body].asleep, 0u);
+  rouse(aim[0].body);
 }

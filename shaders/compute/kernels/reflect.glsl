@@ -16,6 +16,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(double, elasticity)
 #include "parts/place.glsl"
+#include "parts/rouse.glsl"
 
 void reflect(uint i) {
   if (mark[i] != control[0].step) return;
@@ -30,8 +31,6 @@ void reflect(uint i) {
   for (uint k = 0u; k < 3u; ++k)
     place(start_slot, i, k, body[b].inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - pose[b].reference[k]);
   ATOMIC_STORE(status[b].force_stale, 1u);
-  ATOMIC_STORE(status[b].deformed, 1u);
-  ATOMIC_STORE(status[b].calm, 0u);
-  ATOMIC_STORE(status[b].asleep, 0u);
+  rouse(b);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }

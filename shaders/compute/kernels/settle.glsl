@@ -33,6 +33,7 @@ PARAMETER(uint, contact_capacity)
 #include "parts/cut_before.glsl"
 #include "parts/stays.glsl"
 #include "parts/place.glsl"
+#include "parts/rouse.glsl"
 #include "parts/is_left_alone.glsl"
 
 double part_left(uint i, uint b) {
@@ -54,9 +55,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   cut[i] = floatBitsToUint(float(part));
   ATOMIC_STORE(contact_list[0].has_dues, 1u);
   ATOMIC_STORE(status[b].force_stale, 1u);
-  ATOMIC_STORE(status[b].deformed, 1u);
-  ATOMIC_STORE(status[b].calm, 0u);
-  ATOMIC_STORE(status[b].asleep, 0u);
+  rouse(b);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }
 

@@ -34,6 +34,7 @@ PARAMETER(double, least_speed)
 #include "parts/full_lists.glsl"
 #include "parts/quantum.glsl"
 #include "parts/round_sums.glsl"
+#include "parts/rouse.glsl"
 
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
@@ -234,9 +235,7 @@ void kick(uint i, uint kick_round) {
   uint at = velocity_of(in_half(from_half, vertex_count, i));
   dvec3 velocity = LOAD3(motion, at) + (surface[b].inverse_mass * double(quantum())) * rotate_back(pose[b], quanta);
   STORE3(motion, at, velocity)
-  ATOMIC_STORE(status[b].deformed, 1u);
-  ATOMIC_STORE(status[b].calm, 0u);
-  ATOMIC_STORE(status[b].asleep, 0u);
+  rouse(b);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
     if (quanta[int(k)] != double(0)) ADD_EXACTLY(contact_sum[k], quanta[int(k)])

@@ -58,7 +58,7 @@ struct Status {
   uint is_fast;            // 1: one of its vertices went too fast in the last step for the body to sleep
   uint falls_asleep;       // 1: it sleeps from the end of this step on
   uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it
-  uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island
+  uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island; or something has moved it
 };
 
 // Values of Status.calm. The first such step still expects motion, because of those before it. Nor does a body disturb others from
