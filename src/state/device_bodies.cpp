@@ -103,7 +103,7 @@ physics::Status first_status(bool is_static) {
           .partner_step = 0,
           .first_pair = 0,
           .slow_for = 0,
-          .is_fast = 0,
+          .pressed_by_static = 0,
           .falls_asleep = 0,
           .asleep = 0,
           .disturbed = 0};

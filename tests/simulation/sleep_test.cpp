@@ -106,6 +106,96 @@ TEST_CASE("what floats slowly does not sleep, and what is pulled wakes") {
   CHECK(lies.world_positions()[3].y > before + 0.05);
 }
 
+// Steps until a body sleeps.
+std::uint64_t steps_to_sleep(const ModelAndState& start, const TimePlan& plan) {
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan, by_impulses);
+  std::uint64_t steps = 0;
+  for (; simulation.report().bodies_asleep == 0 && steps < 2000; ++steps) simulation.advance(1);
+  return steps;
+}
+
+BodySetup of_mass(BodySetup ball, double mass) {
+  ball.description.total_mass = mass;
+  *ball.description.total_stiffness *= mass;  // it vibrates as fast
+  ball.description.damping *= mass;
+  return ball;
+}
+
+// At 0.3 m a step it comes from beyond an edge of 0.24 m. A heavy ball stays slow, but not a light one.
+TEST_CASE("a ball that is hit in the step in which it would fall asleep keeps what that gives, and stays awake") {
+  const double step = 0.002, speed = 150;
+  const auto device = make_cpu_device(1, 32);
+  for (const double mass : {1.0, 1000.0}) {
+    const BodySetup lying = of_mass(lying_ball({0, 0.412, 0}), mass);
+    const std::uint64_t until_asleep = steps_to_sleep(on_floor({lying}), sleeping());
+    REQUIRE(until_asleep < 1000);
+    for (const std::uint64_t hit_in : {until_asleep - 1, until_asleep})
+      for (const double distance : {0.26, 0.28}) {
+        CAPTURE(mass, hit_in, distance);
+        const double time = step * static_cast<double>(hit_in - 1);  // when that step begins
+        BodySetup flying = of_mass(lying_ball({-0.8 - distance - speed * time, 0.412 + 9.81 * time * time / 2, 0}), 1 / mass);
+        flying.description.velocity = {speed, 0, 0};
+        const ModelAndState start = on_floor({lying, flying});
+        Simulation simulation(*device, start.model, start.state, sleeping(), by_impulses);
+        const Energies seen = energies_of(simulation, start, downward, time + 100 * step);
+        CHECK(simulation.report().bodies_asleep == 0);
+        CHECK(simulation.report().energy_slept < 1e-6 * mass);
+        CHECK(glm::length(seen.momentum) < 1e-4 * mass);
+      }
+  }
+}
+
+TEST_CASE("bodies that only hold each other do not sleep, and those that a static body bears do") {
+  const auto device = make_cpu_device(1, 32);
+  std::vector<BodySetup> drifting{lying_ball({0, 0, 0}), lying_ball({0.87, 0, 0})};
+  drifting[0].description.velocity = {0.035, 0, 0};
+  drifting[1].description.velocity = {-0.005, 0, 0};
+  CollisionDescription plastic = by_impulses;
+  plastic.elasticity = 0;
+  GroundDescription far_below;
+  far_below.point = {0, -10, 0};
+  for (const bool has_ground : {false, true}) {
+    CAPTURE(has_ground);
+    const ModelAndState start =
+        build_model(drifting, glm::dvec3(0.0), std::span(&far_below, has_ground ? std::size_t{1} : std::size_t{0}));
+    TimePlan plan = sleeping();
+    plan.time_step = 0.005;
+    Simulation simulation(*device, start.model, start.state, plan, plastic);
+    const Energies seen = energies_of(simulation, start, glm::dvec3(0.0), 6);
+    CHECK(simulation.report().bodies_asleep == 0);
+    CHECK(simulation.report().contact_steps > 0);
+    CHECK(glm::length(seen.momentum) < 1e-6);
+  }
+
+  std::vector<BodySetup> borne{lying_ball({0, 0.45, 0}), soft(generate_mesh("cube:2"), "table")};
+  borne[1].description.kind = BodyKind::immovable;
+  borne[1].description.scale = 3;
+  borne[1].description.position = {0, -1.5, 0};
+  const ModelAndState start = build_model(borne, downward);
+  Simulation simulation(*device, start.model, start.state, sleeping(), by_impulses);
+  advance_to(simulation, 3);
+  CHECK(simulation.report().bodies_asleep == 1);
+}
+
+TEST_CASE("a body that is pulled, however gently, does not sleep") {
+  const auto device = make_cpu_device(1, 32);
+  const ModelAndState start = on_floor({lying_ball({0, 0.45, 0})});
+  Simulation simulation(*device, start.model, start.state, sleeping(), by_impulses);
+  advance_to(simulation, 3);
+  REQUIRE(simulation.report().bodies_asleep == 1);
+  const glm::dvec3 place = glm::dvec3(glm::vec3(simulation.world_positions()[3]));
+  std::uint64_t asleep = 0;
+  for (int step = 0; step < 1500; ++step) {
+    simulation.pull({.vertex = 3, .target = place + glm::dvec3(1e-4, 0, 0)}, 0.002);
+    simulation.advance(1);
+    asleep += simulation.report().bodies_asleep;
+  }
+  CHECK(asleep == 0);
+  advance_to(simulation, simulation.report().time + 10);
+  CHECK(simulation.report().bodies_asleep == 1);
+}
+
 TEST_CASE("sleep gives the same bits on any number of threads, after saving, and with nothing skipped") {
   std::vector<BodySetup> balls{lying_ball({0, 0.45, 0}), lying_ball({0.83, 0.45, 0}), lying_ball({0.1, 8, 0})};
   const ModelAndState start = on_floor(balls);

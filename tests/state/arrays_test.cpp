@@ -106,7 +106,8 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
   for (const std::string& name : names) {
     CAPTURE(name);
     const bool sums_springs = name.ends_with("_stage") || name == "refresh_force";
-    constexpr std::string_view in_rounds[] = {"solve_contacts", "certify", "pay_dues", "restore_impacts", "find_flights"};
+    constexpr std::string_view in_rounds[] = {"solve_contacts",  "certify",      "pay_dues",
+                                              "restore_impacts", "find_flights", "find_sleepers"};
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     const auto signature = [&](Device& device) {
       if (goes_in_rounds) return device.signature(device.round_kernel(name));

@@ -46,7 +46,7 @@ inline std::vector<double> numbers_of(const physics::Status& status) {
   return {double(status.activity),     double(status.non_finite_vertex),
           double(status.deformed),     double(status.force_stale),
           double(status.calm),         double(status.disturbed),
-          double(status.slow_for),     double(status.is_fast),
+          double(status.slow_for),     double(status.pressed_by_static),
           double(status.falls_asleep), double(status.asleep)};
 }
 
@@ -125,7 +125,8 @@ inline std::vector<double> numbers_of(const physics::GridEntry& entry) {
 // Its motion means nothing if it has no bodies, and its velocity nothing if it cannot fly.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
   std::vector<double> numbers{double(cluster.first),      double(cluster.bodies),           double(cluster.is_held),
-                              double(cluster.cannot_fly), double(cluster.is_beside_static), double(cluster.island)};
+                              double(cluster.cannot_fly), double(cluster.is_beside_static), double(cluster.island),
+                              double(cluster.is_stirred), double(cluster.is_restless),      double(cluster.is_borne)};
   if (cluster.cannot_fly == 0) numbers.insert(numbers.end(), cluster.island_velocity, cluster.island_velocity + 3);
   if (cluster.bodies == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);

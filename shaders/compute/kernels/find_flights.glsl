@@ -34,7 +34,6 @@ void find_first(uint b) {
   uint first = first_of_island(b);
   ATOMIC_STORE(cluster[b].island, first);
   if (status[b].calm < quiet || status[b].disturbed != 0u) ATOMIC_STORE(cluster[first].is_disturbed, 1u);
-  if (cluster[b].is_restless != 0u) ATOMIC_STORE(cluster[first].is_restless, 1u);
   if (cluster[b].cannot_fly != 0u) {
     ATOMIC_STORE(cluster[first].cannot_fly, 1u);
     return;

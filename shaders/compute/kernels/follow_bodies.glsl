@@ -140,11 +140,6 @@ bool is_left_where_it_was(uint b) {
          LOAD3(motion, velocity_of(before)) == dvec3(0) && LOAD3(motion, velocity_of(after)) == dvec3(0);
 }
 
-void wake(uint b) {
-  status[b].asleep = status[b].calm = 0u;
-  status[b].slow_for = 0.0f;
-}
-
 void count_calm_steps(uint b) {
   if (status[b].calm >= at_rest && status[b].asleep == 0u && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
   if (is_still(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
@@ -152,7 +147,6 @@ void count_calm_steps(uint b) {
     uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
   }
-  if (status[b].asleep != 0u && status[b].disturbed != 0u) wake(b);
   if (is_asleep(status[b])) tally[b].steps_asleep += 1u;
   if (status[b].falls_asleep != 0u) status[b].calm = forgotten;
   status[b].disturbed = 0u;

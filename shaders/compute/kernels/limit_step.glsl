@@ -22,7 +22,6 @@ READ(grid_list)
 READ(grid_entry)
 READ(grid_level)
 PARAMETER(uint, body_count)
-PARAMETER(double, sleep_speed)  // [m/s] bodies that have been slower for long sleep; 0: none does
 #include "parts/reach.glsl"
 
 // The largest that a number of the first box can be above one of the second.
@@ -76,10 +75,12 @@ void push_away(uint a, uint b, double speed) {
 
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }
 
-// If the first body moves, it disturbs the other one, which it may reach. One that sleeps is not disturbed if it surely does not.
-void disturb(uint a, uint b, bool reaches) {
+// If the first body moves, it disturbs the other one, which it may reach. One that sleeps is not disturbed if it surely does not. From
+// beyond its island it stirs the other one.
+void disturb(uint a, uint b, bool is_beside, bool reaches) {
   if (!moves(a) || status[a].calm >= quiet || status[b].activity == immovable) return;
   if (reaches || status[b].asleep == 0u) ATOMIC_STORE(status[b].disturbed, 1u);
+  if (reaches && !is_beside) ATOMIC_STORE(cluster[b].is_stirred, 1u);
 }
 
 // The mean velocity of the vertices that stand for the body [m/s].
@@ -120,8 +121,8 @@ void meet(uint a, uint b) {
   if (moves(a) && moves(b) && is_beside) join(a, b);
   if (status[a].calm >= quiet && status[b].calm >= quiet) return;  // neither moves, and what they have of room does not depend on others
   bool reaches = is_beside || double(2) * speed * longest > distance;
-  disturb(a, b, reaches);
-  disturb(b, a, reaches);
+  disturb(a, b, is_beside, reaches);
+  disturb(b, a, is_beside, reaches);
   double most = distance + double(0.25) * edge_of_pair(surface[a], surface[b]);
   if (speed * longest > most) longest = most / speed;
   if (speed * longest > distance) {
@@ -156,20 +157,9 @@ void bound_pressed(uint b) {
   if (pressed[b] != 0u && step_parts[0].parts + 1u - pressed[b] <= pressed_for) bound_step(surface[b].longest_pressed);
 }
 
-// A body sleeps when it and all of its island have been slow for long enough. One that floats does not.
-void count_slow_time(uint b) {
-  status[b].falls_asleep = 0u;
-  bool is_held = pressed[b] != 0u && step_parts[0].parts + 1u - pressed[b] <= held_for;
-  float part = step_parts[0].full > double(0) ? float(step_parts[0].last) : 0.0f;
-  status[b].slow_for = is_held && status[b].is_fast == 0u ? min(status[b].slow_for + part, sleeps_after) : 0.0f;
-  status[b].is_fast = 0u;
-  if (status[b].asleep == 0u && status[b].calm < quiet && status[b].slow_for < sleeps_after) cluster[b].is_restless = 1u;
-}
-
 void limit_step(uint item) {
   uint b = body_of(item);
   if (b != no_body && moves(b)) {
-    if (sleep_speed > double(0)) count_slow_time(b);
     begin_flight(b);
     bound_pressed(b);
     bound_room(b);

@@ -28,7 +28,7 @@ void leave_island(uint b) {
   cluster[b].island = b;
   cluster[b].has_company = 0u;
   cluster[b].is_disturbed = 0u;
-  cluster[b].is_restless = 0u;
+  cluster[b].is_stirred = cluster[b].is_restless = cluster[b].is_borne = 0u;
   cluster[b].cannot_fly = status[b].activity == immovable ? 1u : 0u;
   if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
 }

@@ -13,4 +13,5 @@ void pull_grip(uint g) {
   uint velocity = velocity_of(first_vertex + grip[g].vertex);
   for (uint k = 0u; k < 3u; ++k) motion[velocity + k] += double(grip[g].weight) * aim[0].change[k];
   rouse(aim[0].body);
+  if (g == 0u) status[aim[0].body].slow_for = 0.0f;
 }

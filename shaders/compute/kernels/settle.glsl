@@ -21,11 +21,11 @@ WRITE(contact_list)
 WRITE(step_parts)
 WRITE(body_motion)
 WRITE(room)
-READ(cluster)
+WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
-PARAMETER(double, sleep_speed)  // [m/s] bodies that have been slower for long sleep; 0: none does
+PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been slower for long; 0: none does
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
@@ -55,6 +55,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
   cut[i] = floatBitsToUint(float(part));
   ATOMIC_STORE(contact_list[0].has_dues, 1u);
   ATOMIC_STORE(status[b].force_stale, 1u);
+  ATOMIC_STORE(cluster[b].is_stirred, 1u);
   rouse(b);
   atomicAdd(control[0].count[reverted_vertices], 1u);
 }
@@ -67,12 +68,6 @@ void end_step_part(bool is_made) {
   step_parts[0] = p;
 }
 
-// The body's motion is taken when frames have followed.
-void decide_to_sleep(uint b) {
-  bool does = status[b].slow_for >= sleeps_after && cluster[cluster[b].island].is_restless == 0u && control[0].time_step > double(0);
-  if (does && status[b].activity == moving && status[b].asleep == 0u) status[b].falls_asleep = 1u;
-}
-
 // Empties what the next step adds to, and counts this one.
 void prepare_next_step(uint i, uint b) {
   if (i == 0u) {
@@ -82,7 +77,6 @@ void prepare_next_step(uint i, uint b) {
     end_step_part(control[0].non_finite_step == 0u && was_made);
   }
   if (i != body[b].first_vertex) return;
-  if (sleep_speed > double(0)) decide_to_sleep(b);
   if ((contact_list[0].arrivals & waited_in_vain) != 0u) status[b].activity = halted_waiting;
   room[b].to_others = no_bound;
   for (uint k = 0u; k < 3u; ++k) {
@@ -98,7 +92,7 @@ void settle(uint i) {
   if (status[b].activity != moving || is_left_alone(b)) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
-  if (sleep_speed > double(0) && length(gone) > sleep_speed * control[0].time_step) ATOMIC_STORE(status[b].is_fast, 1u);
+  if (sleep_speed > double(0) && length(gone) > sleep_speed * control[0].time_step) ATOMIC_STORE(cluster[b].is_stirred, 1u);
   dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));
   uint latest = surplus_of(0u, vertex_count, i), oldest = surplus_of(1u, vertex_count, i);
   dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);

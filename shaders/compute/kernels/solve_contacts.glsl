@@ -262,18 +262,27 @@ void add_energy(uint k, double energy) {
 
 bool ended_unsettled(uint c) { return contact_row[contact_rows * c + 3u].w < real(0); }
 
+bool first_moves(uvec4 who) { return inverse_mass_of(who.x) != double(0); }
+bool second_moves(uvec4 who) { return !meets_ground(who) && inverse_mass_of(who.w) != double(0); }
+
+void note_static_pressure(uvec4 who) {
+  if (first_moves(who) == second_moves(who)) return;
+  uint b = uint(rest_position[first_moves(who) ? who.x : who.w].w);
+  ATOMIC_STORE(status[b].pressed_by_static, step_parts[0].parts + 1u);
+}
+
 // Half of what a contact gave stands for either body, or all of it for one that meets what does not move.
 void share_energy(uvec4 who, double energy) {
-  bool first_moves = inverse_mass_of(who.x) != double(0), second_moves = !meets_ground(who) && inverse_mass_of(who.w) != double(0);
-  double share_of_it = first_moves && second_moves ? double(0.5) * energy : energy;
-  if (first_moves) add_energy(unsettled_energy_of(uint(rest_position[who.x].w)), share_of_it);
-  if (second_moves) add_energy(unsettled_energy_of(uint(rest_position[who.w].w)), share_of_it);
+  double share_of_it = first_moves(who) && second_moves(who) ? double(0.5) * energy : energy;
+  if (first_moves(who)) add_energy(unsettled_energy_of(uint(rest_position[who.x].w)), share_of_it);
+  if (second_moves(who)) add_energy(unsettled_energy_of(uint(rest_position[who.w].w)), share_of_it);
 }
 
 // An impulse gives as much energy as it would along the mean of the velocities before and after.
 void add_work(uint c, uint kick_round) {
   real4 impulse = impulse_row[c], normal_row = contact_row[contact_rows * c];
   if (!(impulse.x > real(0))) return;
+  note_static_pressure(contact_vertex[c]);
   dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u], kick_round);
   double along = double(impulse.x) * dot(dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z)), mean);
   double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);

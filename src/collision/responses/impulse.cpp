@@ -124,6 +124,7 @@ class Impulse final : public Response {
         trees_(setting.trees),
         has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
         divides_steps_(setting.step_lengths == StepLengths::fixed),
+        sleeps_(setting.sleeps),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
         items_at_once_(setting.bodies.arrays.device().items_of_lists()) {
     const std::vector<physics::Surface> surfaces = surfaces_of(setting);
@@ -132,7 +133,7 @@ class Impulse final : public Response {
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
-    bodies_.arrays.set_parameter("sleep_speed", setting.sleeps ? sleep_diameters * smallest_diameter(setting.model) : 0.0);
+    bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_diameters * smallest_diameter(setting.model) : 0.0);
     make_grounds(setting);
     make_step_parts();
     make_motions();
@@ -265,6 +266,7 @@ class Impulse final : public Response {
                                              {"part_count", part_count_},
                                              {"triangle_pair_capacity", triangle_pair_capacity_},
                                              {"contact_capacity", contact_capacity}}));
+    if (sleeps_) passes.push_back(round_pass("find_sleepers", {}));
     return passes;
   }
 
@@ -421,7 +423,7 @@ class Impulse final : public Response {
   DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
-  bool has_pairs_, divides_steps_, restores_ = false;
+  bool has_pairs_, divides_steps_, sleeps_, restores_ = false;
   std::uint32_t triangle_pair_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;

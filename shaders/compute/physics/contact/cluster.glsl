@@ -24,11 +24,13 @@ struct Cluster {
   double island_velocity[3];  // of its bodies by their masses, at the step's start, in the world [m/s]
   uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
   uint is_disturbed;          // 1: one moves, or may be reached by one that does
-  uint is_restless;           // 1: one has not been slow for long enough to sleep
+  uint is_restless;           // 1: one has not been fit to sleep for long enough
+  uint is_borne;              // 1: what does not move presses one
   uint is_beside_static;      // 1: one has a cage that meets a static triangle or comes near a ground, so it has no flight
 
   uint first;        // the first body of the cluster of the body with this number
   uint island;       // the first body of its island
+  uint is_stirred;   // 1: in this step one of its vertices went too fast to sleep or was cut short, or one from beyond its island came near
   uint has_company;  // 1: its island has other bodies, too; behind the last body: some island has
   uint bodies;       // of the cluster
   uint is_held;      // 1: one of the cluster's bodies was cut short in the world

@@ -1,0 +1,111 @@
+// When bodies fall asleep and wake: the kernel find_sleepers, by what a step tells it.
+#include <catch2/catch.hpp>
+
+#include "physics/contact/cluster.glsl"
+#include "physics/contact/debt.glsl"
+#include "physics/contact/parts.glsl"
+#include "physics/contact/surface.glsl"
+#include "support/evolve.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t sleepers = 3;
+constexpr double step = 0.125;  // [s]
+
+// Three bodies that have been slow for long. The first two are an island, of which a ground bears the first one.
+struct Slumber {
+  Slumber() {
+    control.time_step = step;
+    parts.parts = 10;
+    for (physics::Status& status : statuses) {
+      status.pressed_by_static = 10;
+      status.slow_for = 1;
+    }
+    statuses[1].pressed_by_static = 0;
+    clusters[1].island = 0;
+    clusters[2].island = 2;
+  }
+
+  // Which bodies fall asleep in the step.
+  std::vector<bool> fall_asleep(Device& device) {
+    Arrays arrays(device);
+    arrays.set_parameter("body_count", sleepers);
+    arrays.make("control", std::vector{control});
+    arrays.make("step_parts", std::vector{parts});
+    arrays.make("pressed", pressed);
+    arrays.make("debt", debts);
+    arrays.make("cluster", clusters);
+    arrays.make<physics::ContactList>("contact_list", 1);
+    auto& known = arrays.make("status", statuses);
+    const Pass pass =
+        make_pass(arrays, "find_sleepers", device.round_kernel("find_sleepers"), {}, std::max(device.shares_at_once(), 1u));
+    device.run({&pass, 1});
+    statuses = known.download();
+    std::vector<bool> fall;
+    for (const physics::Status& status : statuses) fall.push_back(status.falls_asleep != 0);
+    return fall;
+  }
+
+  physics::Control control{};
+  physics::StepParts parts{};
+  std::vector<physics::Status> statuses{sleepers};
+  std::vector<std::uint32_t> pressed{10, 9, 10};
+  std::vector<physics::Debt> debts{sleepers};
+  std::vector<physics::Cluster> clusters{sleepers};
+};
+
+using Bools = std::vector<bool>;
+
+TEST_CASE("an island falls asleep as a whole, if nothing stirs one of its bodies", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    CHECK(Slumber().fall_asleep(*test.device) == Bools{true, true, true});
+    Slumber stirred, let_go, owes, floats, is_static;
+    stirred.clusters[1].is_stirred = 1;
+    let_go.pressed[1] = 8;  // two parts of steps ago
+    owes.debts[1].energy = 1;
+    for (Slumber* restless : {&stirred, &let_go, &owes}) {
+      CHECK(restless->fall_asleep(*test.device) == Bools{false, false, true});
+      CHECK(restless->statuses[1].slow_for == 0);
+    }
+    floats.statuses[0].pressed_by_static = 8;
+    CHECK(floats.fall_asleep(*test.device) == Bools{false, false, true});
+    is_static.statuses[1].activity = physics::immovable;
+    CHECK(is_static.fall_asleep(*test.device) == Bools{true, false, true});
+  }
+}
+
+TEST_CASE("a body sleeps after half a second of steps that stand, and after waking has to be slow for as long again", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Slumber bodies;
+    const auto falls = [&] {
+      bodies.clusters = Slumber().clusters;  // a step begins
+      return bodies.fall_asleep(*test.device);
+    };
+    for (int round = 0; round < 2; ++round) {
+      for (physics::Status& status : bodies.statuses) status.slow_for = round == 0 ? 0.0f : status.slow_for;
+      for (int k = 0; k < 3; ++k) {
+        CHECK(falls() == Bools{false, false, false});
+        bodies.control.time_step = 0;  // it was undone
+        CHECK(falls() == Bools{false, false, false});
+        bodies.control.time_step = step;
+      }
+      CHECK(falls() == Bools{true, true, true});
+      for (physics::Status& status : bodies.statuses) status.asleep = 1;
+      CHECK(falls() == Bools{false, false, false});
+      for (physics::Status& status : bodies.statuses) status.disturbed = 1;
+      bodies.control.time_step = 0;
+      CHECK(falls() == Bools{false, false, false});
+      bodies.control.time_step = step;
+      for (physics::Status& status : bodies.statuses) {
+        CHECK(status.asleep == 0);
+        status.disturbed = 0;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pliant
