@@ -146,6 +146,37 @@ TEST_CASE("a ball that is hit in the step in which it would fall asleep keeps wh
   }
 }
 
+// It may go up first. A cube stands flat on the slope, so that it slides without vibration.
+TEST_CASE("what slides on a slope without friction never sleeps, however large it is and whichever way it goes") {
+  const auto device = make_cpu_device(1, 32);
+  for (const double slope : {0.11, 0.5})  // of gravity, along the slope
+    for (const double speed : {0.0, 0.24, 0.45}) {
+      CAPTURE(slope, speed);
+      GroundDescription ground;
+      ground.normal = {slope, std::sqrt(1 - slope * slope), 0};
+      ground.surface.friction = 0;
+      BodySetup large = lying_ball(26.45 * ground.normal);
+      large.mesh = generate_mesh("cube:2");
+      large.description.rotation = {0, 0, -glm::degrees(std::asin(slope))};
+      large.description.scale = 50;
+      large.description.total_mass = 1000;
+      large.description.total_stiffness = 4e7;
+      large.description.damping = 2000;
+      large.description.velocity = speed * glm::dvec3(-ground.normal.y, ground.normal.x, 0);
+      const ModelAndState start = build_model({&large, 1}, downward, {&ground, 1});
+      TimePlan plan = sleeping(), without = sleeping();
+      plan.time_step = without.time_step = 0.005;
+      without.sleep = false;
+      CollisionDescription smooth = by_impulses;
+      smooth.friction = 0;
+      Simulation simulation(*device, start.model, start.state, plan, smooth),
+          never_sleeps(*device, start.model, start.state, without, smooth);
+      for (Simulation* s : {&simulation, &never_sleeps}) s->advance(500);
+      const bool is_same = simulation.state().motion == never_sleeps.state().motion;
+      CHECK(is_same);
+    }
+}
+
 TEST_CASE("bodies that only hold each other do not sleep, and those that a static body bears do") {
   const auto device = make_cpu_device(1, 32);
   std::vector<BodySetup> drifting{lying_ball({0, 0, 0}), lying_ball({0.87, 0, 0})};

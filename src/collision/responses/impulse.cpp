@@ -61,6 +61,13 @@ double smallest_diameter(const Model& model) {
   return smallest;
 }
 
+// A body may sleep that stays slower than this [m/s]. What slides or falls with a tenth of gravity, up or down, can't do that for
+// as long as it takes to fall asleep.
+double sleep_speed(const Model& model, double gravity) {
+  const double by_size = sleep_diameters * smallest_diameter(model), gained = 0.1 * gravity * physics::sleeps_after;
+  return gravity > 0 ? std::min(by_size, gained / 2) : by_size;
+}
+
 // Of bodies that move [m]. 0 if none does.
 double smallest_gap(std::span<const physics::Surface> surfaces) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -133,7 +140,7 @@ class Impulse final : public Response {
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
-    bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_diameters * smallest_diameter(setting.model) : 0.0);
+    bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_speed(setting.model, gravity_size()) : 0.0);
     make_grounds(setting);
     make_step_parts();
     make_motions();
