@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "physics/layout.glsl"
 #include "state/carried_state.hpp"
 
 namespace pliant {
@@ -38,6 +39,15 @@ void add_force_counts(StepReport& report, const Model& model, const std::vector<
     report.steps_at_rest += tallies[b].steps_at_rest;
     report.steps_asleep += tallies[b].steps_asleep;
     report.pair_interactions += tallies[b].force_evaluations * vertices * (vertices - 1);
+  }
+}
+
+// What bears sleepers has given them the opposite of the momentum that it took.
+void add_slept(StepReport& report, const std::vector<double>& slept) {
+  for (std::uint32_t b = 0; 4 * b < slept.size(); ++b) {
+    report.energy_slept += slept[physics::energy_slept_of(b)];
+    const double* const momentum = &slept[physics::momentum_slept_of(b)];
+    report.response.outside_impulse -= glm::dvec3(momentum[0], momentum[1], momentum[2]);
   }
 }
 
@@ -194,7 +204,7 @@ StepReport Simulation::report() {
   const std::vector<physics::Status> statuses = bodies_.statuses.download();
   expect_groups_met(statuses);
   for (const physics::Status& status : statuses) report.bodies_asleep += status.asleep;
-  for (const double energy : bodies_.arrays.get<double>("slept").download()) report.energy_slept += energy;
+  add_slept(report, bodies_.arrays.get<double>("slept").download());
   add_force_counts(report, model_, bodies_.tallies.download());
   return report;
 }

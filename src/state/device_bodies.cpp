@@ -151,7 +151,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make("place_box", std::vector(body_count, empty_box()));
   arrays.make<std::uint32_t>("meeting", body_count);
-  arrays.make<double>("slept", body_count);
+  arrays.make<double>("slept", std::size_t{4} * body_count);
   arrays.make("body", bodies_of(model, device.strain_bias()));
   arrays.make("rest_position", model.rest_positions);
   const std::vector<glm::vec4> positions = rounded_world_positions(model, state);

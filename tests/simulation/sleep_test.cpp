@@ -209,6 +209,21 @@ TEST_CASE("bodies that only hold each other do not sleep, and those that a stati
   CHECK(simulation.report().bodies_asleep == 1);
 }
 
+TEST_CASE("momentum is what gravity and what does not move have given, though bodies fall asleep and wake") {
+  const ModelAndState start =
+      on_floor({lying_ball({0, 0.45, 0}), lying_ball({0.83, 0.45, 0}), lying_ball({3, 0.45, 0}), lying_ball({0.1, 16, 0})});
+  const auto device = make_cpu_device(1, 32);
+  for (const char* integrator : {"verlet", "cv8"}) {
+    CAPTURE(integrator);
+    Simulation simulation(*device, start.model, start.state, sleeping(integrator), by_impulses);
+    advance_to(simulation, 1.7);
+    REQUIRE(simulation.report().bodies_asleep == 3);
+    const Energies seen = energies_of(simulation, start, downward, 2.2);
+    CHECK(simulation.report().bodies_asleep < 3);
+    CHECK(glm::length(seen.momentum) < 1e-5);  // of 86 Ns that gravity has given
+  }
+}
+
 TEST_CASE("a body that is pulled, however gently, does not sleep") {
   const auto device = make_cpu_device(1, 32);
   const ModelAndState start = on_floor({lying_ball({0, 0.45, 0})});

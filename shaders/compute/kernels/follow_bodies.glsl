@@ -140,6 +140,34 @@ bool is_left_where_it_was(uint b) {
          LOAD3(motion, velocity_of(before)) == dvec3(0) && LOAD3(motion, velocity_of(after)) == dvec3(0);
 }
 
+// What bears the body takes the momentum of this velocity in the frame, which is summed over vertices.
+void note_momentum(uint b, dvec3 velocity) {
+  dvec3 in_world = dvec3(row_times(pose[b].rotation[0], pose[b].rotation[1], pose[b].rotation[2], velocity),
+                         row_times(pose[b].rotation[3], pose[b].rotation[4], pose[b].rotation[5], velocity),
+                         row_times(pose[b].rotation[6], pose[b].rotation[7], pose[b].rotation[8], velocity));
+  dvec3 taken = LOAD3(slept, momentum_slept_of(b)) + in_world / body[b].inverse_mass;
+  STORE3(slept, momentum_slept_of(b), taken)
+}
+
+// What the body loses as it falls asleep: its velocity, summed over vertices.
+void note_motion(uint b) {
+  dvec3 sum = dvec3(0);
+  double squares = double(0);
+  for (uint i = body[b].first_vertex; i < body[b].first_vertex + body[b].vertex_count; ++i) {
+    dvec3 velocity = LOAD3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)));
+    sum += velocity;
+    squares += dot(velocity, velocity);
+  }
+  slept[energy_slept_of(b)] += squares / (double(2) * body[b].inverse_mass);
+  note_momentum(b, sum);
+}
+
+// What bears the body takes what gravity would give it in the step.
+void note_step_asleep(uint b) {
+  tally[b].steps_asleep += 1u;
+  note_momentum(b, (double(body[b].vertex_count) * control[0].time_step) * LOAD3(pose[b].gravity, 0u));
+}
+
 void count_calm_steps(uint b) {
   if (status[b].calm >= at_rest && status[b].asleep == 0u && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
   if (is_still(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
@@ -147,19 +175,9 @@ void count_calm_steps(uint b) {
     uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
   }
-  if (is_asleep(status[b])) tally[b].steps_asleep += 1u;
+  if (is_asleep(status[b]) && status[b].activity == moving) note_step_asleep(b);
   if (status[b].falls_asleep != 0u) status[b].calm = forgotten;
   status[b].disturbed = 0u;
-}
-
-// The kinetic energy that the body has, and loses as it falls asleep.
-void note_energy_of_motion(uint b) {
-  double sum = double(0);
-  for (uint i = body[b].first_vertex; i < body[b].first_vertex + body[b].vertex_count; ++i) {
-    dvec3 velocity = LOAD3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)));
-    sum += dot(velocity, velocity);
-  }
-  slept[b] += sum / (double(2) * body[b].inverse_mass);
 }
 
 // Empties what the next step adds to. The search has been through the boxes, and all groups have met.
@@ -169,7 +187,7 @@ void prepare_next_step(uint b) {
     body_box[b].upper[k] = place_box[b].upper[k] = 0u;
   }
   status[b].first_pair = 0u;
-  if (status[b].falls_asleep != 0u) note_energy_of_motion(b);
+  if (status[b].falls_asleep != 0u) note_motion(b);
   frame_change[b].turned = 0u;
   meeting[b] = 0u;
 }

@@ -25,6 +25,10 @@ FN uint unkicked_velocity_of(uint i) { return 9u * i + 6u; }
 FN uint surplus_of(uint age, uint vertex_count, uint i) { return 3u * (age * vertex_count + i); }
 FN uint impulse_sum_of(uint buffer_index, uint vertex_count, uint i) { return 3u * (buffer_index * vertex_count + i); }
 
+// `slept` has four numbers a body: energy, then momentum.
+FN uint energy_slept_of(uint b) { return 4u * b; }
+FN uint momentum_slept_of(uint b) { return 4u * b + 1u; }
+
 // Where the k-th number of a vector of four stands in an array that a kernel uses as single numbers.
 FN uint number_of(uint vector, uint k) { return 4u * vector + k; }
 
