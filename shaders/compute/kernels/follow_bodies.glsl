@@ -174,6 +174,8 @@ void count_calm_steps(uint b) {
   if (status[b].activity == moving || status[b].activity == immovable) {
     uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
+  } else if (status[b].disturbed != 0u) {
+    status[b].calm = min(status[b].calm, quiet);  // what a step that was undone found of it does not stand
   }
   if (is_asleep(status[b]) && status[b].activity == moving) note_step_asleep(b);
   if (status[b].falls_asleep != 0u) status[b].calm = forgotten;
