@@ -27,7 +27,7 @@ std::vector<double> stiffnesses(const SceneDescription& scene) {
 
 TEST_CASE("every shipped scene builds without a warning, with bodies clear of each other") {
   const std::vector<SceneDescription> scenes = test::load_shipped_scenes();
-  REQUIRE(scenes.size() >= 23);
+  REQUIRE(scenes.size() >= 25);
   const auto device = make_cpu_device(2, 32);
   for (const SceneDescription& scene : scenes) {
     CAPTURE(scene.file.string());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
 
 #include "bench/contact/apart.hpp"
 #include "model/load_bodies.hpp"
@@ -29,8 +30,8 @@ struct Whole {
 // A shipped scene on the CPU. Vertices are those of the latest look.
 class Play {
  public:
-  explicit Play(const std::string& name, int precision = 32)
-      : scene_(test::load_shipped_scene(name)),
+  explicit Play(const std::string& name, int precision = 32, std::span<const std::string> overrides = {})
+      : scene_(test::load_shipped_scene(name, overrides)),
         start_(build_model(load_bodies(scene_), scene_.simulation.gravity, scene_.grounds)),
         plan_(plan_time(scene_, start_.model)),
         device_(make_cpu_device(2, precision)),
@@ -247,6 +248,64 @@ TEST_CASE("a hundred spheres stay in their box and out of each other, and make n
     before = energy;
   }
   CHECK(play.report().contact_steps > 100);
+  CHECK(play.report().held_parts == 0);
+}
+
+// Fewer of the thousand bodies, in a box that is as full.
+const std::string few_of_a_thousand[] = {
+    "body.small.count=[5, 2, 5]", "body.middle.count=[3, 2, 3]", "body.large.count=[2, 1, 2]", "body.bunny.count=[1, 1, 1]",
+    "ground=[{height=0}, {point=[-26, 0, 0], normal=[1, 0, 0]}, {point=[-9.8, 0, 0], normal=[-1, 0, 0]},"
+    "{point=[0, 0, -18], normal=[0, 0, 1]}, {point=[0, 0, -4], normal=[0, 0, -1]}]"};
+
+TEST_CASE("spheres and a bunny that rain into a box stay in it and out of each other, and make no energy") {
+  Play play("thousand_bodies", 32, few_of_a_thousand);
+  double before = play.energy();
+  for (const double time : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
+    CHECK(play.intersections_until(time, 8) == 0);
+    const double energy = play.energy();
+    CHECK(energy < before);
+    before = energy;
+  }
+  CHECK(play.report().contact_steps > 100);
+  CHECK(play.report().held_parts == 0);
+}
+
+TEST_CASE("spheres and a bunny that have rained into a box come to rest and sleep", "[long]") {
+  Play play("thousand_bodies", 32, few_of_a_thousand);
+  CHECK(play.intersections_until(play.scene().simulation.duration, 120) == 0);
+  CHECK(play.report().bodies_asleep == play.model().bodies.size());
+  CHECK(play.report().held_parts == 0);
+}
+
+// Fewer of the ten thousand balls. One of the heavy ones still rolls through the fourth of their fields.
+const std::string few_of_ten_thousand[] = {"body.dark_blue.count=[8, 1, 11]", "body.light_blue.count=[8, 1, 11]",
+                                           "body.green.count=[8, 1, 11]", "body.yellow.count=[8, 1, 11]",
+                                           "body.orange.count=[8, 1, 11]"};
+
+TEST_CASE("balls on a floor sleep until a heavy one rolls into them, and those that it misses sleep on") {
+  Play play("ten_thousand", 32, few_of_ten_thousand);
+  const std::size_t field = 8 * 11, balls = 5 * field;
+  const auto moved = [&](std::size_t first, const std::vector<glm::dvec3>& before) {
+    const std::size_t begin = play.model().bodies[first].first_vertex, end = play.model().bodies[first + field].first_vertex;
+    return !std::equal(before.begin() + begin, before.begin() + end, play.positions().begin() + begin);
+  };
+  std::size_t intersections = play.intersections_until(1, 20);
+  CHECK(play.report().bodies_asleep == balls);
+  const std::vector<glm::dvec3> asleep = play.positions();
+  double before = play.energy();
+  for (const double time : {1.1, 1.2, 1.3, 1.4, 1.5}) {
+    intersections += play.intersections_until(time, 12);
+    const double energy = play.energy();
+    CHECK(energy < before);
+    before = energy;
+  }
+  for (const std::size_t k : {0, 1, 2, 3, 4}) {
+    CAPTURE(k);
+    CHECK(moved(k * field, asleep) == (k == 3));
+  }
+  CHECK(play.report().bodies_asleep < balls);
+  CHECK(play.report().bodies_asleep >= 4 * field);
+  CHECK(intersections == 0);
   CHECK(play.report().held_parts == 0);
 }
 
