@@ -177,6 +177,38 @@ TEST_CASE("what slides on a slope without friction never sleeps, however large i
     }
 }
 
+// A cube stands on the floor. It has no damping, so that its vertices vibrate about where gravity bends it to, at up to several
+// times g / omega.
+ModelAndState vibrating_cube(double omega) {
+  BodySetup cube = lying_ball({0, 0.41, 0});
+  cube.mesh = generate_mesh("cube:2");
+  cube.description.scale = 0.8;
+  cube.description.total_stiffness = omega * omega;
+  cube.description.damping = 0;
+  return on_floor({cube});
+}
+
+// It may sleep if it moves by 0.07 m/s. It trembles at twice that in the mean of squares at most. The first one vibrates at 0.3
+// m/s, by 2 mm. The other one vibrates at up to 0.1 m/s.
+TEST_CASE("a body that vibrates strongly where it stands does not freeze, and one that trembles sleeps") {
+  const auto device = make_cpu_device(1, 32);
+  for (const double omega : {150.0, 300.0}) {
+    CAPTURE(omega);
+    const ModelAndState start = vibrating_cube(omega);
+    Simulation simulation(*device, start.model, start.state, sleeping(), by_impulses);
+    double fastest = 0, last = 0;  // of a vertex, and when one was faster than what may sleep
+    while (simulation.report().time < 3 && simulation.report().bodies_asleep == 0) {
+      fastest = 0;
+      for (const glm::dvec3& velocity : simulation.state().world_velocities(start.model))
+        fastest = std::max(fastest, glm::length(velocity));
+      if (fastest > 0.07) last = simulation.report().time;
+      simulation.advance(1);
+    }
+    CHECK(simulation.report().bodies_asleep == (omega == 150 ? 0 : 1));
+    CHECK(last > simulation.report().time - 0.1);
+  }
+}
+
 TEST_CASE("bodies that only hold each other do not sleep, and those that a static body bears do") {
   const auto device = make_cpu_device(1, 32);
   std::vector<BodySetup> drifting{lying_ball({0, 0, 0}), lying_ball({0.87, 0, 0})};

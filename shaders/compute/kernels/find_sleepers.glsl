@@ -1,13 +1,20 @@
 // A kernel in rounds, behind all that moves bodies in a step. One thread serves one body. A body wakes if it was disturbed. It counts how
-// long it has been fit to sleep, in steps that stand: slow, pushed by something, and not stirred. An island falls asleep when all of its
-// bodies have long been so, and what does not move bears one of them. follow_bodies and change_frame then take their motion.
+// long it has been fit to sleep, in steps that stand: near where it was, pushed by something, and not stirred. An island falls asleep when
+// all of its bodies have long been so, and what does not move bears one of them. follow_bodies and change_frame then take their motion.
+// Contacts make vertices tremble, at ten times the speed at which the body moves. So a body is slow that stays where it is, as in Jolt
+// Physics, and trembles with little energy.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/debt.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 READ(control)
+READ(body)
+READ(motion)
+READ(world_position)
+WRITE(slow_place)
 WRITE(status)
 READ(step_parts)
 READ(pressed)
@@ -15,6 +22,10 @@ READ(debt)
 SHARED_WRITE(contact_list)
 SHARED_WRITE(cluster)
 PARAMETER(uint, body_count)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
+PARAMETER(double, sleep_speed)  // [m/s]
+PARAMETER(double, sleep_way)    // a body may sleep that stays within this of where it was [m]
 
 const uint last_round = 1u;
 uint items_in_a_round() { return body_count; }
@@ -29,8 +40,40 @@ bool is_recent(uint part) { return part != 0u && step_parts[0].parts - part < he
 
 bool is_fit_to_sleep(uint b) { return cluster[b].is_stirred == 0u && is_recent(pressed[b]) && debt[b].energy == double(0); }
 
+// Of the k-th vertex that stands for the body.
+uint sample_in_half(uint b, uint k, uint half_index) {
+  return in_half(half_index, vertex_count, sample_vertex(body[b].first_vertex, body[b].vertex_count, k));
+}
+
+// Slow time begins where the step did.
+void begin_slow_time(uint b) {
+  for (uint k = 0u; k < sample_count; ++k) slow_place[sample_count * b + k] = world_position[sample_in_half(b, k, from_half)];
+}
+
+bool has_stayed(uint b) {
+  float farthest = 0.0f;
+  for (uint k = 0u; k < sample_count; ++k) {
+    vec4 gone = world_position[sample_in_half(b, k, other_half(from_half))] - slow_place[sample_count * b + k];
+    farthest = max(farthest, dot(gone, gone));
+  }
+  return double(farthest) <= sleep_way * sleep_way;
+}
+
+// Whether the mean of the squares of its speeds is small.
+bool trembles_little(uint b) {
+  double squares = double(0), most = tremble_ratio * sleep_speed * control[0].time_step;
+  for (uint k = 0u; k < sample_count; ++k) {
+    uint after = displacement_of(sample_in_half(b, k, other_half(from_half)));
+    dvec3 gone = LOAD3(motion, after) - LOAD3(motion, displacement_of(sample_in_half(b, k, from_half)));
+    squares += dot(gone, gone);
+  }
+  return squares <= double(sample_count) * most * most;
+}
+
 void count_slow_time(uint b) {
-  status[b].slow_for = is_fit_to_sleep(b) ? min(status[b].slow_for + float(control[0].time_step), sleeps_after) : 0.0f;
+  if (status[b].slow_for == 0.0f) begin_slow_time(b);
+  bool is_slow = is_fit_to_sleep(b) && trembles_little(b) && has_stayed(b);
+  status[b].slow_for = is_slow ? min(status[b].slow_for + float(control[0].time_step), sleeps_after) : 0.0f;
 }
 
 // What sleeps, or is at rest without that, keeps nobody awake.

@@ -25,7 +25,7 @@ WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
-PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been slower for long; 0: none does
+PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been so slow for long; 0: none does
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 #include "parts/full_lists.glsl"
@@ -92,7 +92,8 @@ void settle(uint i) {
   if (status[b].activity != moving || is_left_alone(b)) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
-  if (sleep_speed > double(0) && length(gone) > sleep_speed * control[0].time_step) ATOMIC_STORE(cluster[b].is_stirred, 1u);
+  double most = most_tremble_ratio * sleep_speed * control[0].time_step;
+  if (sleep_speed > double(0) && length(gone) > most) ATOMIC_STORE(cluster[b].is_stirred, 1u);
   dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));
   uint latest = surplus_of(0u, vertex_count, i), oldest = surplus_of(1u, vertex_count, i);
   dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);

@@ -20,6 +20,7 @@ ARRAY(body_box, BoxBits, body, step, "of the world positions at the step's end, 
 ARRAY(place_box, BoxBits, body, step, "the same of the places at the step's start, for contact by impulses")
 ARRAY(status, Status, body, carried, "[body + 1] whether the body moves, is deformed, is finite; behind them the first vertex of all that is not")
 ARRAY(tally, Tally, body, carried, "what was done for the body so far")
+ARRAY(slow_place, vec4, body, carried, "[body][16] where the vertices that stand for the body were when its slow time began [m]; w: 1. Only if bodies may sleep")
 ARRAY(slept, double, body, carried, "[body][4] energy that sleep has taken from the body's motion [J], then momentum that what bears it has taken for that [Ns]")
 ARRAY(meeting, uint, body, step, "arrivals of work groups that wait for each other within a step, 0 between steps")
 ARRAY(control, Control, run, carried, "the step's length, clock and counters")

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -61,11 +62,20 @@ double smallest_diameter(const Model& model) {
   return smallest;
 }
 
-// A body may sleep that stays slower than this [m/s]. What slides or falls with a tenth of gravity, up or down, can't do that for
-// as long as it takes to fall asleep.
+// A body may sleep that moves no faster than this [m/s], but for its trembling.
 double sleep_speed(const Model& model, double gravity) {
   const double by_size = sleep_diameters * smallest_diameter(model), gained = 0.1 * gravity * physics::sleeps_after;
   return gravity > 0 ? std::min(by_size, gained / 2) : by_size;
+}
+
+// A body may sleep that stays so near to where it was [m]. What slides or falls with a tenth of gravity, a, can't do that for the
+// time T that it takes to fall asleep. It stays nearest if it first goes up for a time t, by a t^2 / 2, and ends as far below: a
+// T^2 / 2 - a t T = a t^2 / 2. Then t = (sqrt(2) - 1) T.
+double sleep_way(const Model& model, double gravity) {
+  const double T = physics::sleeps_after;
+  const double by_size = sleep_diameters * smallest_diameter(model) * T;
+  const double turn = (std::numbers::sqrt2 - 1) * T, by_gravity = 0.1 * gravity * turn * turn / 2;
+  return gravity > 0 ? std::min(by_size, by_gravity) : by_size;
 }
 
 // Of bodies that move [m]. 0 if none does.
@@ -141,6 +151,7 @@ class Impulse final : public Response {
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
     bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_speed(setting.model, gravity_size()) : 0.0);
+    if (sleeps_) make_slow_places(setting.model);
     make_grounds(setting);
     make_step_parts();
     make_motions();
@@ -273,7 +284,7 @@ class Impulse final : public Response {
                                              {"part_count", part_count_},
                                              {"triangle_pair_capacity", triangle_pair_capacity_},
                                              {"contact_capacity", contact_capacity}}));
-    if (sleeps_) passes.push_back(round_pass("find_sleepers", {}));
+    if (sleeps_) passes.push_back(round_pass("find_sleepers", {{"from_half", from_half}}));
     return passes;
   }
 
@@ -284,6 +295,11 @@ class Impulse final : public Response {
     ground_count_ = static_cast<std::uint32_t>(grounds.size());
     if (grounds.empty()) grounds.push_back({});
     bodies_.arrays.make("ground", grounds);
+  }
+
+  void make_slow_places(const Model& model) {
+    bodies_.arrays.set_parameter("sleep_way", sleep_way(model, gravity_size()));
+    bodies_.arrays.make<glm::vec4>("slow_place", std::size_t{physics::sample_count} * bodies_.body_count);
   }
 
   void make_step_parts() {

@@ -11,9 +11,10 @@ namespace pliant {
 namespace {
 
 constexpr std::uint32_t sleepers = 3;
-constexpr double step = 0.125;  // [s]
+constexpr double step = 0.125;                      // [s]
+constexpr double sleep_speed = 1, sleep_way = 0.5;  // [m/s], [m]
 
-// Three bodies that have been slow for long. The first two are an island, of which a ground bears the first one.
+// Three bodies of a vertex that have been slow for long. The first two are an island, of which a ground bears the first one.
 struct Slumber {
   Slumber() {
     control.time_step = step;
@@ -21,6 +22,10 @@ struct Slumber {
     for (physics::Status& status : statuses) {
       status.pressed_by_static = 10;
       status.slow_for = 1;
+    }
+    for (std::uint32_t b = 0; b < sleepers; ++b) {
+      bodies[b].first_vertex = b;
+      bodies[b].vertex_count = 1;
     }
     statuses[1].pressed_by_static = 0;
     clusters[1].island = 0;
@@ -31,6 +36,13 @@ struct Slumber {
   std::vector<bool> fall_asleep(Device& device) {
     Arrays arrays(device);
     arrays.set_parameter("body_count", sleepers);
+    arrays.set_parameter("vertex_count", sleepers);
+    arrays.set_parameter("sleep_speed", sleep_speed);
+    arrays.set_parameter("sleep_way", sleep_way);
+    arrays.make("body", bodies);
+    arrays.make("motion", motion);
+    arrays.make("world_position", places);
+    auto& noted = arrays.make("slow_place", slow_places);
     arrays.make("control", std::vector{control});
     arrays.make("step_parts", std::vector{parts});
     arrays.make("pressed", pressed);
@@ -38,17 +50,30 @@ struct Slumber {
     arrays.make("cluster", clusters);
     arrays.make<physics::ContactList>("contact_list", 1);
     auto& known = arrays.make("status", statuses);
-    const Pass pass =
-        make_pass(arrays, "find_sleepers", device.round_kernel("find_sleepers"), {}, std::max(device.shares_at_once(), 1u));
+    const Pass pass = make_pass(arrays, "find_sleepers", device.round_kernel("find_sleepers"), {{"from_half", 0u}},
+                                std::max(device.shares_at_once(), 1u));
     device.run({&pass, 1});
     statuses = known.download();
+    slow_places = noted.download();
     std::vector<bool> fall;
     for (const physics::Status& status : statuses) fall.push_back(status.falls_asleep != 0);
     return fall;
   }
 
+  // The step moves a body from one place to another, by its centre.
+  void go(std::uint32_t b, float from, float to) {
+    places[b].x = from;
+    places[sleepers + b].x = to;
+    motion[physics::displacement_of(b)] = from;
+    motion[physics::displacement_of(sleepers + b)] = to;
+  }
+
   physics::Control control{};
   physics::StepParts parts{};
+  std::vector<physics::Body> bodies{sleepers};
+  std::vector<double> motion = std::vector<double>(2 * sleepers * physics::motion_size);
+  std::vector<glm::vec4> places = std::vector<glm::vec4>(2 * sleepers, glm::vec4(0, 0, 0, 1));
+  std::vector<glm::vec4> slow_places = std::vector<glm::vec4>(physics::sample_count * sleepers, glm::vec4(0, 0, 0, 1));
   std::vector<physics::Status> statuses{sleepers};
   std::vector<std::uint32_t> pressed{10, 9, 10};
   std::vector<physics::Debt> debts{sleepers};
@@ -103,6 +128,33 @@ TEST_CASE("a body sleeps after half a second of steps that stand, and after waki
         CHECK(status.asleep == 0);
         status.disturbed = 0;
       }
+    }
+  }
+}
+
+TEST_CASE("a body that stays where it is sleeps though it trembles, and one that goes on does not", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    struct Motion {
+      float speed;     // [m/s]
+      bool goes_back;  // in every other step
+      bool sleeps;
+    };
+    for (const Motion& m :
+         {Motion{0.9f, false, true}, Motion{1.1f, false, false}, Motion{1.9f, true, true}, Motion{2.1f, true, false}}) {
+      CAPTURE(m.speed, m.goes_back);
+      Slumber bodies;
+      for (physics::Status& status : bodies.statuses) status.slow_for = 0;
+      float place = 7;
+      int slept = 0;
+      for (int k = 0; k < 12; ++k) {
+        const float next = place + (m.goes_back && k % 2 == 1 ? -1.0f : 1.0f) * m.speed * static_cast<float>(step);
+        bodies.clusters = Slumber().clusters;
+        bodies.go(2, place, next);
+        slept += bodies.fall_asleep(*test.device)[2] ? 1 : 0;
+        place = next;
+      }
+      CHECK((slept > 0) == m.sleeps);
     }
   }
 }
