@@ -29,11 +29,13 @@ Json energy_json(const Summary& summary) {
 }
 
 Json contacts_json(const Summary& summary) {
-  const auto& [steps, pairs_max, reverted_vertices, substeps, energy_given, energy_taken, friction_work] = summary.contacts;
+  const auto& [steps, pairs_max, reverted_vertices, substeps, held_parts, energy_given, energy_taken, friction_work] =
+      summary.contacts;
   return {{"steps", steps},
           {"pairs_max", pairs_max},
           {"reverted_vertices", reverted_vertices},
           {"substeps", substeps},
+          {"held_parts", held_parts},
           {"energy_given", energy_given},
           {"energy_taken", energy_taken},
           {"friction_work", friction_work}};

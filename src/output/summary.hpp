@@ -44,6 +44,7 @@ struct Summary {
     std::uint64_t pairs_max = 0;          // most touching triangle pairs, or impulses, in one of them
     std::uint64_t reverted_vertices = 0;  // sum over the run
     std::uint64_t substeps = 0;           // parts that steps fell into, beyond one each
+    std::uint64_t held_parts = 0;         // parts of steps in which no body moved
     double energy_given = 0, energy_taken = 0, friction_work = 0;  // [J]
   } contacts;
   std::uint64_t bodies_asleep = 0;                        // at the end

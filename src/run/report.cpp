@@ -164,8 +164,14 @@ Summary summary_of(const RunStatus& status) {
   s.energy = {progress.first.energy(), progress.latest.energy(), {}};
   if (run.plan.damping_law == DampingLaw::none && report.contact_steps == 0)
     s.energy.max_drift = progress.largest_drift / std::max(progress.most_in_motion, smallest_energy(run.start.model));
-  s.contacts = {report.contact_steps,         report.contact_pairs_max,     report.reverted_vertices,     report.substeps,
-                report.response.energy_given, report.response.energy_taken, report.response.friction_work};
+  s.contacts = {.steps = report.contact_steps,
+                .pairs_max = report.contact_pairs_max,
+                .reverted_vertices = report.reverted_vertices,
+                .substeps = report.substeps,
+                .held_parts = report.held_parts,
+                .energy_given = report.response.energy_given,
+                .energy_taken = report.response.energy_taken,
+                .friction_work = report.response.friction_work};
   s.energy.slept = report.energy_slept;
   s.bodies_asleep = report.bodies_asleep;
   s.non_finite = report.breakdown && !report.breakdown->is_finite;

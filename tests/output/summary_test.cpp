@@ -49,8 +49,8 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "version"});
   CHECK(json["device"].keys() == Names{"kind", "name"});
   CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift", "slept"});
-  CHECK(json["contacts"].keys() ==
-        Names{"steps", "pairs_max", "reverted_vertices", "substeps", "energy_given", "energy_taken", "friction_work"});
+  CHECK(json["contacts"].keys() == Names{"steps", "pairs_max", "reverted_vertices", "substeps", "held_parts", "energy_given",
+                                         "energy_taken", "friction_work"});
   CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
   CHECK(json["skipped"].is_object());
   CHECK(json["timings_ms"].is_object());
@@ -71,6 +71,7 @@ TEST_CASE("a summary's values read back as they were") {
                       .pairs_max = 17,
                       .reverted_vertices = 5,
                       .substeps = 7,
+                      .held_parts = 4,
                       .energy_given = 0.25,
                       .energy_taken = 0.5,
                       .friction_work = 0.125};
@@ -92,7 +93,7 @@ TEST_CASE("a summary's values read back as they were") {
   const ReadJson contacts = json["contacts"];
   CHECK((contacts["steps"] == 2 && contacts["pairs_max"] == 17 && contacts["reverted_vertices"] == 5));
   CHECK((contacts["substeps"] == 7 && contacts["energy_given"] == 0.25 && contacts["energy_taken"] == 0.5));
-  CHECK(contacts["friction_work"] == 0.125);
+  CHECK((contacts["held_parts"] == 4 && contacts["friction_work"] == 0.125));
   CHECK(json["work"]["triangle_tests"] == 99);
   CHECK(json["skipped"].keys() == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);
