@@ -15,6 +15,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr int marked_frames = 21, quick_marked_frames = 3;
+constexpr double enough_time = 1;        // for marked frames [s]; three are made in any case
 constexpr double a_sixtieth = 1.0 / 60;  // [s]
 constexpr double warming_time = 0.3;     // [s]; clocks rise under load
 
@@ -58,7 +59,11 @@ PassTimes time_passes(Device& device, Drawing& drawing) {
 
 PassTimes median_passes(Device& device, Drawing& drawing, int frames) {
   std::vector<PassTimes> measured;
-  for (int frame = 0; frame < frames; ++frame) measured.push_back(time_passes(device, drawing));
+  double passed = 0;
+  for (int frame = 0; frame < frames && (frame < quick_marked_frames || passed < enough_time); ++frame) {
+    measured.push_back(time_passes(device, drawing));
+    for (const auto& [pass, milliseconds] : measured.back()) passed += 1e-3 * milliseconds;
+  }
   PassTimes medians = measured.front();
   for (std::size_t pass = 0; pass < medians.size(); ++pass) {
     std::vector<double> times;
@@ -82,6 +87,7 @@ double seconds_of(Device& device, Drawing& drawing, std::uint64_t steps, bool dr
 }
 
 std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
+  seconds_of(device, drawing, 1, true);  // builds the kernels
   const double steps_of_a_picture = a_sixtieth / seconds_of(device, drawing, 1, false);
   if (steps_of_a_picture < 1) return std::nullopt;
   std::vector<double> with, without;
@@ -106,8 +112,8 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
   const render::Detail detail = render::live_detail(gpu::context_of(device)->adapter().is_software);
   Drawing drawing(device, what, render::live_options(model, what.start.state, what.output, options.size, detail));
   const int frames = options.quick ? quick_marked_frames : marked_frames;
-  seconds_of(device, drawing, 1, true);  // builds the kernels
-  drawing.restart();
+  drawing.draw();  // builds the programs
+  device.finish();
   if (is_cold) warm_up(device, drawing);
   const Timing frame = seconds_each(device, options.quick ? quick_effort : Effort{}, [&] { drawing.draw(); });
   PassTimes passes = median_passes(device, drawing, frames);
