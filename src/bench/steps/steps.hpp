@@ -48,8 +48,8 @@ struct StepsResult {
   bool interrupted = false;        // by Progress
 };
 
-/// Runs the suite. It leaves out a run that would take over a minute, with a note. With `quick` it makes the same warm steps, but
-/// leaves out runs that take over a second, and crossovers. Throws Error.
+/// Runs the suite. It leaves out a run that would take over a minute by the pace of its first steps, with a note. With `quick` it
+/// makes the same warm steps, but leaves out runs that take over a second, and crossovers. Throws Error.
 [[nodiscard]] StepsResult bench_steps(const StepsOptions& options, const Progress& progress);
 
 /// Returns a crossover for every family and every number of threads of the CPU in it. Without rows of the GPU there is none.

@@ -153,6 +153,17 @@ TEST_CASE("a quick measurement leaves out what takes long, and a note says so") 
   CHECK_THAT(result.notes.back(), Catch::Contains("long on cpu") && Catch::Contains("left out of a quick measurement"));
 }
 
+// 10,000 bodies without springs to speak of: what a step costs can't be told from these. All steps would take hours.
+TEST_CASE("the whole measurement leaves out what would take over a minute, whatever its steps spend that on") {
+  const test::ScratchFolder folder;
+  std::ofstream(folder.path / "many.toml") << "[simulation]\ntime_step = 1e-7\nduration = 0.1\n[[body]]\nmesh = \"icosphere:0\"\n"
+                                              "count = [100, 1, 100]\nspacing = [3, 0, 3]\nvelocity = [0, 1, 0]\n";
+  const StepsResult result =
+      bench_steps({.devices = {.threads = 1}, .scenes = folder.path}, [](double, std::string_view) { return true; });
+  CHECK(result.rows.empty());
+  CHECK_THAT(result.notes.back(), Catch::Contains("many on cpu") && Catch::Contains("left out, as it would take about"));
+}
+
 TEST_CASE("a suite told to end has the rows that were finished") {
   Told told;
   told.most = 2;
