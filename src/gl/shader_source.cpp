@@ -39,6 +39,15 @@ Include parse_include(std::string_view line) {
   return {line.substr(open + 1, close - open - 1), line[open] == '"'};
 }
 
+/// A line of a conditional, as far as flattening may decide it.
+enum class Conditional { none, begins, turns, ends };
+Conditional conditional_of(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (line.starts_with("#if")) return Conditional::begins;
+  if (line.starts_with("#else") || line.starts_with("#elif")) return Conditional::turns;
+  return line.starts_with("#endif") ? Conditional::ends : Conditional::none;
+}
+
 class Flattener {
  public:
   Flattener(std::span<const ShaderFile> files, std::span<const Define> defines) : files_(files), defines_(defines) {}
@@ -66,7 +75,7 @@ class Flattener {
     auto place = version == lines_.end() ? lines_.begin() : version + 1;
     int number = 0;
     for (const auto& [name, value] : defines_) {
-      if (name.starts_with('@')) continue;
+      if (name.starts_with('@') || name.starts_with('!')) continue;
       place = lines_.insert(place, {fmt::format("#define {} {}", name, value), {"<defines>", ++number}}) + 1;
     }
   }
@@ -84,7 +93,40 @@ class Flattener {
                 "rebuild pliant, so that every file below shaders/ is embedded");
   }
 
+  struct Branch {
+    bool is_decided, is_kept;  // not decided: the driver does
+  };
+
+  // Returns whether the conditional that this line begins is decided here, and whether its first branch stays.
+  Branch branch_of(std::string_view line) const {
+    for (const auto& [name, value] : defines_) {
+      const bool is_defined = !name.starts_with('!');
+      const std::string_view plain = std::string_view(name).substr(is_defined ? 0 : 1);
+      if (line == fmt::format("#ifdef {}", plain)) return {true, is_defined};
+      if (line == fmt::format("#ifndef {}", plain)) return {true, !is_defined};
+    }
+    return {false, true};
+  }
+
+  // Returns whether the line belongs to a conditional that is decided here.
+  bool follow_conditional(std::string_view line) {
+    const Conditional kind = conditional_of(line);
+    if (kind == Conditional::begins) branches_.push_back(branch_of(line));
+    if (kind == Conditional::none || branches_.empty() || !branches_.back().is_decided) {
+      if (kind == Conditional::ends && !branches_.empty()) branches_.pop_back();
+      return false;
+    }
+    if (kind == Conditional::turns) branches_.back().is_kept = !branches_.back().is_kept;
+    if (kind == Conditional::ends) branches_.pop_back();
+    return true;
+  }
+
   void append_line(std::string_view line, FlatShader::Origin origin) {
+    const bool is_decided = follow_conditional(line);
+    if (is_decided || !std::ranges::all_of(branches_, &Branch::is_kept)) {
+      lines_.push_back({"", origin});
+      return;
+    }
     const Include include = parse_include(line);
     if (include.name.empty()) {
       lines_.push_back({std::string(line), origin});
@@ -110,6 +152,7 @@ class Flattener {
   std::span<const ShaderFile> files_;
   std::span<const Define> defines_;
   std::vector<std::string_view> included_;
+  std::vector<Branch> branches_;  // that the line in hand stands in
   std::vector<Line> lines_;
 };
 

@@ -16,7 +16,8 @@ struct ShaderFile {
 [[nodiscard]] std::span<const ShaderFile> embedded_shaders();
 
 /// Name and value of a #define. A name that starts with '@' is a virtual include instead: `#include "@kernel"` reads the file
-/// that the value names.
+/// that the value names. A name behind '!' is not defined. #ifdef and #ifndef of names that are defined, or not defined in this
+/// way, are decided while flattening: what is left out includes nothing and declares nothing. Others are left to the driver.
 using Define = std::pair<std::string, std::string>;
 
 struct FlatShader {

@@ -14,13 +14,13 @@ const ArrayRow& row_of(std::string_view name) {
   return *row;
 }
 
-const Parameter* find_parameter(const Arrays& arrays, Parameters own, std::string_view name) {
-  const auto* const found = std::ranges::find(own, name, &std::pair<std::string_view, Parameter>::first);
+const Parameter* find_parameter(const Arrays& arrays, const Parameters& own, std::string_view name) {
+  const auto found = std::ranges::find(own, name, &Parameters::value_type::first);
   return found != own.end() ? &found->second : arrays.parameter(name);
 }
 
-Parameter parameter_of(const Arrays& arrays, std::string_view kernel, Parameters own, const KernelSignature::Number& declared,
-                       std::uint32_t item_count) {
+Parameter parameter_of(const Arrays& arrays, std::string_view kernel, const Parameters& own,
+                       const KernelSignature::Number& declared, std::uint32_t item_count) {
   const Parameter count = item_count;
   const Parameter* const value = declared.name == "item_count" ? &count : find_parameter(arrays, own, declared.name);
   if (value == nullptr) throw std::logic_error(fmt::format("{}: the parameter \"{}\" has no value", kernel, declared.name));
@@ -34,7 +34,7 @@ std::logic_error not_made(std::string_view name) {
   return std::logic_error(fmt::format("nobody has made the array \"{}\"", name));
 }
 
-void expect_declared(std::string_view kernel, const KernelSignature& signature, Parameters own) {
+void expect_declared(std::string_view kernel, const KernelSignature& signature, const Parameters& own) {
   for (const auto& [name, value] : own)
     if (std::ranges::find(signature.parameters, name, &KernelSignature::Number::name) == signature.parameters.end())
       throw std::logic_error(fmt::format("{}: the kernel declares no parameter \"{}\"", kernel, name));
@@ -100,11 +100,12 @@ std::vector<CarriedArray> Arrays::carried() const {
   return carried;
 }
 
-Pass make_pass(const Arrays& arrays, std::string_view name, Parameters parameters, std::uint32_t item_count) {
+Pass make_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters, std::uint32_t item_count) {
   return make_pass(arrays, name, arrays.device().kernel(name), parameters, item_count);
 }
 
-Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Parameters parameters, std::uint32_t item_count) {
+Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, const Parameters& parameters,
+               std::uint32_t item_count) {
   const KernelSignature& signature = arrays.device().signature(kernel);
   expect_declared(name, signature, parameters);
   Pass pass{.name = name, .call = {.kernel = kernel, .buffers = {}, .parameters = {}}, .item_count = item_count};

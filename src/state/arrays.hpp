@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,6 +25,7 @@
 #include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
 #include "physics/pull.glsl"
+#include "physics/quiet.glsl"
 #include "physics/rigid_motion.glsl"
 
 namespace pliant {
@@ -73,6 +73,8 @@ PLIANT_ELEMENT(physics::Debt, "Debt")
 PLIANT_ELEMENT(physics::Cluster, "Cluster")
 PLIANT_ELEMENT(physics::Impact, "Impact")
 PLIANT_ELEMENT(physics::Aim, "Aim")
+PLIANT_ELEMENT(physics::QuietBody, "QuietBody")
+PLIANT_ELEMENT(physics::QuietSteps, "QuietSteps")
 PLIANT_ELEMENT(physics::GripVertex, "GripVertex")
 #undef PLIANT_ELEMENT
 
@@ -146,15 +148,15 @@ class Arrays {
   std::map<std::string, Parameter, std::less<>> parameters_;
 };
 
-using Parameters = std::initializer_list<std::pair<std::string_view, Parameter>>;
+using Parameters = std::vector<std::pair<std::string_view, Parameter>>;  // by name
 
 /// Returns a dispatch of a kernel, with the arrays that it names. The kernel's parameters are found by name: in `parameters`,
 /// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error if an array or a parameter
 /// is missing or of another type, or if the kernel does not declare a parameter. A view (READ_AS) is of another type if its
 /// numbers are of another type than the array's. The error names the kernel and the array or parameter.
-[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, Parameters parameters, std::uint32_t item_count);
+[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters, std::uint32_t item_count);
 /// Does the same for a kernel in a variant. `name` is for reports.
-[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, Parameters parameters,
+[[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, const Parameters& parameters,
                              std::uint32_t item_count);
 
 }  // namespace pliant

@@ -17,6 +17,10 @@ constexpr ShaderFile files[] = {
     {"compute/physics/shared.glsl", "#include <glm/vec3.hpp>\nfloat shared_line;\n"},
     {"compute/kernels/one.glsl", "  #include \"../physics/shared.glsl\"\nfloat kernel_line;"},
     {"compute/virtual.comp", "#version 450\n#include \"@kernel\"\n"},
+    {"compute/branches.comp",
+     "#version 450\n#ifdef LANES\n#include \"kernels/one.glsl\"\n#else\nfloat without;\n#endif\n#ifdef GL_KHR\n#ifndef "
+     "TILE\nfloat untiled;\n"
+     "#endif\n#else\nfloat other;\n#endif\n"},
     {"compute/lost.comp", "#version 450\n\n#include \"nowhere.glsl\"\n"},
 };
 
@@ -61,6 +65,26 @@ TEST_CASE("a virtual include reads the file that its define names") {
   CHECK(count(flat.text, "float kernel_line;") == 1);
   CHECK(count(flat.text, "#define") == 0);
   CHECK_THROWS_AS(flatten_shader(files, "compute/virtual.comp"), Error);
+}
+
+TEST_CASE("conditionals on names that are defined, or said not to be, are decided, and others are left to the driver") {
+  const auto flat = [](const char* lanes, const char* tile) {
+    const Define defines[] = {{lanes, "64"}, {tile, ""}};
+    const auto shader = flatten_shader(files, "compute/branches.comp", defines);
+    CHECK(count(shader.text, "\n") == shader.origins.size());
+    return shader.text;
+  };
+  const std::string defined = flat("LANES", "!TILE"), not_defined = flat("!LANES", "TILE");
+  CHECK(count(defined, "float kernel_line;") == 1);
+  CHECK(count(defined, "float without;") == 0);
+  CHECK(count(defined, "float untiled;") == 1);
+  CHECK(count(not_defined, "float kernel_line;") == 0);
+  CHECK(count(not_defined, "float without;") == 1);
+  CHECK(count(not_defined, "float untiled;") == 0);
+  CHECK(count(defined, "#if") == 1);  // the driver's own
+  CHECK(count(defined, "#else") == 1);
+  CHECK(count(not_defined, "float other;") == 1);
+  CHECK(count(not_defined, "#define") == 1);
 }
 
 TEST_CASE("a missing shader file is an error that names who asked for it") {
