@@ -24,6 +24,13 @@
 #error VERTICES is 1, 2 or 4
 #endif
 
+#ifdef TILE
+#if TILE % (PLAINLY * LANES) != 0
+#error TILE is a multiple of PLAINLY LANES, so that sums are the same bits as without
+#endif
+shared vec4 seen[TILE];         // x, and u.x
+shared vec2 seen_beside[TILE];  // u.y, u.z
+#endif
 #if LANES == 1
 layout(local_size_x = TEAMS) in;
 #else
@@ -32,13 +39,6 @@ layout(local_size_x = TEAMS) in;
 #endif
 const uint runs_of_lanes = 8u;
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
-#ifdef TILE
-#if TILE % (PLAINLY * LANES) != 0
-#error TILE is a multiple of PLAINLY LANES, so that sums are the same bits as without
-#endif
-shared vec4 seen[TILE];         // x, and u.x
-shared vec2 seen_beside[TILE];  // u.y, u.z
-#endif
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // [axis][vertex][lane], later runs' totals and rests as sum_run() leaves them
 #endif
 PARAMETER(uint, item_count)  // shares
@@ -84,7 +84,7 @@ uint vertex_of(Share s, uint place) { return s.first_vertex + min(place, s.verte
 #define PAIR(k) add_spring(sum##k, x##k - other_x, u##k - other_u, weight);
 #define CLOSE(k) add(total##k, rest##k, sum##k);
 
-#if defined(TILE) && LANES > 1
+#ifdef TILE
 #define SEE(j) vec3 other_x = seen[j].xyz, other_u = vec3(seen[j].w, seen_beside[j]);
 #else
 #define SEE(j) vec3 other_x = placed[j].xyz, other_u = placed[(j) + vertex_count].xyz;
@@ -133,6 +133,17 @@ const uint stride = PLAINLY * LANES;
     EACH(CLOSE)                                                                                     \
   }
 
+#ifdef TILE
+// Fetches vertices of the body into shared memory, from the group's own view of what others write.
+void fetch(uint from, uint count) {
+  for (uint j = gl_LocalInvocationID.x; j < count; j += gl_WorkGroupSize.x) {
+    vec3 x = placed[from + j].xyz, u = placed[from + j + vertex_count].xyz;
+    seen[j] = vec4(x, u.x);
+    seen_beside[j] = u.yz;
+  }
+}
+#endif
+
 #if LANES == 1
 void finish(uint i, Share s, dvec3 force) {
   double squared = dot(force, force);
@@ -150,7 +161,17 @@ void serve(Share s, bool sums) {
   if (!runs(s)) return;
   if (team == 0u && s.first_vertex == s.body.first_vertex) count_force(s, sums);
   EACH(OWN)
+#ifdef TILE
+  for (uint tile = 0u; sums && tile < s.body.vertex_count; tile += TILE) {
+    uint count = min(s.body.vertex_count - tile, uint(TILE));
+    barrier();
+    fetch(base + s.body.first_vertex + tile, count);
+    barrier();
+    SUM_SPRINGS(0u, count)
+  }
+#else
   if (sums) { SUM_SPRINGS(base + s.body.first_vertex, base + s.body.first_vertex + s.body.vertex_count) }
+#endif
   EACH(FINISH)
 }
 #else
@@ -170,14 +191,6 @@ vec3 load_partial(uint at) {
 
 #define STORE(k) store_partial(PLACE(k) * LANES + lane, total##k);
 #ifdef TILE
-void fetch(uint from, uint count) {
-  for (uint j = gl_LocalInvocationID.x; j < count; j += gl_WorkGroupSize.x) {
-    vec3 x = placed[from + j].xyz, u = placed[from + j + vertex_count].xyz;
-    seen[j] = vec4(x, u.x);
-    seen_beside[j] = u.yz;
-  }
-}
-
 void sum_lanes(Share s, bool sums) {
   bool adds = gl_LocalInvocationID.x < LANES * TEAMS;
   uint team = min(gl_LocalInvocationID.x / LANES, TEAMS - 1u), lane = gl_LocalInvocationID.x % LANES, base = placed_from();
@@ -242,9 +255,12 @@ void serve(Share s, bool sums) {
 #endif
 
 #ifdef TILE
-// Waits until every group of the body has come here `often` times. All of them run at once, so none waits in vain. If a driver holds
+uint meetings = 0u;
+
+// Waits until every group of the body has come here as often. All of them run at once, so none waits in vain. If a driver holds
 // some of them back all the same, the body halts after most_polls, and nobody waits any more.
-void wait_for_others(Share s, uint often) {
+void meet_others(Share s) {
+  ++meetings;
   const uint share_size = VERTICES * TEAMS;
   uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
   memoryBarrierBuffer();
@@ -252,7 +268,7 @@ void wait_for_others(Share s, uint often) {
   if (groups == 1u) return;
   if (gl_LocalInvocationID.x == 0u) {
     atomicAdd(meeting[s.body_index], 1u);
-    while (atomicAdd(meeting[s.body_index], 0u) < groups * often && polls < most_polls) ++polls;
+    while (atomicAdd(meeting[s.body_index], 0u) < groups * meetings && polls < most_polls) ++polls;
     if (polls == most_polls) {
       status[s.body_index].activity = halted_waiting;
       atomicOr(meeting[s.body_index], 1u << 31);
@@ -262,6 +278,11 @@ void wait_for_others(Share s, uint often) {
   barrier();
 }
 
+#ifdef KICKS_FIRST
+const bool kicks_first = true;
+#else
+const bool kicks_first = false;
+#endif
 shared bool group_sums;  // one thread asks for it, so that all threads of the group go the same way
 
 void serve_stages(Share s) {
@@ -269,7 +290,7 @@ void serve_stages(Share s) {
   if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
   barrier();
   for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
-    if (group_sums && stage_index > 0u) wait_for_others(s, stage_index);
+    if (group_sums && (stage_index > 0u || kicks_first)) meet_others(s);
     barrier();  // shared memory changes from here on
     serve(s, group_sums);
   }
@@ -280,7 +301,12 @@ void serve_stages(Share s) {
 }
 #endif
 
+#ifdef QUIET
+#include "kernels/parts/quiet_steps.glsl"
+void main() { make_quiet_steps(gl_WorkGroupID.x, item_count); }
+#else
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   if (group < item_count) serve_stages(share[first_share + group]);
 }
+#endif

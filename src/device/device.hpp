@@ -58,10 +58,13 @@ struct Pass {
 /// One way of summing springs that a device knows: its name says how.
 struct ForceVariant {
   std::string name;
-  std::uint32_t share_size = 0;  // vertices that one item of a force kernel serves, at most
-  bool all_stages = false;       // whether its kernels can run every stage of a step in one dispatch
+  std::uint32_t share_size = 0;              // vertices that one item of a force kernel serves, at most
+  bool all_stages = false;                   // whether its kernels can run every stage of a step in one dispatch
   std::uint32_t largest_body = 0xffffffffu;  // in vertices: beyond, others are always faster
 };
+
+/// What one dispatch of a force kernel makes.
+enum class ForceSpan { stage, step, quiet_steps };
 
 enum class DeviceKind { cpu, gpu };
 /// Returns "cpu" or "gpu".
@@ -99,9 +102,11 @@ class Device {
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
   /// most shares_at_once() of them, or one.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;
-  /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. With
-  /// `all_stages` it runs every stage of a step (kernels/parts/stages.glsl) in one dispatch. Unless each body is one share, it has at most shares_at_once() items.
-  [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages = false) = 0;
+  /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
+  /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one
+  /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, which take shares in turn. There
+  /// are at most shares_at_once() of them, or one, and as many as shares unless each body is one share.
+  [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span = ForceSpan::stage) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
   /// Returns how many items of a force kernel or a kernel in rounds run side by side, so that they may wait for each other. It is
   /// 0 if that is not known. If they do not, they wait some seconds, and the simulation then throws.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "core/expect.hpp"
@@ -89,19 +90,21 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
-  bodies.arrays.make<double>("kept_force", coordinates);
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
     bodies.make_placements(physics::slots_of_stages);
     bodies.arrays.make<double>("acceleration", coordinates * stage_count_);
+    bodies.arrays.make<double>("kept_force", 1);  // frames name it in any case
   } else {
     const auto& splitting = std::get<Splitting>(integrator.method);
     stage_count_ = static_cast<std::uint32_t>(splitting.drift.size());
     bodies.make_placements(physics::slots_of_splitting(stage_count_));
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
+    bodies.arrays.make<double>("kept_force", 2 * coordinates);
   }
+  bodies.arrays.set_parameter("keeps_force", staged_method(integrator) == nullptr ? 1u : 0u);
   bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
 }
 
@@ -144,11 +147,12 @@ Pass Stepper::restating_pass(std::uint32_t from_half) const {
   return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
-std::vector<Pass> Stepper::refresh_passes() const {
+std::vector<Pass> Stepper::refresh_passes(std::uint32_t from_half) const {
   std::vector<Pass> passes;
   for (const ForceGroup& group : bodies_.force_groups) {
     const KernelId kernel = bodies_.arrays.device().force_kernel("refresh_force", group.variant);
-    passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel, {{"first_share", group.first_share}}, group.share_count));
+    passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel,
+                               {{"from_half", from_half}, {"first_share", group.first_share}}, group.share_count));
   }
   run_together(passes);
   return passes;
@@ -162,41 +166,71 @@ std::vector<Pass> Stepper::force_passes(const StageState& at) const {
 
 std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half,
                                         const StateOfStage& state_of_stage) const {
-  const bool comes_between = adds_force() != 0;  // added forces come between stages
-  const auto passes_of = [&](std::uint32_t stage, bool at_once) {
+  const bool comes_between = adds_force() != 0;                     // added forces come between stages
+  const auto passes_of = [&](std::optional<std::uint32_t> stage) {  // none: all stages at once
     std::vector<Pass> of_groups;
-    for (const ForceGroup& group : bodies_.force_groups)
-      if ((group.all_stages && !comes_between) == at_once)
-        of_groups.push_back(make_pass(bodies_.arrays, name, bodies_.arrays.device().force_kernel(name, group.variant, at_once),
-                                      {{"from_half", from_half},
-                                       {"damping_law", law_},
-                                       {"adds_force", adds_force()},
-                                       {"stage_index", stage},
-                                       {"stage_count", stage_count_},
-                                       {"first_share", group.first_share}},
-                                      group.share_count));
+    for (const ForceGroup& group : bodies_.force_groups) {
+      if ((group.all_stages && !comes_between) == stage.has_value()) continue;
+      const KernelId kernel =
+          bodies_.arrays.device().force_kernel(name, group.variant, stage ? ForceSpan::stage : ForceSpan::step);
+      Parameters parameters = {{"from_half", from_half},
+                               {"damping_law", law_},
+                               {"adds_force", adds_force()},
+                               {"stage_count", stage_count_},
+                               {"first_share", group.first_share}};
+      if (stage) parameters.emplace_back("stage_index", *stage);
+      of_groups.push_back(make_pass(bodies_.arrays, name, kernel, parameters, group.share_count));
+    }
     run_together(of_groups);
     return of_groups;
   };
-  std::vector<Pass> passes = passes_of(0, true);
+  std::vector<Pass> passes = passes_of({});
   for (std::uint32_t stage = 0; stage < stage_count_; ++stage) {
-    std::vector<Pass> of_stage = passes_of(stage, false);
+    std::vector<Pass> of_stage = passes_of(stage);
     if (!of_stage.empty()) std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
     std::ranges::move(of_stage, std::back_inserter(passes));
   }
   return passes;
 }
 
+// Groups of many lanes have fewer registers than this kernel takes, so that a GPU runs fewer of them at once: an H200 with 132
+// multiprocessors ran 20 of 672 threads, but not 34.
+bool Stepper::makes_quiet_steps() const {
+  if (adds_force() != 0 || bodies_.force_groups.size() != 1 || !bodies_.force_groups[0].all_stages) return false;
+  if (bodies_.force_groups[0].share_count <= bodies_.arrays.device().shares_at_once() / 8) return true;
+  const auto is_whole_body = [](const physics::Share& share) { return share.vertex_count == share.body.vertex_count; };
+  return std::ranges::all_of(bodies_.shares.download(), is_whole_body);
+}
+
+Pass Stepper::quiet_pass(std::uint32_t first_half) const {
+  PLIANT_EXPECT(makes_quiet_steps());
+  const ForceGroup& group = bodies_.force_groups[0];
+  const std::uint32_t work_groups = std::clamp(bodies_.arrays.device().shares_at_once(), 1u, group.share_count);
+  Parameters parameters = {{"first_half", first_half},
+                           {"damping_law", law_},
+                           {"stage_count", stage_count_},
+                           {"first_share", group.first_share},
+                           {"share_count", group.share_count}};
+  const auto* splitting = std::get_if<Splitting>(&integrator_.method);
+  if (splitting != nullptr) {
+    parameters.emplace_back("first_kick_time", seconds(splitting->kick[0], time_step_));
+    parameters.emplace_back("first_drift_time", seconds(splitting->drift[0], time_step_));
+  }
+  const KernelId kernel = bodies_.arrays.device().force_kernel(splitting != nullptr ? "splitting_stage" : "runge_kutta_stage",
+                                                               group.variant, ForceSpan::quiet_steps);
+  return make_pass(bodies_.arrays, "quiet_steps", kernel, parameters, work_groups);
+}
+
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
   const double first_kick = seconds(method.kick[0], time_step_);
-  std::vector<Pass> result = refresh_passes();
+  std::vector<Pass> result = refresh_passes(from_half);
   std::ranges::move(force_passes({physics::start_slot, from_half, 0, first_kick}), std::back_inserter(result));
   result.push_back(make_pass(bodies_.arrays, "first_kick",
                              {{"from_half", from_half},
                               {"damping_law", law_},
                               {"adds_force", adds_force()},
-                              {"kick_time", first_kick},
-                              {"drift_time", seconds(method.drift[0], time_step_)}},
+                              {"first_kick_time", first_kick},
+                              {"first_drift_time", seconds(method.drift[0], time_step_)}},
                              bodies_.vertex_count));
   const auto state_of_stage = [&](std::uint32_t stage) {
     return StageState{physics::slot_of_force(stage), physics::other_half(from_half), 0,

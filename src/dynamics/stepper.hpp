@@ -35,7 +35,12 @@ class Stepper {
   [[nodiscard]] Pass following_pass(std::uint32_t from_half) const;
   [[nodiscard]] Pass restating_pass(std::uint32_t from_half) const;
   /// Sums the spring forces at the step's start, for bodies whose kept ones are stale. It is part of a splitting's step.
-  [[nodiscard]] std::vector<Pass> refresh_passes() const;
+  [[nodiscard]] std::vector<Pass> refresh_passes(std::uint32_t from_half) const;
+
+  /// Whether it can make quiet steps (physics/quiet.glsl).
+  [[nodiscard]] bool makes_quiet_steps() const;
+  /// Returns the pass that makes quiet steps, the first of them from this half. Other passes have set bounds for it.
+  [[nodiscard]] Pass quiet_pass(std::uint32_t first_half) const;
 
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 

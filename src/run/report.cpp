@@ -182,6 +182,7 @@ Summary summary_of(const RunStatus& status) {
   s.skipped = {{"force_evaluations", report.forces_skipped},
                {"bodies_at_rest", report.steps_at_rest},
                {"bodies_asleep", report.steps_asleep},
+               {"quiet_steps", report.quiet_steps},
                {"body_pairs", report.body_pairs_skipped},
                {"tree_refits", report.refits_skipped}};
   s.timings_ms = {{"load", 1e3 * times.loading.seconds()},

@@ -98,6 +98,8 @@ void Simulation::skip(bool skips) {
   bodies_.arrays.set_parameter("skips", skips ? 1u : 0u);
   if (!skips) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
+  quiet_.reset();
+  if (skips && !pacer_) quiet_.emplace(bodies_, stepper_, collider_.response());
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -106,14 +108,17 @@ std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
 
 void Simulation::queue(std::uint64_t steps) {
   known_control_.reset();
-  is_restored_ = false;
+  is_anew_ = false;
   for (std::uint64_t k = 0; k < steps; ++k) {
-    const std::vector<Pass>& step = schedules_[queued_steps_++ & 1];
-    if (timed_)
-      run_timed(device_, step, pass_seconds_);
-    else
-      device_.run(step);
+    run(schedules_[queued_steps_++ & 1]);
   }
+}
+
+void Simulation::run(std::span<const Pass> passes) {
+  if (timed_)
+    run_timed(device_, passes, pass_seconds_);
+  else
+    device_.run(passes);
 }
 
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
@@ -121,10 +126,24 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
   if (parts() == nullptr) return queue(steps);
   const std::uint64_t target = parts()->download().front().steps + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
-    queue(left);
+    const std::uint64_t quiet = make_quiet_steps(left);
+    if (quiet == 0) queue(quiet_ && quiet_->are_known() ? std::min(left, busy_steps_) : left);
     left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
     if (left > 0 && stops && stops()) return;
   }
+}
+
+// What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
+// twice as many each time.
+std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
+  if (!quiet_ || !quiet_->are_known() || is_anew_ || most < physics::fewest_quiet_steps) return 0;
+  quiet_->aim_at(most);
+  run(quiet_->passes(half()));
+  const std::uint32_t made = quiet_->made();
+  busy_steps_ = made > 0 ? 1 : std::min(2 * busy_steps_, most_steps_at_once);
+  queued_steps_ += made;
+  known_control_.reset();
+  return made;
 }
 
 const DeviceArray<physics::StepParts>* Simulation::parts() const {
@@ -134,6 +153,7 @@ const DeviceArray<physics::StepParts>* Simulation::parts() const {
 void Simulation::add_parts(StepReport& report) const {
   const physics::StepParts made = parts()->download().front();
   report.held_parts = made.held;
+  report.quiet_steps = made.quiet;
   if (pacer_) return;
   report.steps = made.steps;
   const double part_over = 1 - made.left / static_cast<double>(physics::smallest_parts);  // of the step in hand
@@ -226,7 +246,7 @@ std::string Simulation::save() {
 void Simulation::restore(std::string_view saved) {
   ByteReader from(saved);
   known_control_.reset();
-  is_restored_ = true;
+  is_anew_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);
   bodies_.begin_anew();
@@ -245,7 +265,7 @@ std::vector<std::uint32_t> Simulation::touching_vertices() {
 }
 
 std::vector<ContactImpulse> Simulation::contact_impulses() {
-  if (is_restored_ || collider_.response() == nullptr) return {};
+  if (is_anew_ || collider_.response() == nullptr) return {};
   return collider_.response()->contact_impulses();
 }
 

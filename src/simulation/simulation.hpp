@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
+#include "simulation/quiet_steps.hpp"
 #include "simulation/step_passes.hpp"
 #include "simulation/time_plan.hpp"
 #include "state/device_bodies.hpp"
@@ -59,6 +61,7 @@ struct StepReport {
   std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body
   std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
+  std::uint64_t quiet_steps = 0;            // steps that were known beforehand to have no contacts
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
@@ -137,6 +140,8 @@ class Simulation {
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
+  void run(std::span<const Pass> passes);
+  [[nodiscard]] std::uint64_t make_quiet_steps(std::uint64_t most);
   void add_pace(StepReport& report);
   void add_parts(StepReport& report) const;
   [[nodiscard]] const DeviceArray<physics::StepParts>* parts() const;
@@ -150,10 +155,12 @@ class Simulation {
   std::optional<Pacer> pacer_;                     // empty: steps have a fixed length
   physics::Pace known_pace_{};                     // of the latest report
   double fixed_step_;                              // length of a step without a pacer [s]
+  std::optional<QuietSteps> quiet_;                // empty: what is known beforehand is not left out
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
-  bool timed_ = false, is_restored_ = false;       // restored: no step has been queued since
+  std::uint64_t busy_steps_ = 1;                   // to queue before quiet ones are tried again
+  bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
 };
 

@@ -71,7 +71,7 @@ std::vector<std::size_t> best_force_variants(const Device& device, const Model& 
     if (!body.is_static) largest = std::max(largest, body.vertex_count);
   const std::size_t best_for_one = device.best_force_variant(model.vertex_count(), model.vertex_count());
   for (std::size_t variant = best_for_one; variant < device.force_variants().size(); ++variant) {
-    if (device.shares_at_once() == 0 || largest > device.force_variants()[variant].largest_body) continue;
+    if (largest > device.force_variants()[variant].largest_body) continue;
     std::vector<std::size_t> same(model.bodies.size(), variant);
     const std::vector<ForceGroup> groups = groups_of(device, model, same);
     if (groups.size() == 1 && groups[0].all_stages) return same;

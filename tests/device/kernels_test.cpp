@@ -193,6 +193,10 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       check_structs<physics::FrameChange>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "BoxBits") {
       check_structs<physics::BoxBits>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
+    } else if (element == "QuietSteps") {
+      check_structs<physics::QuietSteps>(cpu, gpu, a, b, 1, 1e-13);
+    } else if (element == "QuietBody") {
+      check_structs<physics::QuietBody>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
     } else if (element == "Room") {
       check_structs<physics::Room>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-6);
     } else if (element == "Status") {
@@ -272,6 +276,37 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
   CHECK(cpu.bodies.control.download().front().contact_steps > 0);
 }
 
+// What stands around quiet steps, behind a whole step. The steps between are left out.
+void compare_quiet_passes(std::set<std::string_view>& seen) {
+  std::vector<BodySetup> setups(2, sphere(1));
+  setups[0].description.velocity = {-1, 0, 0};
+  setups[1].description.position = {20, 0, 0};
+  GroundDescription ground;
+  ground.point = {0, -12, 0};
+  const ModelAndState start = build_model(setups, {0, -1, 0}, {&ground, 1});
+  const CollisionDescription impulses{.response = {"impulse"}};
+  Bench cpu(make_cpu_device(2, 32), start, {"verlet", 0.01}, impulses),
+      gpu(make_gpu_device(0), start, {"verlet", 0.01}, impulses);
+  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0};
+  for (Bench* bench : {&cpu, &gpu}) {
+    bench->bodies.arrays.make("quiet_steps", std::vector{asked});
+    bench->bodies.arrays.make<physics::QuietBody>("quiet_body", 2);
+    bench->begin();
+    bench->device->run(bench->step(0));
+  }
+  const auto passes_of = [](const Bench& bench) {
+    std::vector<Pass> passes = bench.collider.response()->before_quiet_steps(1);
+    std::ranges::copy(bench.collider.response()->after_quiet_steps(), std::back_inserter(passes));
+    return passes;
+  };
+  const std::vector<Pass> cpu_passes = passes_of(cpu), gpu_passes = passes_of(gpu);
+  for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
+    compare_pass(cpu, gpu, cpu_passes[k], gpu_passes[k]);
+    seen.insert(cpu_passes[k].name);
+  }
+  CHECK(cpu.bodies.control.download().front().step == 7);
+}
+
 std::uint32_t frame_changes(const Bench& bench) {
   std::uint32_t changes = 0;
   for (const physics::Tally& tally : bench.bodies.tallies.download()) changes += tally.frame_changes;
@@ -329,6 +364,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
     rejected_for_error += pace.rejected - pace.rejected_in_contact;
   }
   CHECK((rejected_for_error > 0 && rejected_in_contact > 0));
+  compare_quiet_passes(seen);
   std::size_t kernel_count = own_kernel_files().size();
   for (const gl::ShaderFile& file : gl::embedded_shaders())
     if (file.name.starts_with("compute/kernels/") && file.name.find("/parts/") == std::string_view::npos) ++kernel_count;

@@ -139,7 +139,18 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
 inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
+  return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts), double(parts.quiet)};
+}
+
+inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {
+  return {double(steps.end), double(steps.undone), double(steps.arrivals)};
+}
+
+inline std::vector<double> numbers_of(const physics::QuietBody& body) {
+  std::vector<double> numbers{double(body.room), double(body.frame_changes)};
+  for (const float* bounds : {body.lower, body.upper, body.least_velocity, body.most_velocity})
+    numbers.insert(numbers.end(), bounds, bounds + 3);
+  return numbers;
 }
 
 }  // namespace pliant

@@ -13,13 +13,10 @@ WRITE(status)
 WRITE(world_position)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
+PARAMETER(uint, keeps_force)  // 1: the method keeps spring forces for the next step
 #include "parts/place.glsl"
-
-dvec3 turned(uint b, dvec3 p) {
-  return dvec3(row_times(frame_change[b].turn[0], frame_change[b].turn[1], frame_change[b].turn[2], p),
-               row_times(frame_change[b].turn[3], frame_change[b].turn[4], frame_change[b].turn[5], p),
-               row_times(frame_change[b].turn[6], frame_change[b].turn[7], frame_change[b].turn[8], p));
-}
+#include "parts/restate.glsl"
+#include "parts/restate_force.glsl"
 
 void fall_asleep(uint i) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
@@ -28,27 +25,15 @@ void fall_asleep(uint i) {
   STORE3(motion, velocity_of(before), dvec3(0))
   STORE3(motion, velocity_of(after), dvec3(0))
   world_position[before] = world_position[after];
-}
-
-void restate(uint i, uint b) {
-  dvec3 rest = dvec3(vec3(rest_position[i]));
-  for (uint half_index = 0u; half_index < 2u; ++half_index) {
-    uint at = in_half(half_index, vertex_count, i), u = displacement_of(at), w = velocity_of(at);
-    dvec3 displacement = turned(b, rest + LOAD3(motion, u)) - rest - LOAD3(frame_change[b].shift, 0u);
-    dvec3 velocity = turned(b, LOAD3(motion, w));
-    STORE3(motion, u, displacement)
-    STORE3(motion, w, velocity)
-    if (half_index == from_half) continue;
-    dvec3 relative = displacement - LOAD3(pose[b].reference, 0u);
-    for (uint k = 0u; k < 3u; ++k) place(start_slot, i, k, body[b].inverse_unit, rest[int(k)], relative[int(k)]);
-  }
-  dvec3 kept = turned(b, LOAD3(kept_force, force_of(i)));
-  STORE3(kept_force, force_of(i), kept)
+  if (keeps_force == 0u) return;
+  dvec3 kept = LOAD3(kept_force, force_of(after));
+  STORE3(kept_force, force_of(before), kept)
 }
 
 void change_frame(uint i) {
   uint b = uint(rest_position[i].w);
-  if (frame_change[b].turned != 0u) restate(i, b);
+  if (frame_change[b].turned != 0u) restate(i, b, body[b].inverse_unit);
+  if (frame_change[b].turned != 0u && keeps_force != 0u) restate_force(i, b);
   if (status[b].falls_asleep == 0u) return;
   fall_asleep(i);
   if (i == body[b].first_vertex) status[b].asleep = 1u;

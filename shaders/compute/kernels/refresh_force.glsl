@@ -8,6 +8,7 @@ WRITE(tally)
 READ_AS(placement, real4, placed)
 WRITE(kept_force)
 PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 #include "parts/force_kernel.glsl"
 
 bool runs(IN(Share) s) { return !halted(s) && status[s.body_index].force_stale != 0u; }
@@ -24,7 +25,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[force_of(i) + k] = spring_force;
+  kept_force[force_of(in_half(from_half, vertex_count, i)) + k] = spring_force;
   return double(0);
 }
 

@@ -9,22 +9,17 @@
 #include "../physics/layout.glsl"
 READ(share)
 READ(control)
-WRITE(pose)
 WRITE(status)
-WRITE(tally)
-WRITE(body_box)
 READ(rest_position)
-READ(added_force)
 WRITE(acceleration)
-WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
-PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
 #include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
+#include "parts/all_force.glsl"
 #include "parts/end_step.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
@@ -136,8 +131,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double all_force = adds_force != 0u ? spring_force + added_force[force_of(i) + k] : spring_force;
-  double a = all_force * s.body.inverse_mass + p.course.gravity;
+  double a = all_force(i, k, spring_force) * s.body.inverse_mass + p.course.gravity;
   if (damping_law != damping_none)
     a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;
   acceleration[accelerations_of(stage_index, i) + k] = a;

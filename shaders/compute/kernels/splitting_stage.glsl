@@ -8,26 +8,25 @@
 #include "../physics/layout.glsl"
 READ(share)
 READ(control)
-WRITE(pose)
 WRITE(status)
-WRITE(tally)
-WRITE(body_box)
 READ(rest_position)
 WRITE(kept_force)
-READ(added_force)
-WRITE(motion)
 WRITE_AS(world_position, float, world_coordinate)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
-PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
 PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if they can fall into parts; else 0
 #include "parts/stages.glsl"
 #include "parts/force_kernel.glsl"
 #include "parts/place.glsl"
+#include "parts/all_force.glsl"
 #include "parts/end_step.glsl"
 #include "parts/kick.glsl"
 #include "parts/part_of_step.glsl"
+#ifdef QUIET
+#define KICKS_FIRST
+#include "parts/first_kick.glsl"
+#endif
 
 bool runs(IN(Share) s) { return !halted(s); }
 uint placement_slot() { return slot_of_force(stage_index); }
@@ -57,9 +56,8 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[force_of(i) + k] = spring_force;
-  double all_force = adds_force != 0u ? spring_force + added_force[force_of(i) + k] : spring_force;
-  double velocity = kicked(s.body, p.gravity, all_force, force_squared, p.velocity, kick_time());
+  kept_force[force_of(in_half(other_half(from_half), vertex_count, i)) + k] = spring_force;
+  double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), force_squared, p.velocity, kick_time());
   double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
   end_step(i, k, s, displacement, velocity, p.reference);

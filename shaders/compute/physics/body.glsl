@@ -88,6 +88,7 @@ const uint halted_for_now = 2u;   // until the next step, because this one is em
 const uint halted_waiting = 3u;   // for good, because its work groups do not run at once, though they should
 const uint immovable = 4u;        // keeps its place and shape
 const uint most_polls = 1u << 22;  // a body is halted_waiting after so many polls, which take some seconds
+const uint waited_in_vain = 1u << 31;  // in counts of arrivals: work groups did not run at once, though they should
 
 const uint no_vertex = 0xffffffffu;
 

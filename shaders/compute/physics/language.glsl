@@ -141,5 +141,13 @@ FN vec3 ordered_cross(IN(vec3) a, IN(vec3) b) {
   EXACT vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
   return product;
 }
+FN double ordered_dot(IN(dvec3) a, IN(dvec3) b) {
+  EXACT double sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+  return sum;
+}
+FN dvec3 ordered_cross(IN(dvec3) a, IN(dvec3) b) {
+  EXACT dvec3 product = dvec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  return product;
+}
 SHARED_END
 #endif

@@ -13,7 +13,8 @@ const uint motion_size = 6u;  // numbers of a vertex
 FN uint displacement_of(uint place) { return motion_size * place; }
 FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 
-// The first of the three numbers of vertex i: in `kept_force` and `added_force`, and in `acceleration`.
+// The first of the three numbers of vertex i: in `added_force` and the like, and in `acceleration`. In `kept_force` it is that of the place
+// from in_half().
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 

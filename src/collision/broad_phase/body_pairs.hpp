@@ -22,6 +22,8 @@ class BodyPairs {
   [[nodiscard]] std::vector<Pass> pairing_passes() const;
   /// Bound the step by bodies that may reach each other in it. Expect the arrays of contact by impulses.
   [[nodiscard]] std::vector<Pass> limiting_passes() const;
+  /// Returns how many pairs of bodies there are that might touch.
+  [[nodiscard]] std::uint32_t pair_count() const { return pair_count_; }
 
  private:
   [[nodiscard]] std::vector<Pass> passes_over_pairs(std::string_view entering, Pass visiting) const;

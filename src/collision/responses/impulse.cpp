@@ -28,6 +28,7 @@ constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
+constexpr std::uint32_t most_compared = 1024;  // bodies, before quiet steps
 // A body may sleep that moves by less than so many diameters of the smallest one a second.
 constexpr double sleep_diameters = 0.05;
 
@@ -258,6 +259,19 @@ class Impulse final : public Response {
   }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
+  // Two bodies of which each has a thread are compared. With many bodies that is too much.
+  std::vector<Pass> before_quiet_steps(std::uint32_t from_half) const override {
+    if (restores_ || !divides_steps_ || bodies_.body_count > most_compared) return {};
+    const Arrays& arrays = bodies_.arrays;
+    return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
+            make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}}, bodies_.body_count * bodies_.body_count),
+            make_pass(arrays, "bound_quiet_steps", {}, bodies_.body_count)};
+  }
+  std::vector<Pass> after_quiet_steps() const override {
+    return {make_pass(bodies_.arrays, "end_quiet_steps", {{"pair_count", has_pairs_ ? body_pairs_.pair_count() : 0}},
+                      bodies_.body_count)};
+  }
+
   std::vector<Pass> after_step(std::uint32_t from_half) const override {
     const Arrays& arrays = bodies_.arrays;
     std::vector<Pass> passes = {make_pass(arrays, "expect_cuts",
@@ -311,7 +325,9 @@ class Impulse final : public Response {
                                                                                  .steps = 0,
                                                                                  .parts = 0,
                                                                                  .held = 0,
-                                                                                 .divides = divides_steps_ ? 1u : 0u}});
+                                                                                 .divides = divides_steps_ ? 1u : 0u,
+                                                                                 .quiet = 0,
+                                                                                 .padding = 0}});
     if (divides_steps_) bodies_.arrays.set_parameter("parts_of", time_step_);
   }
 
@@ -406,7 +422,7 @@ class Impulse final : public Response {
   // A vertex that only one ground touches gets its impulse in a round.
   bool keeps_impulses() const { return has_pairs_ || ground_count_ > 1; }
 
-  Pass round_pass(std::string_view name, Parameters parameters) const {
+  Pass round_pass(std::string_view name, const Parameters& parameters) const {
     Device& device = bodies_.arrays.device();
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
   }

@@ -109,8 +109,8 @@ class CpuDevice final : public Device {
   }
 
   KernelId round_kernel(std::string_view name) override { return kernel(name); }
-  KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
-    PLIANT_EXPECT(!all_stages);
+  KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
+    PLIANT_EXPECT(span == ForceSpan::stage);
     return kernel(name) + static_cast<KernelId>(variant * kernels_.size());
   }
   const KernelSignature& signature(KernelId kernel) const override { return signatures_[kernel % kernels_.size()]; }

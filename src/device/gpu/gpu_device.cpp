@@ -45,7 +45,7 @@ struct Lanes {
 // The fourth has a thread for each vertex of small bodies, where many lanes mostly idle.
 constexpr std::uint32_t any_number = 0xffffffffu;
 constexpr Lanes lane_choices[] = {
-    {1, 4, 64, 2, 2, 0, 0, 0},  //
+    {1, 4, 64, 2, 2, 64, 0, 0},  //
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
     {1, 1, 64, 2, 2, 64, any_number, 64},
@@ -100,10 +100,10 @@ class GpuDevice final : public Device {
     glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
     return build(name, round_caller, {{"SHARED_BYTES", fmt::format("{}u", bytes)}});
   }
-  KernelId force_kernel(std::string_view name, std::size_t variant, bool all_stages) override {
+  KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
-    PLIANT_EXPECT(!all_stages || lanes.tile != 0);
+    PLIANT_EXPECT(span == ForceSpan::stage || lanes.tile != 0);
     std::vector<gl::Define> defines = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
                                        {"LANES", std::to_string(lanes.lanes)},
                                        {"VERTICES", std::to_string(lanes.vertices)},
@@ -111,8 +111,11 @@ class GpuDevice final : public Device {
                                        {"KEEPERS", std::to_string(lanes.keepers())},
                                        {"UNROLL", std::to_string(lanes.unroll)},
                                        {"PLAINLY", std::to_string(lanes.plainly)}};
-    if (all_stages) defines.push_back({"TILE", std::to_string(lanes.tile)});
-    return build(fmt::format("{}, {}{}", name, variants_[variant].name, all_stages ? ", all stages" : ""), group_caller, defines);
+    defines.push_back({span == ForceSpan::stage ? "!TILE" : "TILE", std::to_string(lanes.tile)});
+    defines.push_back({span == ForceSpan::quiet_steps ? "QUIET" : "!QUIET", ""});
+    constexpr std::string_view names[] = {"a stage", "a step", "quiet steps"};
+    return build(fmt::format("{}, {}, {}", name, variants_[variant].name, names[static_cast<std::size_t>(span)]), group_caller,
+                 defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it

@@ -1,6 +1,5 @@
 // Ends the step of vertex i on axis k. Writes its displacement [m] and velocity [m/s] in the body's frame. `reference` is the
 // displacement that the next placement is relative to [m].
-#include "bound.glsl"
 void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity, double reference) {
   uint after = in_half(other_half(from_half), vertex_count, i);
   motion[displacement_of(after) + k] = displacement;

@@ -12,9 +12,13 @@ bool halted(IN(Share) s) { return status[s.body_index].activity != moving || is_
 // rest need no sum either, and the frame around may ask before it knows that a body is halted.
 bool deformed(IN(Share) s) { return (status[s.body_index].deformed != 0u || skips == 0u) && !halted(s); }
 
+#ifdef QUIET
+void count_force(IN(Share) s, bool summed) {}  // end_quiet_steps counts
+#else
 void count_force(IN(Share) s, bool summed) {
   if (summed)
     atomicAdd(tally[s.body_index].force_evaluations, 1u);
   else
     atomicAdd(tally[s.body_index].forces_skipped, 1u);
 }
+#endif

@@ -86,7 +86,6 @@ FN double mean_of_pair(double a, double b) { return sqrt(a * b); }
 FN double gap_of_pair(IN(Surface) a, IN(Surface) b) { return mean_of_pair(a.gap, b.gap) * edge_of_pair(a, b); }
 FN double gap_above(IN(Ground) below, IN(Surface) a) { return mean_of_pair(a.gap, below.gap) * a.edge; }
 
-const uint waited_in_vain = 1u << 31;  // in ContactList.arrivals: work groups did not run at once, though they should
 // Proofs go in rounds. The first ones cut motions short at planes, the others stop vertices.
 const uint plane_rounds = 4u;
 const uint cut_rounds = 32u;

@@ -1,0 +1,62 @@
+// One thread serves one body after quiet steps. It counts what they did, and empties what the next step adds to.
+#include "../physics/body.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/quiet.glsl"
+READ(quiet_steps)
+READ(quiet_body)
+READ(body)
+READ(pose)
+WRITE(control)
+WRITE(step_parts)
+WRITE(status)
+WRITE(tally)
+WRITE(slept)
+WRITE(body_motion)
+WRITE(place_box)
+WRITE(meeting)
+PARAMETER(uint, pair_count)  // of bodies that might touch
+PARAMETER(uint, forces_of_a_step)
+#include "parts/note_step_asleep.glsl"
+
+void move_clock(uint made) {
+  control[0].step += made;
+  step_parts[0].parts += made;
+  step_parts[0].steps += made;
+  step_parts[0].quiet += made;
+  for (uint k = 0u; k < made; ++k) {
+    uint sum = control[0].total_low[body_pairs_skipped] + pair_count;
+    if (sum < pair_count) control[0].total_high[body_pairs_skipped] += 1u;
+    control[0].total_low[body_pairs_skipped] = sum;
+  }
+  if ((quiet_steps[0].arrivals & waited_in_vain) != 0u) status[0].activity = halted_waiting;
+}
+
+void count_work(uint b, uint made) {
+  Status s = status[b];
+  if (s.calm >= at_rest && s.asleep == 0u) tally[b].steps_at_rest += made;
+  for (uint k = 0u; k < made && is_asleep(s) && s.activity == moving; ++k) note_step_asleep(b);
+  tally[b].frame_changes += quiet_body[b].frame_changes;
+  if (s.activity != moving) return;
+  if (made > 0u && s.asleep == 0u) status[b].slow_for = 0.0f;  // nothing has pushed it
+  if (is_still(s) || s.deformed == 0u)
+    tally[b].forces_skipped += made * forces_of_a_step;
+  else
+    tally[b].force_evaluations += made * forces_of_a_step;
+}
+
+void end_quiet_steps(uint b) {
+  uint made = steps_made(quiet_steps[0]);
+  if (b == 0u) move_clock(made);
+  count_work(b, made);
+  for (uint k = 0u; k < 3u; ++k) {
+    body_motion[b].lower[k] = 0xffffffffu;
+    body_motion[b].upper[k] = 0u;
+    if (status[b].calm == at_rest) continue;
+    place_box[b].lower[k] = 0xffffffffu;
+    place_box[b].upper[k] = 0u;
+  }
+  meeting[b] = 0u;
+}

@@ -1,0 +1,75 @@
+// One thread compares two bodies, or looks at one. It finds for how many steps they surely stay apart, and the body apart from grounds. If
+// something acts that lasts from earlier contacts, no step is quiet.
+#include "../physics/body.glsl"
+#include "../physics/control.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/contact/parts.glsl"
+#include "../physics/contact/surface.glsl"
+#include "../physics/quiet.glsl"
+READ(control)
+READ(surface)
+READ(ground)
+READ_AS(place_box, BoxBits, body_box)
+READ(body_motion)
+READ(step_parts)
+READ(status)
+READ(pressed)
+READ(contact_list)
+WRITE(quiet_steps)
+PARAMETER(uint, body_count)
+PARAMETER(uint, ground_count)
+PARAMETER(uint, keeps_force)
+#include "parts/quiet_region.glsl"
+
+void allow(uint steps) { atomicMin(quiet_steps[0].end, steps); }
+
+// Whether the run has whole steps behind it, without contacts and cuts in the latest one.
+bool begins_quietly() {
+  StepParts p = step_parts[0];
+  ContactList list = contact_list[0];
+  return control[0].non_finite_vertex == no_vertex && p.divides != 0u && p.left == smallest_parts && p.last == p.full &&
+         p.longest == no_bound && list.latest_count == 0u && list.has_dues == 0u && list.arrivals == 0u;
+}
+
+bool is_bound_by_pressing(uint b) {
+  return pressed[b] != 0u && step_parts[0].parts + 1u - pressed[b] <= pressed_for &&
+         surface[b].longest_pressed < step_parts[0].full;
+}
+
+bool may_be_quiet(uint b) {
+  Status s = status[b];
+  if (s.activity == immovable) return true;
+  if (s.activity != moving || s.disturbed != 0u || s.falls_asleep != 0u) return false;
+  if (is_idle(s)) return true;
+  bool was_pressed = pressed[b] != 0u && step_parts[0].parts - pressed[b] < held_for;
+  return s.calm == 0u && s.asleep == 0u && !was_pressed && !is_bound_by_pressing(b) && (keeps_force == 0u || s.force_stale == 0u);
+}
+
+bool moves(uint b) { return status[b].activity != immovable && !is_idle(status[b]); }
+
+bool is_above(uint g, uint b, uint steps) {
+  Box box = quiet_region(b, steps);
+  dvec3 normal = LOAD3(ground[g].normal, 0u), centre = double(0.5) * dvec3(box.lower + box.upper);
+  dvec3 half_size = double(0.5) * dvec3(box.upper - box.lower);
+  double height = dot(normal, centre) - dot(abs(normal), half_size) - ground[g].offset;
+  return height > double(2) * gap_above(ground[g], surface[b]) + surface[b].nearness;
+}
+
+void look_at(uint b) {
+  if (b == 0u && !begins_quietly()) allow(0u);
+  if (!may_be_quiet(b)) allow(0u);
+  if (!moves(b)) return;
+  uint steps = most_quiet_steps;
+  for (uint g = 0u; g < ground_count; ++g)
+    while (steps >= fewest_quiet_steps && !is_above(g, b, steps)) steps /= 2u;
+  allow(steps >= fewest_quiet_steps ? steps : 0u);
+}
+
+void limit_quiet_steps(uint item) {
+  uint a = item / body_count, b = item % body_count;
+  if (a == b) look_at(b);
+  if (a >= b || (!moves(a) && !moves(b))) return;
+  uint steps = most_quiet_steps;
+  while (steps >= fewest_quiet_steps && overlaps(quiet_region(a, steps), quiet_region(b, steps))) steps /= 2u;
+  allow(steps >= fewest_quiet_steps ? steps : 0u);
+}

@@ -1,0 +1,117 @@
+// Turns a body's frame after the body. The kernel has count_frame_change(b). Of samples of the body it has sample_rest(material, k) and
+// sample_displacement(material, k).
+
+// Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
+// the frame, relative to a point that moves with the body.
+struct Samples {
+  dvec3 rest_mean;
+  dvec3 moved_mean;
+  dvec3 correlation_x;  // sum of (moved - moved_mean) (rest - rest_mean).x, in the next two with .y and .z
+  dvec3 correlation_y;
+  dvec3 correlation_z;
+};
+
+// Adds a sample. `moved` is relative to a point that moves with the body. take_samples() subtracts the means.
+void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
+  EXACT dvec3 rest_sum = s.rest_mean + rest;
+  EXACT dvec3 moved_sum = s.moved_mean + moved;
+  EXACT dvec3 by_x = s.correlation_x + rest.x * moved;
+  EXACT dvec3 by_y = s.correlation_y + rest.y * moved;
+  EXACT dvec3 by_z = s.correlation_z + rest.z * moved;
+  s.rest_mean = rest_sum;
+  s.moved_mean = moved_sum;
+  s.correlation_x = by_x;
+  s.correlation_y = by_y;
+  s.correlation_z = by_z;
+}
+
+dvec3 place_of_sample(dvec3 rest, dvec3 displacement, dvec3 origin) {
+  EXACT dvec3 place = rest + (displacement - origin);
+  return place;
+}
+
+// Adds four samples, from k on. There is no loop, so that loads overlap.
+void add_samples(INOUT(Samples) s, IN(Body) material, uint k, dvec3 origin) {
+  dvec3 r0 = sample_rest(material, k), r1 = sample_rest(material, k + 1u), r2 = sample_rest(material, k + 2u), r3 = sample_rest(material, k + 3u);
+  dvec3 u0 = sample_displacement(material, k), u1 = sample_displacement(material, k + 1u), u2 = sample_displacement(material, k + 2u),
+        u3 = sample_displacement(material, k + 3u);
+  add_sample(s, r0, place_of_sample(r0, u0, origin));
+  add_sample(s, r1, place_of_sample(r1, u1, origin));
+  add_sample(s, r2, place_of_sample(r2, u2, origin));
+  add_sample(s, r3, place_of_sample(r3, u3, origin));
+}
+
+Samples take_samples(IN(Body) material, dvec3 origin) {
+  Samples s;
+  s.rest_mean = s.moved_mean = s.correlation_x = s.correlation_y = s.correlation_z = dvec3(0);
+  add_samples(s, material, 0u, origin);
+  add_samples(s, material, 4u, origin);
+  add_samples(s, material, 8u, origin);
+  add_samples(s, material, 12u, origin);
+  s.rest_mean /= double(sample_count);
+  EXACT dvec3 about_x = s.correlation_x - s.rest_mean.x * s.moved_mean;
+  EXACT dvec3 about_y = s.correlation_y - s.rest_mean.y * s.moved_mean;
+  EXACT dvec3 about_z = s.correlation_z - s.rest_mean.z * s.moved_mean;
+  s.correlation_x = about_x;
+  s.correlation_y = about_y;
+  s.correlation_z = about_z;
+  s.moved_mean /= double(sample_count);
+  return s;
+}
+
+// Returns the turn [rad] that reduces the samples' misfit to the rest shape turned by q. The method is from Mueller and others (2016),
+// "A robust method to extract the rotational part of deformations".
+dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
+  dvec3 x = rotate_by(q, dvec3(1, 0, 0)), y = rotate_by(q, dvec3(0, 1, 0)), z = rotate_by(q, dvec3(0, 0, 1));
+  EXACT dvec3 torque = ordered_cross(x, s.correlation_x) + ordered_cross(y, s.correlation_y) + ordered_cross(z, s.correlation_z);
+  EXACT double alignment = ordered_dot(x, s.correlation_x) + ordered_dot(y, s.correlation_y) + ordered_dot(z, s.correlation_z);
+  EXACT dvec3 turn = torque / (abs(alignment) + double(1e-30));
+  return turn;
+}
+
+void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
+  Quaternion old = quaternion(pose[b].quaternion[0], pose[b].quaternion[1], pose[b].quaternion[2], pose[b].quaternion[3]);
+  Quaternion next = normalized(product(old, q));
+  Quaternion back = conjugate(q);
+  dvec3 shift = rotate_by(back, moved_mean) - rest_mean;
+  dvec3 origin = LOAD3(pose[b].origin, 0u) + rotate_by(next, shift);
+  dvec3 gravity = rotate_by(back, LOAD3(pose[b].gravity, 0u));
+  STORE3(pose[b].origin, 0u, origin)
+  STORE3(frame_change[b].shift, 0u, shift)
+  STORE3(pose[b].gravity, 0u, gravity)
+  pose[b].quaternion[0] = next.x;
+  pose[b].quaternion[1] = next.y;
+  pose[b].quaternion[2] = next.z;
+  pose[b].quaternion[3] = next.w;
+  for (uint column = 0u; column < 3u; ++column) {
+    dvec3 unit = dvec3(double(column == 0u), double(column == 1u), double(column == 2u));
+    dvec3 r = rotate_by(next, unit);
+    dvec3 t = rotate_by(back, unit);
+    pose[b].rotation[column] = r.x;
+    pose[b].rotation[3u + column] = r.y;
+    pose[b].rotation[6u + column] = r.z;
+    frame_change[b].turn[column] = t.x;
+    frame_change[b].turn[3u + column] = t.y;
+    frame_change[b].turn[6u + column] = t.z;
+  }
+  dvec3 first = dvec3(vec3(rest_position[first_vertex]));
+  dvec3 reference = rotate_by(back, first + LOAD3(pose[b].reference, 0u)) - first - shift;
+  STORE3(pose[b].reference, 0u, reference)
+  frame_change[b].turned = 1u;
+  count_frame_change(b);
+}
+
+// The frame follows once the body has turned by more than 0.01 rad in it. Displacements then stay small against the body,
+// and their rounding to fp32 small against the strains.
+void follow_rotation(uint b, uint first_vertex, IN(Samples) samples, dvec3 origin) {
+  const double largest_turn = double(0.01), smallest_turn = double(1e-9);
+  Quaternion q = quaternion(double(0), double(0), double(0), double(1));
+  dvec3 turn = remaining_turn(samples, q);
+  if (!(dot(turn, turn) > largest_turn * largest_turn)) return;
+  for (uint iteration = 0u; iteration < 8u && dot(turn, turn) > smallest_turn * smallest_turn; ++iteration) {
+    Quaternion small = quaternion(turn.x / double(2), turn.y / double(2), turn.z / double(2), double(1));
+    q = normalized(product(small, q));
+    turn = remaining_turn(samples, q);
+  }
+  change_frame_of(b, first_vertex, q, samples.rest_mean, samples.moved_mean + origin);
+}

@@ -1,0 +1,39 @@
+// What a body may reach within some quiet steps. Needs the arrays `surface`, `body_box`, `body_motion`, `step_parts` and `status`.
+#include "reach.glsl"
+
+// Bounds of its places [m]. They need not hold: steps are quiet until a vertex leaves them.
+Box place_bound(uint b, uint steps) {
+  Box box = box_of_body(b);
+  if (status[b].activity == immovable || is_idle(status[b])) return box;
+  Box motion = box_of_bits(body_motion[b]);
+  float time = float(steps) * float(step_parts[0].full), play = float(surface[b].edge) + 0.5f * float(gravity_size) * time * time;
+  box.lower += time * min(motion.lower, vec3(0)) - play;
+  box.upper += time * max(motion.upper, vec3(0)) + play;
+  return box;
+}
+
+// Bounds of the velocities that its vertices are expected to have [m/s].
+Box velocity_bound(uint b, uint steps) {
+  Box motion = box_of_bits(body_motion[b]);
+  if (status[b].activity == immovable || is_idle(status[b])) return motion;
+  float time = float(steps) * float(step_parts[0].full);
+  vec3 range = motion.upper - motion.lower;
+  float more = float(surface[b].edge / (double(4) * step_parts[0].full)) + float(gravity_size) * time +
+               0.25f * max(range.x, max(range.y, range.z));
+  motion.lower -= more;
+  motion.upper += more;
+  return motion;
+}
+
+// All that it reaches from these places with these velocities, as reach_box_of() has it.
+Box quiet_region(uint b, uint steps) {
+  Box box = place_bound(b, steps);
+  if (status[b].activity == immovable) return box;
+  Box motion = velocity_bound(b, steps);
+  float play = float(play_of(b, box)), two_steps = float(double(2) * step_parts[0].full);
+  vec3 below = two_steps * max(-motion.lower, vec3(0)) + play, above = two_steps * max(motion.upper, vec3(0)) + play;
+  vec3 slack = (max(abs(box.lower), abs(box.upper)) + max(below, above)) * 2e-6f;
+  box.lower -= below + slack;
+  box.upper += above + slack;
+  return box;
+}

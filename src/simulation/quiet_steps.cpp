@@ -1,0 +1,38 @@
+#include "simulation/quiet_steps.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace pliant {
+namespace {
+
+// A driver whose groups can't wait for each other is one in software. That stops long loops (docs/step.md, Limits).
+std::uint32_t most_at_once(const Device& device) { return device.shares_at_once() == 0 ? 4 : physics::most_quiet_steps; }
+
+std::vector<Pass> passes_from(std::uint32_t half, const Stepper& stepper, const Response& response) {
+  std::vector<Pass> passes = response.before_quiet_steps(half);
+  if (passes.empty()) return {};
+  passes.push_back(stepper.quiet_pass(half));
+  for (Pass& pass : response.after_quiet_steps()) passes.push_back(std::move(pass));
+  return passes;
+}
+
+}  // namespace
+
+QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Response* response)
+    : most_at_once_(most_at_once(bodies.arrays.device())) {
+  if (response == nullptr || !stepper.makes_quiet_steps()) return;
+  steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
+  bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
+  for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, stepper, *response);
+}
+
+void QuietSteps::aim_at(std::uint64_t most) const {
+  const physics::QuietSteps none{
+      .end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)), .undone = ~0u, .arrivals = 0};
+  steps_->upload(std::span(&none, 1));
+}
+
+std::uint32_t QuietSteps::made() const { return physics::steps_made(steps_->download().front()); }
+
+}  // namespace pliant

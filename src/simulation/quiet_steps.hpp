@@ -1,0 +1,30 @@
+// Makes steps in which nothing comes near, many in one dispatch (physics/quiet.glsl). Bits are those of other steps.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "collision/responses/response.hpp"
+#include "dynamics/stepper.hpp"
+
+namespace pliant {
+
+class QuietSteps {
+ public:
+  /// All must outlive it. Without a response, or if stepper or response do not know quiet steps, none is ever made.
+  QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Response* response);
+
+  [[nodiscard]] bool are_known() const { return !passes_[0].empty(); }
+  /// The passes make steps from this half on until something may come near, at most as many as aim_at() said.
+  void aim_at(std::uint64_t most) const;
+  [[nodiscard]] const std::vector<Pass>& passes(std::uint32_t from_half) const { return passes_[from_half]; }
+  /// Returns how many they made. Waits for them.
+  [[nodiscard]] std::uint32_t made() const;
+
+ private:
+  std::uint32_t most_at_once_;
+  DeviceArray<physics::QuietSteps>* steps_ = nullptr;
+  std::array<std::vector<Pass>, 2> passes_;  // by the half that the first step starts from
+};
+
+}  // namespace pliant

@@ -1,0 +1,212 @@
+// Steps in which nothing comes near are made many at once, to the bit as others. The oracle is a run that makes all of each step.
+#include "simulation/quiet_steps.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <span>
+
+#include "support/device_bench.hpp"
+#include "support/evolve.hpp"
+#include "support/has.hpp"
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+BodySetup ball_of(const char* mesh, const glm::dvec3& place) {
+  BodySetup setup = soft(generate_mesh(mesh), "ball");
+  setup.description.position = place;
+  return setup;
+}
+
+// One turns and vibrates, one comes towards it undeformed, one rests and one turns aside.
+std::vector<BodySetup> four_balls() {
+  std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:0", {12, 0.3, 0}),
+                                   ball_of("icosphere:1", {0, 9, 0}), ball_of("cube:1", {0, 0, -9})};
+  setups[0].description.stretch = {1.1, 0.95, 1};
+  setups[0].description.spin = {0, 2, 1};
+  setups[1].description.velocity = {-6, 0, 0};
+  setups[3].description.velocity = {0.1, 0, -0.2};
+  setups[3].description.spin = {0.5, 0, 0};
+  return setups;
+}
+
+// A run that makes quiet steps, and one that makes none.
+struct Runs {
+  Runs(Device& device, const ModelAndState& start, const Method& method, bool sleeps = false)
+      : quiet(device, start.model, start.state, plan(method, sleeps), by_impulses),
+        busy(device, start.model, start.state, plan(method, sleeps), by_impulses) {
+    busy.skip(false);
+  }
+  static TimePlan plan(const Method& method, bool sleeps) {
+    TimePlan plan = plan_of(method);
+    plan.sleep = sleeps;
+    return plan;
+  }
+  void advance(std::uint64_t steps) {
+    for (Simulation* simulation : {&quiet, &busy}) simulation->advance(steps);
+  }
+  void check() {
+    CHECK(quiet.state().motion == busy.state().motion);
+    CHECK(quiet.world_positions() == busy.world_positions());
+    const StepReport a = quiet.report(), b = busy.report();
+    CHECK(a.steps == b.steps);
+    CHECK(a.time == b.time);
+    CHECK(a.substeps == b.substeps);
+    CHECK(a.contact_steps == b.contact_steps);
+    CHECK(a.frame_changes == b.frame_changes);
+    CHECK(a.body_pairs_skipped == b.body_pairs_skipped);
+    CHECK(a.force_evaluations + a.forces_skipped == b.force_evaluations + b.forces_skipped);
+    CHECK(a.energy_slept == b.energy_slept);
+    CHECK(a.response.outside_impulse == b.response.outside_impulse);
+    CHECK(b.quiet_steps == 0);
+  }
+  Simulation quiet, busy;
+};
+
+std::unique_ptr<Device> gpu() { return make_gpu_device(0); }
+
+TEST_CASE("quiet steps have the bits of others, and end in time for contacts", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
+  for (const Method& method :
+       {Method{"verlet", 0.01}, {"verlet", 0.01, DampingLaw::constant}, {"cv8", 0.02}, {"dprkn8", 0.02}, {"srkn11b", 0.02}}) {
+    CAPTURE(method.integrator, method.time_step);
+    Runs runs(*device, start, method);
+    for (const std::uint64_t steps : {1, 2, 7, 30, 40, 60, 60}) {
+      runs.advance(steps);
+      runs.check();
+    }
+    CHECK(runs.quiet.report().quiet_steps > 20);
+    CHECK(runs.quiet.report().steps_at_rest > 0);
+    CHECK(runs.busy.report().contact_steps > 0);
+  }
+}
+
+TEST_CASE("a body falls to the ground in quiet steps, and rests in others", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  GroundDescription floor;
+  floor.normal = {0, 0, 1};
+  floor.point = {0, 0, -5};
+  const ModelAndState start = build_model(std::vector{ball_of("icosphere:1", {0, 0, 0})}, {0, 0, -9.81}, std::vector{floor});
+  Runs runs(*device, start, {"verlet", 0.005});
+  runs.advance(120);
+  runs.check();
+  const std::uint64_t in_fall = runs.quiet.report().quiet_steps;
+  CHECK(in_fall > 60);
+  runs.advance(120);
+  runs.check();
+  CHECK(runs.busy.report().contact_steps > 0);
+}
+
+TEST_CASE("what pulls a body or goes on from a saved state leaves quiet steps right", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
+  Runs runs(*device, start, {"verlet", 0.01});
+  runs.advance(10);
+  for (Simulation* simulation : {&runs.quiet, &runs.busy}) simulation->pull({.vertex = 60, .target = {0, 12, 0}}, 0.05);
+  runs.advance(20);
+  runs.check();
+  const std::string saved = runs.quiet.save();
+  runs.advance(20);
+  runs.check();
+  runs.quiet.restore(saved);
+  runs.quiet.advance(20);
+  runs.check();
+  CHECK(runs.quiet.report().quiet_steps > 10);
+}
+
+// All that steps from this half on depend on. What each step begins with finding anew is left out.
+std::map<std::string, std::vector<std::byte>> carried_by(const Bench& bench, std::uint32_t half) {
+  std::map<std::string, std::vector<std::byte>> bytes;
+  for (CarriedArray array : bench.bodies.arrays.carried()) {
+    if (array.name == "cluster" || array.name == "slow_place") continue;
+    const bool has_halves = array.name == "motion" || array.name == "world_position" || array.name == "kept_force";
+    if (has_halves && array.byte_count >= 2 * sizeof(double)) array.byte_count /= 2, array.first_byte = half * array.byte_count;
+    bytes[array.name].resize(array.byte_count);
+    bench.device->read(array.buffer, array.first_byte, bytes[array.name]);
+  }
+  // that steps were quiet
+  auto parts = bench.bodies.arrays.get<physics::StepParts>("step_parts").download();
+  parts[0].quiet = 0;
+  const auto told = std::as_bytes(std::span(parts));
+  bytes["step_parts"].assign(told.begin(), told.end());
+  return bytes;
+}
+
+struct Turn {
+  std::uint32_t steps;  // so far
+  std::map<std::string, std::vector<std::byte>> carried;
+};
+
+// Makes whole steps in turn with quiet ones. Returns also whether one of these was undone.
+std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const Method& method, int count) {
+  Bench bench(gpu(), start, method, by_impulses);
+  bench.bodies.run_all_stages(true);
+  const QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
+  REQUIRE(quiet.are_known());
+  std::vector<Turn> turns;
+  bool was_undone = false;
+  std::uint32_t steps = 0;
+  bench.begin();
+  while (count-- > 0) {
+    bench.device->run(bench.step(steps++ % 2));
+    quiet.aim_at(3);
+    bench.device->run(quiet.passes(steps % 2));
+    was_undone = was_undone || bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone != ~0u;
+    steps += quiet.made();
+    turns.push_back({steps, carried_by(bench, steps % 2)});
+  }
+  return {turns, was_undone};
+}
+
+// The oracle makes whole steps alone. Returns whether a quiet step was undone. One device at a time is the thread's own.
+bool check_turns(const ModelAndState& start, const Method& method, int count) {
+  const auto [turns, was_undone] = quiet_turns(start, method, count);
+  CHECK(turns.back().steps > turns.size());
+  Bench bench(gpu(), start, method, by_impulses);
+  bench.bodies.run_all_stages(true);
+  bench.begin();
+  std::uint32_t steps = 0;
+  for (const Turn& turn : turns) {
+    while (steps < turn.steps) bench.device->run(bench.step(steps++ % 2));
+    for (const auto& [name, bytes] : carried_by(bench, steps % 2)) {
+      CAPTURE(name, steps);
+      CHECK((turn.carried.at(name) == bytes));
+    }
+  }
+  return was_undone;
+}
+
+TEST_CASE("quiet steps leave all that other steps leave", "[gl]") {
+  if (test::lacks_gl()) return;
+  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
+  for (const char* integrator : {"verlet", "cv8"}) {
+    CAPTURE(integrator);
+    CHECK_FALSE(check_turns(start, {integrator, 0.01}, 8));
+  }
+}
+
+// It is made again with all that belongs to a step.
+TEST_CASE("a step that moves a vertex out of its cage is no quiet one", "[gl]") {
+  if (test::lacks_gl()) return;
+  std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:1", {3000, 0, 0})};
+  setups[0].description.stretch = {4, 1, 1};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  CHECK(check_turns(start, {"verlet", 0.9 * step_bound(find_integrator("verlet"), start.model.bodies[0], DampingLaw::none)}, 12));
+}
+
+TEST_CASE("only a device that knows quiet steps makes them") {
+  const auto device = make_cpu_device(1, 32);
+  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
+  Runs runs(*device, start, {"verlet", 0.01});
+  runs.advance(40);
+  runs.check();
+  CHECK(runs.quiet.report().quiet_steps == 0);
+}
+
+}  // namespace
+}  // namespace pliant
