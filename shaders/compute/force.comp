@@ -5,8 +5,8 @@
 // With LANES = 1, for small bodies and for devices without parallel lanes, one thread serves its own vertices alone.
 //
 // With TILE the kernel runs all stages of a step in one dispatch. Between two stages the groups of a body wait for each other, which
-// costs a third of a dispatch. If a body has several, all of them must run at once. A group's own caches do not see what others write meanwhile. The group
-// therefore fetches the body's vertices into shared memory, TILE at a time.
+// costs a third of a dispatch. If a body has several, all of them must run at once. A group's own caches do not see what others write
+// meanwhile. The group therefore fetches the body's vertices into shared memory, TILE at a time.
 #version 450
 #include "physics/language.glsl"
 // Threads that serve several vertices have no registers left for this. They serve large bodies best, where rounding averages out.

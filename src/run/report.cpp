@@ -179,12 +179,9 @@ Summary summary_of(const RunStatus& status) {
   if (!report.breakdown) s.final_intersecting_pairs = intersecting_pairs(run);
   s.interrupted = is_interrupted();
   s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
-  s.skipped = {{"force_evaluations", report.forces_skipped},
-               {"bodies_at_rest", report.steps_at_rest},
-               {"bodies_asleep", report.steps_asleep},
-               {"quiet_steps", report.quiet_steps},
-               {"body_pairs", report.body_pairs_skipped},
-               {"tree_refits", report.refits_skipped}};
+  s.skipped = {{"force_evaluations", report.forces_skipped}, {"bodies_at_rest", report.steps_at_rest},
+               {"bodies_asleep", report.steps_asleep},       {"quiet_steps", report.quiet_steps},
+               {"body_pairs", report.body_pairs_skipped},    {"tree_refits", report.refits_skipped}};
   s.timings_ms = {{"load", 1e3 * times.loading.seconds()},
                   {"build", 1e3 * times.building.seconds()},
                   {"step", 1e3 * times.stepping.seconds()},

@@ -51,8 +51,8 @@ class Response {
   /// Returns the impulses of the latest step, in no fixed order, without those that are zero. There are none if the row's
   /// `gives_impulses` is false. Waits for the queued steps. Nothing is read back without this call.
   [[nodiscard]] virtual std::vector<ContactImpulse> contact_impulses() const { return {}; }
-  /// Returns passes that find for how many steps nothing can happen that the response answers (physics/quiet.glsl), with the state in
-  /// this half. None if it does not know. The others follow such steps.
+  /// Returns passes that find for how many steps nothing can happen that the response answers (physics/quiet.glsl), with the
+  /// state in this half. None if it does not know. The others follow such steps.
   [[nodiscard]] virtual std::vector<Pass> before_quiet_steps(std::uint32_t /*from_half*/) const { return {}; }
   [[nodiscard]] virtual std::vector<Pass> after_quiet_steps() const { return {}; }
   /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs

@@ -32,7 +32,8 @@ dvec3 place_of_sample(dvec3 rest, dvec3 displacement, dvec3 origin) {
 
 // Adds four samples, from k on. There is no loop, so that loads overlap.
 void add_samples(INOUT(Samples) s, IN(Body) material, uint k, dvec3 origin) {
-  dvec3 r0 = sample_rest(material, k), r1 = sample_rest(material, k + 1u), r2 = sample_rest(material, k + 2u), r3 = sample_rest(material, k + 3u);
+  dvec3 r0 = sample_rest(material, k), r1 = sample_rest(material, k + 1u), r2 = sample_rest(material, k + 2u),
+        r3 = sample_rest(material, k + 3u);
   dvec3 u0 = sample_displacement(material, k), u1 = sample_displacement(material, k + 1u), u2 = sample_displacement(material, k + 2u),
         u3 = sample_displacement(material, k + 3u);
   add_sample(s, r0, place_of_sample(r0, u0, origin));
