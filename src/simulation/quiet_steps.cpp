@@ -28,9 +28,9 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Respo
 }
 
 void QuietSteps::aim_at(std::uint64_t most) const {
-  const physics::QuietSteps none{
+  const physics::QuietSteps asked{
       .end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)), .undone = ~0u, .arrivals = 0};
-  steps_->upload(std::span(&none, 1));
+  steps_->upload(std::span(&asked, 1));
 }
 
 std::uint32_t QuietSteps::made() const { return physics::steps_made(steps_->download().front()); }

@@ -15,9 +15,9 @@ WRITE(quiet_body)
 
 // Less than what bodies that meet no others have (limit_step.glsl, expect_motion.glsl).
 double room_of(uint b) {
-  double step_omega = step_parts[0].full * surface[b].frequency;
-  double least_play = step_omega * step_omega * surface[b].diameter + step_parts[0].full * step_parts[0].full * gravity_size;
-  return min(double(0.8) * max(surface[b].edge, least_play), double(900) * surface[b].edge);
+  Box point;
+  point.lower = point.upper = vec3(0);
+  return min(double(0.8) * play_of(b, point), double(900) * surface[b].edge);
 }
 
 void bound_quiet_steps(uint b) {

@@ -25,15 +25,8 @@ Box velocity_bound(uint b, uint steps) {
   return motion;
 }
 
-// All that it reaches from these places with these velocities, as reach_box_of() has it.
+// All that it reaches from these places with these velocities. Rounded further, because steps round places and velocities anew.
 Box quiet_region(uint b, uint steps) {
-  Box box = place_bound(b, steps);
-  if (status[b].activity == immovable) return box;
-  Box motion = velocity_bound(b, steps);
-  float play = float(play_of(b, box)), two_steps = float(double(2) * step_parts[0].full);
-  vec3 below = two_steps * max(-motion.lower, vec3(0)) + play, above = two_steps * max(motion.upper, vec3(0)) + play;
-  vec3 slack = (max(abs(box.lower), abs(box.upper)) + max(below, above)) * 2e-6f;
-  box.lower -= below + slack;
-  box.upper += above + slack;
-  return box;
+  Box places = place_bound(b, steps);
+  return status[b].activity == immovable ? places : grown_to_reach(b, places, velocity_bound(b, steps), 2e-6f);
 }

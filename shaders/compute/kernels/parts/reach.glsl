@@ -12,15 +12,17 @@ double play_of(uint b, IN(Box) box) {
   return max(surface[b].edge, by_forces + h * h * gravity_size);
 }
 
-// Twice the expected way, because bodies must not come near each other in the next step, either. Rounded outward.
+// Twice the expected way, because bodies must not come near each other in the next step, either. It is rounded outward by this part.
+Box grown_to_reach(uint b, Box places, IN(Box) motion, float rounding) {
+  float play = float(play_of(b, places)), two_steps = float(double(2) * step_parts[0].full);
+  vec3 below = two_steps * max(-motion.lower, vec3(0)) + play, above = two_steps * max(motion.upper, vec3(0)) + play;
+  vec3 slack = (max(abs(places.lower), abs(places.upper)) + max(below, above)) * rounding;
+  places.lower -= below + slack;
+  places.upper += above + slack;
+  return places;
+}
+
 Box reach_box_of(uint b) {
   Box box = box_of_body(b);
-  if (surface[b].inverse_mass == double(0)) return box;
-  Box motion = box_of_bits(body_motion[b]);
-  float play = float(play_of(b, box)), two_steps = float(double(2) * step_parts[0].full);
-  vec3 below = two_steps * max(-motion.lower, vec3(0)) + play, above = two_steps * max(motion.upper, vec3(0)) + play;
-  vec3 slack = (max(abs(box.lower), abs(box.upper)) + max(below, above)) * 4.8e-7f;
-  box.lower -= below + slack;
-  box.upper += above + slack;
-  return box;
+  return surface[b].inverse_mass == double(0) ? box : grown_to_reach(b, box, box_of_bits(body_motion[b]), 4.8e-7f);
 }
