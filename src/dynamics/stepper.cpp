@@ -193,13 +193,8 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   return passes;
 }
 
-// Groups of many lanes have fewer registers than this kernel takes, so that a GPU runs fewer of them at once: an H200 with 132
-// multiprocessors ran 20 of 672 threads, but not 34.
 bool Stepper::makes_quiet_steps() const {
-  if (adds_force() != 0 || bodies_.force_groups.size() != 1 || !bodies_.force_groups[0].all_stages) return false;
-  if (bodies_.force_groups[0].share_count <= bodies_.arrays.device().shares_at_once() / 8) return true;
-  const auto is_whole_body = [](const physics::Share& share) { return share.vertex_count == share.body.vertex_count; };
-  return std::ranges::all_of(bodies_.shares.download(), is_whole_body);
+  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages;
 }
 
 Pass Stepper::quiet_pass(std::uint32_t first_half) const {

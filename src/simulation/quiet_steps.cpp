@@ -29,10 +29,14 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Respo
 
 void QuietSteps::aim_at(std::uint64_t most) const {
   const physics::QuietSteps asked{
-      .end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)), .undone = ~0u, .arrivals = 0};
+      .end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)), .undone = ~0u, .arrivals = 0, .begun = 0};
   steps_->upload(std::span(&asked, 1));
 }
 
-std::uint32_t QuietSteps::made() const { return physics::steps_made(steps_->download().front()); }
+std::uint32_t QuietSteps::take_made() {
+  const physics::QuietSteps made = steps_->download().front();
+  if (made.begun == 0 && (made.arrivals & physics::waited_in_vain) != 0) passes_ = {};
+  return physics::steps_made(made);
+}
 
 }  // namespace pliant

@@ -18,8 +18,9 @@ class QuietSteps {
   /// The passes make steps from this half on until something may come near, at most as many as aim_at() said.
   void aim_at(std::uint64_t most) const;
   [[nodiscard]] const std::vector<Pass>& passes(std::uint32_t from_half) const { return passes_[from_half]; }
-  /// Returns how many they made. Waits for them.
-  [[nodiscard]] std::uint32_t made() const;
+  /// Returns how many they made. Waits for them. If the device does not run all their groups at once, they made none, and none
+  /// are known from here on.
+  [[nodiscard]] std::uint32_t take_made();
 
  private:
   std::uint32_t most_at_once_;

@@ -139,7 +139,7 @@ std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
   if (!quiet_ || !quiet_->are_known() || is_anew_ || most < physics::fewest_quiet_steps) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
-  const std::uint32_t made = quiet_->made();
+  const std::uint32_t made = quiet_->take_made();
   busy_steps_ = made > 0 ? 1 : std::min(2 * busy_steps_, most_steps_at_once);
   queued_steps_ += made;
   known_control_.reset();

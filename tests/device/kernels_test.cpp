@@ -287,7 +287,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   const CollisionDescription impulses{.response = {"impulse"}};
   Bench cpu(make_cpu_device(2, 32), start, {"verlet", 0.01}, impulses),
       gpu(make_gpu_device(0), start, {"verlet", 0.01}, impulses);
-  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0};
+  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0, .begun = 1};
   for (Bench* bench : {&cpu, &gpu}) {
     bench->bodies.arrays.make("quiet_steps", std::vector{asked});
     bench->bodies.arrays.make<physics::QuietBody>("quiet_body", 2);

@@ -146,7 +146,7 @@ struct Turn {
 std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const Method& method, int count) {
   Bench bench(gpu(), start, method, by_impulses);
   bench.bodies.run_all_stages(true);
-  const QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
+  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
   REQUIRE(quiet.are_known());
   std::vector<Turn> turns;
   bool was_undone = false;
@@ -157,7 +157,7 @@ std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const
     quiet.aim_at(3);
     bench.device->run(quiet.passes(steps % 2));
     was_undone = was_undone || bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone != ~0u;
-    steps += quiet.made();
+    steps += quiet.take_made();
     turns.push_back({steps, carried_by(bench, steps % 2)});
   }
   return {turns, was_undone};
@@ -197,6 +197,45 @@ TEST_CASE("a step that moves a vertex out of its cage is no quiet one", "[gl]") 
   setups[0].description.stretch = {4, 1, 1};
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   CHECK(check_turns(start, {"verlet", 0.9 * step_bound(find_integrator("verlet"), start.model.bodies[0], DampingLaw::none)}, 12));
+}
+
+TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  if (device->shares_at_once() == 0) return test::skip("groups of this device do not wait for each other");
+  std::vector<BodySetup> setups = {ball_of("icosphere:3", {0, 0, 0}), ball_of("icosphere:3", {12, 0.3, 0})};
+  setups[0].description.stretch = {1.1, 0.95, 1};
+  setups[0].description.spin = {0, 2, 1};
+  setups[1].description.velocity = {-6, 0, 0};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const Method& method : {Method{"verlet", 0.001}, {"cv8", 0.002}, {"dprkn8", 0.002}}) {
+    CAPTURE(method.integrator);
+    Runs runs(*device, start, method);
+    for (const std::uint64_t steps : {100, 700, 1000}) {
+      runs.advance(steps);
+      runs.check();
+    }
+    CHECK(runs.quiet.report().quiet_steps > 100);
+  }
+}
+
+TEST_CASE("where work groups do not run at once no quiet step is made, and nothing changes", "[gl]") {
+  if (test::lacks_gl()) return;
+  Bench bench(gpu(), build_model(four_balls(), glm::dvec3(0.0)), {"verlet", 0.01}, by_impulses);
+  bench.bodies.run_all_stages(true);
+  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
+  bench.begin();
+  bench.device->run(bench.step(0));
+  const auto before = carried_by(bench, 1);
+  const auto run = [&](std::uint32_t arrivals) {
+    const physics::QuietSteps asked{.end = 3, .undone = ~0u, .arrivals = arrivals, .begun = 0};
+    bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").upload(std::span(&asked, 1));
+    bench.device->run(quiet.passes(1));
+    return quiet.take_made();
+  };
+  CHECK(run(physics::waited_in_vain) == 0);
+  CHECK_FALSE(quiet.are_known());
+  CHECK((carried_by(bench, 1) == before));
 }
 
 TEST_CASE("only a device that knows quiet steps makes them") {

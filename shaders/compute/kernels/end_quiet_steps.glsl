@@ -31,7 +31,7 @@ void move_clock(uint made) {
     if (sum < pair_count) control[0].total_high[body_pairs_skipped] += 1u;
     control[0].total_low[body_pairs_skipped] = sum;
   }
-  if ((quiet_steps[0].arrivals & waited_in_vain) != 0u) status[0].activity = halted_waiting;
+  if (quiet_steps[0].begun != 0u && (quiet_steps[0].arrivals & waited_in_vain) != 0u) status[0].activity = halted_waiting;
 }
 
 void count_work(uint b, uint made) {

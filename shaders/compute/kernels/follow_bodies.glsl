@@ -22,13 +22,55 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
 PARAMETER(uint, skips)  // 1: bodies at rest are left alone
 PARAMETER(uint, forces_of_a_step)
+void count_frame_change(uint b) { tally[b].frame_changes += 1u; }
+#include "parts/follow_rotation.glsl"
+
 uint sample_of(IN(Body) material, uint k) { return sample_vertex(material.first_vertex, material.vertex_count, k); }
 dvec3 sample_rest(IN(Body) material, uint k) { return dvec3(vec3(rest_position[sample_of(material, k)])); }
 dvec3 sample_displacement(IN(Body) material, uint k) {
   return LOAD3(motion, displacement_of(in_half(other_half(from_half), vertex_count, sample_of(material, k))));
 }
-void count_frame_change(uint b) { tally[b].frame_changes += 1u; }
-#include "parts/follow_rotation.glsl"
+
+dvec3 moved_sample(dvec3 rest, dvec3 displacement, dvec3 origin) {
+  return dvec3(place_of_sample(rest.x, displacement.x, origin.x), place_of_sample(rest.y, displacement.y, origin.y),
+               place_of_sample(rest.z, displacement.z, origin.z));
+}
+
+// Adds a sample. `moved` is relative to a point that moves with the body.
+void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
+  EXACT dvec3 rest_sum = s.rest_mean + rest;
+  EXACT dvec3 moved_sum = s.moved_mean + moved;
+  EXACT dvec3 by_x = s.correlation_x + rest.x * moved;
+  EXACT dvec3 by_y = s.correlation_y + rest.y * moved;
+  EXACT dvec3 by_z = s.correlation_z + rest.z * moved;
+  s.rest_mean = rest_sum;
+  s.moved_mean = moved_sum;
+  s.correlation_x = by_x;
+  s.correlation_y = by_y;
+  s.correlation_z = by_z;
+}
+
+// Adds four samples, from k on. There is no loop, so that loads overlap.
+void add_samples(INOUT(Samples) s, IN(Body) material, uint k, dvec3 origin) {
+  dvec3 r0 = sample_rest(material, k), r1 = sample_rest(material, k + 1u), r2 = sample_rest(material, k + 2u),
+        r3 = sample_rest(material, k + 3u);
+  dvec3 u0 = sample_displacement(material, k), u1 = sample_displacement(material, k + 1u), u2 = sample_displacement(material, k + 2u),
+        u3 = sample_displacement(material, k + 3u);
+  add_sample(s, r0, moved_sample(r0, u0, origin));
+  add_sample(s, r1, moved_sample(r1, u1, origin));
+  add_sample(s, r2, moved_sample(r2, u2, origin));
+  add_sample(s, r3, moved_sample(r3, u3, origin));
+}
+
+Samples take_samples(IN(Body) material, dvec3 origin) {
+  Samples s;
+  s.rest_mean = s.moved_mean = s.correlation_x = s.correlation_y = s.correlation_z = dvec3(0);
+  add_samples(s, material, 0u, origin);
+  add_samples(s, material, 4u, origin);
+  add_samples(s, material, 8u, origin);
+  add_samples(s, material, 12u, origin);
+  return about_means(s);
+}
 
 // Whether the step left the body where it was, and the next one will, too. In a body that is not deformed all vertices move alike.
 bool is_left_where_it_was(uint b) {

@@ -20,9 +20,10 @@ struct QuietSteps {
   uint end;       // so many steps are made
   uint undone;    // the first one that does not stand, because it moved a vertex too far, or ~0
   uint arrivals;  // of work groups that wait for each other
+  uint begun;     // 1: they have met, so that they run at once. Else no step is made
 };
 
-FN uint steps_made(IN(QuietSteps) s) { return s.end < s.undone ? s.end : s.undone; }
+FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.undone ? s.end : s.undone; }
 
 // As many at once. The first of these numbers is tried first for how long bodies keep apart.
 const uint most_quiet_steps = 64u;

@@ -1,5 +1,4 @@
-// Turns a body's frame after the body. The kernel has count_frame_change(b). Of samples of the body it has sample_rest(material, k) and
-// sample_displacement(material, k).
+// Turns a body's frame after the body. The kernel has count_frame_change(b).
 
 // Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
 // the frame, relative to a point that moves with the body.
@@ -11,44 +10,13 @@ struct Samples {
   dvec3 correlation_z;
 };
 
-// Adds a sample. `moved` is relative to a point that moves with the body. take_samples() subtracts the means.
-void add_sample(INOUT(Samples) s, dvec3 rest, dvec3 moved) {
-  EXACT dvec3 rest_sum = s.rest_mean + rest;
-  EXACT dvec3 moved_sum = s.moved_mean + moved;
-  EXACT dvec3 by_x = s.correlation_x + rest.x * moved;
-  EXACT dvec3 by_y = s.correlation_y + rest.y * moved;
-  EXACT dvec3 by_z = s.correlation_z + rest.z * moved;
-  s.rest_mean = rest_sum;
-  s.moved_mean = moved_sum;
-  s.correlation_x = by_x;
-  s.correlation_y = by_y;
-  s.correlation_z = by_z;
-}
-
-dvec3 place_of_sample(dvec3 rest, dvec3 displacement, dvec3 origin) {
-  EXACT dvec3 place = rest + (displacement - origin);
+double place_of_sample(double rest, double displacement, double origin) {
+  EXACT double place = rest + (displacement - origin);
   return place;
 }
 
-// Adds four samples, from k on. There is no loop, so that loads overlap.
-void add_samples(INOUT(Samples) s, IN(Body) material, uint k, dvec3 origin) {
-  dvec3 r0 = sample_rest(material, k), r1 = sample_rest(material, k + 1u), r2 = sample_rest(material, k + 2u),
-        r3 = sample_rest(material, k + 3u);
-  dvec3 u0 = sample_displacement(material, k), u1 = sample_displacement(material, k + 1u), u2 = sample_displacement(material, k + 2u),
-        u3 = sample_displacement(material, k + 3u);
-  add_sample(s, r0, place_of_sample(r0, u0, origin));
-  add_sample(s, r1, place_of_sample(r1, u1, origin));
-  add_sample(s, r2, place_of_sample(r2, u2, origin));
-  add_sample(s, r3, place_of_sample(r3, u3, origin));
-}
-
-Samples take_samples(IN(Body) material, dvec3 origin) {
-  Samples s;
-  s.rest_mean = s.moved_mean = s.correlation_x = s.correlation_y = s.correlation_z = dvec3(0);
-  add_samples(s, material, 0u, origin);
-  add_samples(s, material, 4u, origin);
-  add_samples(s, material, 8u, origin);
-  add_samples(s, material, 12u, origin);
+// From sums over all samples. Products are summed about the means.
+Samples about_means(Samples s) {
   s.rest_mean /= double(sample_count);
   EXACT dvec3 about_x = s.correlation_x - s.rest_mean.x * s.moved_mean;
   EXACT dvec3 about_y = s.correlation_y - s.rest_mean.y * s.moved_mean;

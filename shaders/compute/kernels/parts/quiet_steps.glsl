@@ -4,21 +4,46 @@ WRITE(surplus)
 SHARED_WRITE(frame_change)
 PARAMETER(uint, share_count)
 PARAMETER(uint, first_half)
+void count_frame_change(uint b) { quiet_body[b].frame_changes += 1u; }
+#include "follow_rotation.glsl"
 
-// Of the samples that stand for a body: rest position, then displacement after the step. Threads fetch them, and one of them goes on.
+// Of the samples that stand for a body: rest position, then the place after the step, as in follow_rotation.glsl. Threads fetch a number
+// each, and then each finds one of the sums. A thread that did all of it would take registers that large groups do not have.
 shared double sample_number[6u * sample_count];
-dvec3 sample_rest(IN(Body) material, uint k) { return LOAD3(sample_number, 6u * k); }
-dvec3 sample_displacement(IN(Body) material, uint k) { return LOAD3(sample_number, 6u * k + 3u); }
-void fetch_samples(IN(Body) material) {
+shared double sample_sum[15];  // of rest positions, of places, and of their products, as in Samples
+
+void fetch_samples(IN(Body) material, dvec3 origin) {
   for (uint number = gl_LocalInvocationID.x; number < 6u * sample_count; number += gl_WorkGroupSize.x) {
     uint i = sample_vertex(material.first_vertex, material.vertex_count, number / 6u), k = number % 6u;
-    sample_number[number] = k < 3u ? double(rest_position[i][int(k)])
-                                   : motion[displacement_of(in_half(other_half(from_half), vertex_count, i)) + k - 3u];
+    double rest = double(rest_position[i][int(k % 3u)]);
+    uint displacement = displacement_of(in_half(other_half(from_half), vertex_count, i)) + k % 3u;
+    sample_number[number] = k < 3u ? rest : place_of_sample(rest, motion[displacement], origin[int(k % 3u)]);
   }
 }
 
-void count_frame_change(uint b) { quiet_body[b].frame_changes += 1u; }
-#include "follow_rotation.glsl"
+void sum_samples() {
+  uint number = gl_LocalInvocationID.x;
+  if (number >= 15u) return;
+  double sum = double(0);
+  for (uint k = 0u; k < 6u * sample_count; k += 6u) {
+    EXACT double term = number < 6u ? sample_number[k + number]
+                                    : sample_number[k + number / 3u - 2u] * sample_number[k + 3u + number % 3u];
+    EXACT double more = sum + term;
+    sum = more;
+  }
+  sample_sum[number] = sum;
+}
+
+Samples summed_samples() {
+  Samples s;
+  s.rest_mean = LOAD3(sample_sum, 0u);
+  s.moved_mean = LOAD3(sample_sum, 3u);
+  s.correlation_x = LOAD3(sample_sum, 6u);
+  s.correlation_y = LOAD3(sample_sum, 9u);
+  s.correlation_z = LOAD3(sample_sum, 12u);
+  return about_means(s);
+}
+
 #include "restate.glsl"
 #ifdef KICKS_FIRST
 #include "restate_force.glsl"
@@ -98,8 +123,7 @@ void follow_body(Share s, uint b) {
     status[b].calm = 1u;
     atomicMin(quiet_steps[0].end, step_index + 1u);
   }
-  dvec3 origin = LOAD3(pose[b].reference, 0u);
-  follow_rotation(b, s.body.first_vertex, take_samples(s.body, origin), origin);
+  follow_rotation(b, s.body.first_vertex, summed_samples(), LOAD3(pose[b].reference, 0u));
 }
 
 void make_step(Share s) {
@@ -118,7 +142,9 @@ void make_step(Share s) {
   EACH_OWN(i) look_at_vertex(i, b);
   meet_others(s);
   if (s.first_vertex != s.body.first_vertex) return;
-  fetch_samples(s.body);
+  fetch_samples(s.body, LOAD3(pose[b].reference, 0u));
+  barrier();
+  sum_samples();
   barrier();
   if (leads(s)) follow_body(s, b);
 }
@@ -156,15 +182,17 @@ void undo_step(Share s) {
 }
 
 shared uint end_seen, undone_seen;
+uint meetings_of_all = 0u;
 
 // Others may be a step ahead by the time that these are read, and may have changed them, but only to later steps.
 void meet_all(uint groups) {
+  ++meetings_of_all;
   memoryBarrierBuffer();
   barrier();
   if (gl_LocalInvocationID.x == 0u) {
     uint polls = 0u;
     atomicAdd(quiet_steps[0].arrivals, 1u);
-    while (atomicAdd(quiet_steps[0].arrivals, 0u) < groups * (step_index + 1u) && polls < most_polls) ++polls;
+    while (atomicAdd(quiet_steps[0].arrivals, 0u) < groups * meetings_of_all && polls < most_polls) ++polls;
     if (polls == most_polls) atomicOr(quiet_steps[0].arrivals, waited_in_vain);  // the others need not wait, either
     memoryBarrierBuffer();
     bool failed = (atomicAdd(quiet_steps[0].arrivals, 0u) & waited_in_vain) != 0u;
@@ -174,11 +202,16 @@ void meet_all(uint groups) {
   barrier();
 }
 
+// Groups meet before they change anything. If they do not all run at once, they make no step.
 #define EACH_SHARE(k) for (uint k = group; k < share_count; k += groups)
 void make_quiet_steps(uint group, uint groups) {
   if (gl_LocalInvocationID.x == 0u) end_seen = atomicAdd(quiet_steps[0].end, 0u);
   barrier();
+  if (end_seen == 0u) return;
+  barrier();
+  meet_all(groups);
   bool goes_on = end_seen > 0u;
+  if (goes_on && gl_LocalInvocationID.x == 0u) atomicOr(quiet_steps[0].begun, 1u);
   for (step_index = 0u; goes_on; ++step_index) {
     from_half = (first_half + step_index) & 1u;
     EACH_SHARE(k) make_step(share[first_share + k]);
