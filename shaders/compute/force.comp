@@ -134,9 +134,10 @@ const uint stride = PLAINLY * LANES;
   }
 
 #ifdef TILE
-// Fetches vertices of the body into shared memory, from the group's own view of what others write.
+// Fetches vertices of the body into shared memory, from the group's own view of what others write. Keepers still wait for other loads.
 void fetch(uint from, uint count) {
-  for (uint j = gl_LocalInvocationID.x; j < count; j += gl_WorkGroupSize.x) {
+  const uint threads = LANES * TEAMS;
+  for (uint j = gl_LocalInvocationID.x; j < count && gl_LocalInvocationID.x < threads; j += threads) {
     vec3 x = placed[from + j].xyz, u = placed[from + j + vertex_count].xyz;
     seen[j] = vec4(x, u.x);
     seen_beside[j] = u.yz;
@@ -155,6 +156,8 @@ void finish(uint i, Share s, dvec3 force) {
 
 #define FINISH(k) \
   if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * (dvec3(total##k) + dvec3(rest##k)));
+void prepare(Share s) {}
+
 void serve(Share s, bool sums) {
   const uint lane = 0u;
   uint team = gl_LocalInvocationID.x, base = placed_from();
@@ -229,45 +232,58 @@ dvec3 sum_of_runs(uint first) {
   return total;
 }
 
+uint keeper() { return gl_LocalInvocationID.x - LANES * TEAMS; }
+bool keeps(Share s) { return gl_LocalInvocationID.x >= LANES * TEAMS && keeper() / 3u < s.vertex_count; }
+
+// Keepers load what other groups do not write.
+Pending pending;
+void prepare(Share s) {
+  if (keeps(s)) pending = before_force(s.first_vertex + keeper() / 3u, keeper() % 3u, s);
+}
+
 void serve(Share s, bool sums) {
   uint thread = gl_LocalInvocationID.x;
-  uint keeper = thread - LANES * TEAMS;
-  uint place = keeper / 3u, k = keeper % 3u, i = s.first_vertex + place;
-  bool keeps = thread >= LANES * TEAMS && place < s.vertex_count;
-  bool going = runs(s);
-  Pending pending;
-  if (keeps) pending = before_force(i, k, s);
+  uint place = keeper() / 3u, k = keeper() % 3u, i = s.first_vertex + place;
+  bool is_kept = keeps(s) && runs(s);
   sum_lanes(s, sums);
   barrier();
   if (thread < runs_of_lanes * VERTICES * TEAMS) sum_run(thread / runs_of_lanes * LANES + thread % runs_of_lanes);
   barrier();
-  keeps = keeps && going;
-  if (keeps) {
-    if (keeper == 0u && i == s.body.first_vertex) count_force(s, sums);
+  if (is_kept) {
+    if (keeper() == 0u && i == s.body.first_vertex) count_force(s, sums);
     dvec3 force = (-s.body.unit_force) * sum_of_runs(place * LANES);
     double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
-    settled[keeper] = after_force(i, k, s, component, dot(force, force), pending);
+    settled[keeper()] = after_force(i, k, s, component, dot(force, force), pending);
   }
   if (!settles()) return;
   barrier();
-  if (keeps) settle(i, k, s, dvec3(settled[3u * place], settled[3u * place + 1u], settled[3u * place + 2u]));
+  if (is_kept) settle(i, k, s, dvec3(settled[3u * place], settled[3u * place + 1u], settled[3u * place + 2u]));
 }
 #endif
 
 #ifdef TILE
 uint meetings = 0u;
 
-// Waits until every group of the body has come here as often. All of them run at once, so none waits in vain. If a driver holds
-// some of them back all the same, the body halts after most_polls, and nobody waits any more.
-void meet_others(Share s) {
-  ++meetings;
+uint groups_of(Share s) {
   const uint share_size = VERTICES * TEAMS;
-  uint groups = (s.body.vertex_count + share_size - 1u) / share_size, polls = 0u;
+  return (s.body.vertex_count + share_size - 1u) / share_size;
+}
+
+// Tells the body's other groups that this one has written what they may read. Between this and wait_for_others() threads load what other
+// groups do not write.
+void arrive(Share s) {
+  ++meetings;
   memoryBarrierBuffer();
   barrier();
+  if (gl_LocalInvocationID.x == 0u && groups_of(s) > 1u) atomicAdd(meeting[s.body_index], 1u);
+}
+
+// Waits until every group of the body has arrived as often. All of them run at once, so none waits in vain. If a driver holds some of
+// them back all the same, the body halts after most_polls, and nobody waits any more.
+void wait_for_others(Share s) {
+  uint groups = groups_of(s), polls = 0u;
   if (groups == 1u) return;
   if (gl_LocalInvocationID.x == 0u) {
-    atomicAdd(meeting[s.body_index], 1u);
     while (atomicAdd(meeting[s.body_index], 0u) < groups * meetings && polls < most_polls) ++polls;
     if (polls == most_polls) {
       status[s.body_index].activity = halted_waiting;
@@ -276,6 +292,11 @@ void meet_others(Share s) {
     memoryBarrierBuffer();
   }
   barrier();
+}
+
+void meet_others(Share s) {
+  arrive(s);
+  wait_for_others(s);
 }
 
 #ifdef KICKS_FIRST
@@ -290,14 +311,19 @@ void serve_stages(Share s) {
   if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
   barrier();
   for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
-    if (group_sums && (stage_index > 0u || kicks_first)) meet_others(s);
+    bool meets = group_sums && (stage_index > 0u || kicks_first);
+    if (meets) arrive(s);
+    prepare(s);
+    if (meets) wait_for_others(s);
     barrier();  // shared memory changes from here on
     serve(s, group_sums);
   }
 }
 #else
 void serve_stages(Share s) {
-  if (runs(s)) serve(s, deformed(s));
+  if (!runs(s)) return;
+  prepare(s);
+  serve(s, deformed(s));
 }
 #endif
 

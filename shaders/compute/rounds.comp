@@ -19,6 +19,7 @@ const uint far_threads = GROUP_SIZE;
 #endif
 layout(local_size_x = GROUP_SIZE) in;
 PARAMETER(uint, item_count)  // work groups
+#include "kernels/parts/was_stopped.glsl"
 
 const uint most_polls_of_a_round = 1u << 22;  // which take some seconds
 
@@ -42,13 +43,6 @@ void leave(uint groups, uint waits) {
   if (groups == 1u || gl_LocalInvocationID.x != 0u) return;
   uint before = atomicAdd(contact_list[0].arrivals, 1u) & ~waited_in_vain;
   if (before + 1u == groups * (waits + 1u)) atomicAnd(contact_list[0].arrivals, waited_in_vain);
-}
-
-// Mesa's llvmpipe silently stops what has gone through loops 65,535 times. Loops then end after one turn, and so does this one.
-bool was_stopped(uint count) {
-  uint turns = 0u, most = 1u + min(count, 3u);
-  while (turns < most) ++turns;
-  return turns < most;
 }
 
 void end_round(uint groups, uint number) {

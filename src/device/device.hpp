@@ -60,6 +60,7 @@ struct ForceVariant {
   std::string name;
   std::uint32_t share_size = 0;              // vertices that one item of a force kernel serves, at most
   bool all_stages = false;                   // whether its kernels can run every stage of a step in one dispatch
+  std::uint32_t quiet_groups = 0;            // work groups that make quiet steps together, at most; 0: it makes none
   std::uint32_t largest_body = 0xffffffffu;  // in vertices: beyond, others are always faster
 };
 
@@ -105,7 +106,8 @@ class Device {
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
   /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one
   /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, which take shares in turn. There
-  /// are at most shares_at_once() of them, or one, and as many as shares unless each body is one share.
+  /// are at most quiet_groups of them, and as many as shares unless each body is one share. If a device with shares_at_once()
+  /// does not run all of them at once, they make no step.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span = ForceSpan::stage) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
   /// Returns how many items of a force kernel or a kernel in rounds run side by side, so that they may wait for each other. It is

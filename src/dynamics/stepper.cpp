@@ -194,13 +194,16 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
 }
 
 bool Stepper::makes_quiet_steps() const {
-  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages;
+  const Device& device = bodies_.arrays.device();
+  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
+         device.force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
 }
 
 Pass Stepper::quiet_pass(std::uint32_t first_half) const {
   PLIANT_EXPECT(makes_quiet_steps());
   const ForceGroup& group = bodies_.force_groups[0];
-  const std::uint32_t work_groups = std::clamp(bodies_.arrays.device().shares_at_once(), 1u, group.share_count);
+  const std::uint32_t work_groups =
+      std::min(bodies_.arrays.device().force_variants()[group.variant].quiet_groups, group.share_count);
   Parameters parameters = {{"first_half", first_half},
                            {"damping_law", law_},
                            {"stage_count", stage_count_},

@@ -109,20 +109,24 @@ class Flattener {
   }
 
   // Returns whether the line belongs to a conditional that is decided here.
-  bool follow_conditional(std::string_view line) {
+  bool follow_conditional(std::string_view line, FlatShader::Origin origin) {
     const Conditional kind = conditional_of(line);
     if (kind == Conditional::begins) branches_.push_back(branch_of(line));
     if (kind == Conditional::none || branches_.empty() || !branches_.back().is_decided) {
       if (kind == Conditional::ends && !branches_.empty()) branches_.pop_back();
       return false;
     }
-    if (kind == Conditional::turns) branches_.back().is_kept = !branches_.back().is_kept;
+    if (kind == Conditional::turns) {
+      if (!line.starts_with("#else"))
+        throw Error(ErrorKind::device, std::string(origin.file), "'#elif' after a conditional on a define", "use #else and #if");
+      branches_.back().is_kept = !branches_.back().is_kept;
+    }
     if (kind == Conditional::ends) branches_.pop_back();
     return true;
   }
 
   void append_line(std::string_view line, FlatShader::Origin origin) {
-    const bool is_decided = follow_conditional(line);
+    const bool is_decided = follow_conditional(line, origin);
     if (is_decided || !std::ranges::all_of(branches_, &Branch::is_kept)) {
       lines_.push_back({"", origin});
       return;

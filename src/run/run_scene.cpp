@@ -30,7 +30,8 @@
 namespace pliant {
 namespace {
 
-constexpr double patience = 1;           // how long measuring may go on after Ctrl-C [s]
+constexpr double patience = 1;  // how long measuring may go on after Ctrl-C [s]
+constexpr std::uint64_t most_steps_of_a_batch = 1024;
 constexpr double time_of_a_batch = 0.1;  // aimed at between two checks for Ctrl-C and updates of the progress [s]
 
 class Run {
@@ -127,7 +128,7 @@ class Run {
       return run_.simulation->report();
     });
     const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
-    batch_ = is_short ? std::min(2 * batch_, Simulation::most_steps_at_once) : std::max<std::uint64_t>(batch_ / 2, 1);
+    batch_ = is_short ? std::min(2 * batch_, most_steps_of_a_batch) : std::max<std::uint64_t>(batch_ / 2, 1);
   }
 
   void advance_to_time(double target) {

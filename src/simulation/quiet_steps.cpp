@@ -6,8 +6,15 @@
 namespace pliant {
 namespace {
 
-// A driver whose groups can't wait for each other is one in software. That stops long loops (docs/step.md, Limits).
-std::uint32_t most_at_once(const Device& device) { return device.shares_at_once() == 0 ? 4 : physics::most_quiet_steps; }
+// Where groups do not wait for each other, a driver in software runs the only one. It stops long loops (docs/step.md, Limits).
+std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper) {
+  if (bodies.arrays.device().shares_at_once() > 0) return physics::most_quiet_steps;
+  constexpr std::uint64_t most_turns = 16384, turns_beside_a_sum = 32;
+  std::uint64_t turns = 0;  // of one thread in a step
+  for (const physics::Share& share : bodies.shares.download())
+    turns += stepper.stage_count() * (share.body.vertex_count + turns_beside_a_sum);
+  return static_cast<std::uint32_t>(std::min(most_turns / turns, std::uint64_t{4}));
+}
 
 std::vector<Pass> passes_from(std::uint32_t half, const Stepper& stepper, const Response& response) {
   std::vector<Pass> passes = response.before_quiet_steps(half);
@@ -20,8 +27,8 @@ std::vector<Pass> passes_from(std::uint32_t half, const Stepper& stepper, const 
 }  // namespace
 
 QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Response* response)
-    : most_at_once_(most_at_once(bodies.arrays.device())) {
-  if (response == nullptr || !stepper.makes_quiet_steps()) return;
+    : most_at_once_(most_at_once(bodies, stepper)) {
+  if (response == nullptr || !stepper.makes_quiet_steps() || most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
   for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, stepper, *response);

@@ -98,8 +98,7 @@ void Simulation::skip(bool skips) {
   bodies_.arrays.set_parameter("skips", skips ? 1u : 0u);
   if (!skips) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
-  quiet_.reset();
-  if (skips && !pacer_) quiet_.emplace(bodies_, stepper_, collider_.response());
+  tries_quiet_steps_ = skips && !pacer_;
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -126,9 +125,13 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
   if (parts() == nullptr) return queue(steps);
   const std::uint64_t target = parts()->download().front().steps + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
-    const std::uint64_t quiet = make_quiet_steps(left);
-    if (quiet == 0) queue(quiet_ && quiet_->are_known() ? std::min(left, busy_steps_) : left);
-    left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
+    if (const std::uint64_t quiet = make_quiet_steps(left); quiet > 0) {
+      left -= quiet;
+    } else {
+      queue(std::min(left, tries_quiet_steps_ ? busy_steps_ : most_steps_at_once));
+      busy_steps_ = std::min(2 * busy_steps_, most_steps_at_once);
+      left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
+    }
     if (left > 0 && stops && stops()) return;
   }
 }
@@ -136,11 +139,14 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
 // twice as many each time.
 std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
-  if (!quiet_ || !quiet_->are_known() || is_anew_ || most < physics::fewest_quiet_steps) return 0;
+  if (!tries_quiet_steps_ || is_anew_ || most < physics::fewest_quiet_steps) return 0;
+  if (!quiet_) quiet_.emplace(bodies_, stepper_, collider_.response());
+  tries_quiet_steps_ = quiet_->are_known();
+  if (!tries_quiet_steps_) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
   const std::uint32_t made = quiet_->take_made();
-  busy_steps_ = made > 0 ? 1 : std::min(2 * busy_steps_, most_steps_at_once);
+  if (made > 0) busy_steps_ = 1;
   queued_steps_ += made;
   known_control_.reset();
   return made;

@@ -90,7 +90,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, it asks `stops` now and then. A yes ends it in the midst of a step, where another call goes on.
+  /// into parts, it waits for some of them now and then, and asks `stops`. A yes ends it, perhaps in the midst of a step, where
+  /// another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
@@ -155,12 +156,13 @@ class Simulation {
   std::optional<Pacer> pacer_;                     // empty: steps have a fixed length
   physics::Pace known_pace_{};                     // of the latest report
   double fixed_step_;                              // length of a step without a pacer [s]
-  std::optional<QuietSteps> quiet_;                // empty: what is known beforehand is not left out
+  std::optional<QuietSteps> quiet_;                // made when they are first tried
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
   std::uint64_t busy_steps_ = 1;                   // to queue before quiet ones are tried again
-  bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
+  bool tries_quiet_steps_ = false;
+  bool timed_ = false, is_anew_ = true;  // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
 };
 

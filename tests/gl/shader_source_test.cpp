@@ -21,6 +21,7 @@ constexpr ShaderFile files[] = {
      "#version 450\n#ifdef LANES\n#include \"kernels/one.glsl\"\n#else\nfloat without;\n#endif\n#ifdef GL_KHR\n#ifndef "
      "TILE\nfloat untiled;\n"
      "#endif\n#else\nfloat other;\n#endif\n"},
+    {"compute/elif.comp", "#version 450\n#ifdef LANES\nfloat a;\n#elif 1\nfloat b;\n#endif\n"},
     {"compute/lost.comp", "#version 450\n\n#include \"nowhere.glsl\"\n"},
 };
 
@@ -46,6 +47,12 @@ TEST_CASE("a file that two others include is in the flat shader once") {
   CHECK(count(flat.text, "float shared_line;") == 1);
   CHECK(count(flat.text, "float kernel_line;") == 1);
   CHECK(count(flat.text, "#include") == 0);
+}
+
+TEST_CASE("a conditional on a define has no #elif") {
+  const Define defines[] = {{"LANES", "64"}};
+  CHECK(message_of([&] { (void)flatten_shader(files, "compute/elif.comp", defines); }).find("#elif") != std::string::npos);
+  CHECK(count(flatten_shader(files, "compute/elif.comp").text, "#elif") == 1);
 }
 
 TEST_CASE("every line of a flat shader knows the line it came from") {

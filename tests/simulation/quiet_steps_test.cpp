@@ -219,6 +219,57 @@ TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
   }
 }
 
+// A work group serves several of them, on a device in software all.
+TEST_CASE("many bodies make quiet steps, or none if a device would stop their loops", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  const bool is_software = device->shares_at_once() == 0;
+  struct Many {
+    const char* mesh;
+    int count;
+  };
+  for (const Many& many : {Many{"icosphere:1", is_software ? 3 : 600}, {"cube:1", is_software ? 5 : 40}, {"icosphere:1", 16}}) {
+    CAPTURE(many.mesh, many.count);
+    std::vector<BodySetup> setups;
+    for (int k = 0; k < many.count; ++k) {
+      setups.push_back(ball_of(many.mesh, {12.0 * (k % 16), 12.0 * (k / 16), 0}));
+      setups.back().description.stretch = {1.1, 0.95, 1};
+      setups.back().description.spin = {0, 2, 1};
+    }
+    const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+    Runs runs(*device, start, {"dop853", 0.02});
+    runs.advance(9);
+    runs.check();
+    CHECK((runs.quiet.report().quiet_steps > 4) == !(is_software && many.count == 16));
+  }
+}
+
+TEST_CASE("bodies that sleep or never move are left alone in quiet steps", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  std::vector<BodySetup> setups(3, ball_of("icosphere:1", {0, 0.45, 0}));
+  for (BodySetup& setup : setups) {
+    setup.description.scale = 0.4;
+    setup.description.total_stiffness = 4000;
+  }
+  setups[0].description.damping = 2;
+  setups[1].description.position = {200, 60, 0};
+  setups[1].description.velocity = {0, 20, 0};
+  setups[1].description.stretch = {1.1, 0.95, 1};
+  setups[2].description.position = {100, 60, 0};
+  setups[2].description.kind = BodyKind::immovable;
+  const GroundDescription floor;
+  const ModelAndState start = build_model(setups, {0, -9.81, 0}, {&floor, 1});
+  Runs runs(*device, start, {"verlet", 0.004, DampingLaw::constant}, true);
+  for (const std::uint64_t steps : {300, 150, 100}) {
+    runs.advance(steps);
+    runs.check();
+  }
+  CHECK(runs.quiet.report().bodies_asleep == 1);
+  CHECK(runs.quiet.report().energy_slept > 0);
+  CHECK(runs.quiet.report().quiet_steps > 50);
+}
+
 TEST_CASE("where work groups do not run at once no quiet step is made, and nothing changes", "[gl]") {
   if (test::lacks_gl()) return;
   Bench bench(gpu(), build_model(four_balls(), glm::dvec3(0.0)), {"verlet", 0.01}, by_impulses);

@@ -147,9 +147,11 @@ inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {
 }
 
 inline std::vector<double> numbers_of(const physics::QuietBody& body) {
-  std::vector<double> numbers{double(body.room), double(body.frame_changes)};
-  for (const float* bounds : {body.lower, body.upper, body.least_velocity, body.most_velocity})
-    numbers.insert(numbers.end(), bounds, bounds + 3);
+  std::vector<double> numbers{double(body.bounds.room), double(body.frame_changes)};
+  const physics::QuietBounds& bounds = body.bounds;
+  for (const float* bound : {bounds.lower, bounds.upper, bounds.least_velocity, bounds.most_velocity})
+    numbers.insert(numbers.end(), bound, bound + 3);
+  numbers.insert(numbers.end(), body.first_motion, body.first_motion + 12);
   return numbers;
 }
 

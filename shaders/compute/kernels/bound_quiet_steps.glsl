@@ -1,6 +1,7 @@
 // One thread serves one body before quiet steps. It sets the bounds within which they are quiet.
 #include "../physics/body.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 #include "../physics/quiet.glsl"
@@ -9,8 +10,12 @@ READ_AS(place_box, BoxBits, body_box)
 READ(body_motion)
 READ(step_parts)
 READ(status)
+READ(body)
+READ(motion)
 READ(quiet_steps)
 WRITE(quiet_body)
+PARAMETER(uint, vertex_count)
+PARAMETER(uint, from_half)
 #include "parts/quiet_region.glsl"
 
 // Less than what bodies that meet no others have (limit_step.glsl, expect_motion.glsl).
@@ -23,11 +28,13 @@ double room_of(uint b) {
 void bound_quiet_steps(uint b) {
   Box places = place_bound(b, quiet_steps[0].end), velocities = velocity_bound(b, quiet_steps[0].end);
   for (uint k = 0u; k < 3u; ++k) {
-    quiet_body[b].lower[k] = places.lower[int(k)];
-    quiet_body[b].upper[k] = places.upper[int(k)];
-    quiet_body[b].least_velocity[k] = velocities.lower[int(k)];
-    quiet_body[b].most_velocity[k] = velocities.upper[int(k)];
+    quiet_body[b].bounds.lower[k] = places.lower[int(k)];
+    quiet_body[b].bounds.upper[k] = places.upper[int(k)];
+    quiet_body[b].bounds.least_velocity[k] = velocities.lower[int(k)];
+    quiet_body[b].bounds.most_velocity[k] = velocities.upper[int(k)];
   }
-  quiet_body[b].room = float(room_of(b));
+  quiet_body[b].bounds.room = float(room_of(b));
+  uint first = displacement_of(in_half(from_half, vertex_count, body[b].first_vertex));
+  for (uint k = 0u; k < motion_size; ++k) quiet_body[b].first_motion[motion_size * from_half + k] = motion[first + k];
   quiet_body[b].frame_changes = 0u;
 }

@@ -45,8 +45,8 @@ uint sample_in_half(uint b, uint k, uint half_index) {
   return in_half(half_index, vertex_count, sample_vertex(body[b].first_vertex, body[b].vertex_count, k));
 }
 
-// Slow time begins where the step did.
-void begin_slow_time(uint b) {
+// A window of slow time begins where the step did.
+void begin_window(uint b) {
   for (uint k = 0u; k < sample_count; ++k) slow_place[sample_count * b + k] = world_position[sample_in_half(b, k, from_half)];
 }
 
@@ -70,10 +70,15 @@ bool trembles_little(uint b) {
   return squares <= double(sample_count) * most * most;
 }
 
+// A body that creeps on stays fit to sleep until others of its island are, too. So windows follow each other. At the end of one slow_for is
+// twice sleeps_after.
 void count_slow_time(uint b) {
-  if (status[b].slow_for == 0.0f) begin_slow_time(b);
-  bool is_slow = is_fit_to_sleep(b) && trembles_little(b) && has_stayed(b);
-  status[b].slow_for = is_slow ? min(status[b].slow_for + float(control[0].time_step), sleeps_after) : 0.0f;
+  float before = status[b].slow_for;
+  if (before == 0.0f || before == float(2) * sleeps_after) begin_window(b);
+  if (before == float(2) * sleeps_after) before = sleeps_after;
+  float slow_for = before + float(control[0].time_step), end = before < sleeps_after ? sleeps_after : float(2) * sleeps_after;
+  if (slow_for >= end) slow_for = float(2) * sleeps_after;
+  status[b].slow_for = is_fit_to_sleep(b) && trembles_little(b) && has_stayed(b) ? slow_for : 0.0f;
 }
 
 // What sleeps, or is at rest without that, keeps nobody awake.

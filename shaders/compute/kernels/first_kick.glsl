@@ -15,6 +15,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, damping_law)
 PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if they can fall into parts; else 0
+#include "parts/frame.glsl"
 #include "parts/part_of_step.glsl"
 #include "parts/kick.glsl"
 #include "parts/place.glsl"
@@ -25,5 +26,5 @@ void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
   if (status[b].activity != moving || is_still(status[b])) return;
   if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has summed the springs again
-  kick_first(i, b, body[b]);
+  for (uint k = 0u; k < 3u; ++k) kick_first(i, k, b, body[b]);
 }

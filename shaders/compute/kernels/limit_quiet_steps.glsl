@@ -3,6 +3,8 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
+#include "../physics/contact/debt.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
 #include "../physics/quiet.glsl"
@@ -15,11 +17,14 @@ READ(step_parts)
 READ(status)
 READ(pressed)
 READ(contact_list)
+READ(debt)
+READ(cluster)
 WRITE(quiet_steps)
 PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
 PARAMETER(uint, keeps_force)
 #include "parts/quiet_region.glsl"
+#include "parts/dues.glsl"
 
 void allow(uint steps) { atomicMin(quiet_steps[0].end, steps); }
 
@@ -28,7 +33,7 @@ bool begins_quietly() {
   StepParts p = step_parts[0];
   ContactList list = contact_list[0];
   return control[0].non_finite_vertex == no_vertex && p.divides != 0u && p.left == smallest_parts && p.last == p.full &&
-         p.longest == no_bound && list.latest_count == 0u && list.has_dues == 0u && list.arrivals == 0u;
+         p.longest == no_bound && list.latest_count == 0u && list.arrivals == 0u && !has_dues();
 }
 
 bool is_bound_by_pressing(uint b) {

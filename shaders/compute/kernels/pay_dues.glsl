@@ -36,12 +36,9 @@ PARAMETER(uint, contact_capacity)
 
 const uint last_round = 7u;
 
-// The last debt is that of all bodies together, and the last cluster counts bodies in clusters.
-bool is_needed() {
-  return contact_list[0].has_dues != 0u || debt[body_count].energy > double(0) || cluster[body_count].bodies != 0u;
-}
+#include "parts/dues.glsl"
 // A step that is empty or was undone leaves clusters as they are.
-uint items_in_a_round() { return is_needed() && control[0].time_step > double(0) ? part_count : 0u; }
+uint items_in_a_round() { return has_dues() && control[0].time_step > double(0) ? part_count : 0u; }
 uint rounds_at_most() { return last_round + 1u; }
 bool goes_on(uint number) { return number < last_round; }
 

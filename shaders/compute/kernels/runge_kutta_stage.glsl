@@ -76,13 +76,13 @@ dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
 bool wants_velocity() { return is_last() || damping_law != damping_none; }
 
 Course course_on_axis(uint k, IN(Share) s) {
-  uint first = in_half(from_half, vertex_count, s.body.first_vertex), row = next_row(s);
+  uint first = s.body.first_vertex, row = next_row(s);
   Course c;
-  c.gravity = pose[s.body_index].gravity[k];
+  c.gravity = gravity_of(s.body_index, k);
   c.time_step = control[0].time_step;
   c.elapsed = tableau[row].x * c.time_step;
   c.keep = tableau[row].y;
-  c.reference = motion[displacement_of(first) + k] + c.elapsed * motion[velocity_of(first) + k];
+  c.reference = first_displacement(first, k) + c.elapsed * first_velocity(first, k);
   c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
   c.velocity_weight = c.time_step * tableau[row + 1u].y;
   return c;

@@ -45,13 +45,13 @@ struct Pending {
 };
 
 Pending before_force(uint i, uint k, IN(Share) s) {
-  uint after = in_half(other_half(from_half), vertex_count, i), first = in_half(from_half, vertex_count, s.body.first_vertex);
+  uint after = in_half(other_half(from_half), vertex_count, i), first = s.body.first_vertex;
   Pending p;
   p.rest = double(rest_position[i][int(k)]);
-  p.gravity = pose[s.body_index].gravity[k];
+  p.gravity = gravity_of(s.body_index, k);
   p.displacement = motion[displacement_of(after) + k];
   p.velocity = motion[velocity_of(after) + k];
-  p.reference = motion[displacement_of(first) + k] + elapsed() * motion[velocity_of(first) + k];
+  p.reference = first_displacement(first, k) + elapsed() * first_velocity(first, k);
   return p;
 }
 

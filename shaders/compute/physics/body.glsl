@@ -54,7 +54,7 @@ struct Status {
   uint calm;               // steps in a row that left the body where it was, counted up to at_rest: see below
   uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
   uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
-  float slow_for;          // how long it has been fit to sleep [s]
+  float slow_for;          // how long it has been fit to sleep [s], at most twice sleeps_after
   uint pressed_by_static;  // number of the latest part of a step in which a ground or a static body gave it an impulse, 0: none
   uint falls_asleep;       // 1: it sleeps from the end of this step on
   uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it

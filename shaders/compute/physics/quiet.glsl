@@ -6,14 +6,21 @@
 SHARED_BEGIN
 
 // A step is quiet as long as each body is in bounds at its start: then what bodies may reach in it is apart (kernels/parts/reach.glsl).
-struct QuietBody {
-  Pose before[2];           // at a step's start, of steps in turn
-  float lower[3];           // bounds of the places of vertices [m]
+struct QuietBounds {
+  float lower[3];  // of the places of vertices [m]
   float upper[3];
-  float least_velocity[3];  // and of the velocities that they are expected to have [m/s]
+  float least_velocity[3];  // of the velocities that they are expected to have [m/s]
   float most_velocity[3];
-  float room;               // how much further than expected a vertex may go in a step without being cut short [m]
-  uint frame_changes;       // in these steps
+  float room;  // how much further than expected a vertex may go in a step without being cut short [m]
+};
+
+// Work groups that serve a body tell each other of its motion here.
+struct QuietBody {
+  QuietBounds bounds;
+  uint frame_changes;          // in these steps
+  double reference_before[3];  // pose's, at the step's start [m]
+  double first_motion[12];     // [half][6] as `motion` has it of the first vertex
+  double samples[96];          // [steps in turn][16][3] displacements at the step's end, of vertices that stand for the body [m]
 };
 
 struct QuietSteps {
@@ -25,7 +32,7 @@ struct QuietSteps {
 
 FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.undone ? s.end : s.undone; }
 
-// As many at once. The first of these numbers is tried first for how long bodies keep apart.
+// A dispatch makes so many steps at most. Bounds are tried for as many first, then for half as many, and so on.
 const uint most_quiet_steps = 64u;
 const uint fewest_quiet_steps = 2u;
 

@@ -265,7 +265,7 @@ class Impulse final : public Response {
     const Arrays& arrays = bodies_.arrays;
     return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
             make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}}, bodies_.body_count * bodies_.body_count),
-            make_pass(arrays, "bound_quiet_steps", {}, bodies_.body_count)};
+            make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}}, bodies_.body_count)};
   }
   std::vector<Pass> after_quiet_steps() const override {
     return {make_pass(bodies_.arrays, "end_quiet_steps", {{"pair_count", has_pairs_ ? body_pairs_.pair_count() : 0}},

@@ -31,11 +31,12 @@ struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
-                          // memory has room for, in multiples that keep the order of additions. One lane needs none
+                          // memory has room for, in multiples that keep the order of additions
   std::uint32_t most_vertices;          // of all bodies together, up to which this is the fastest
   std::uint32_t most_vertices_of_body;  // beyond, another one is faster
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
+  std::uint32_t threads() const { return lanes * teams + keepers(); }
 };
 // The first is for processors that run shaders. The others were measured on an H200:
 // - Few vertices need many lanes each.
@@ -67,7 +68,7 @@ class GpuDevice final : public Device {
     for (const Lanes& choice : lane_choices)
       variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
                                        choice.vertices == 1 ? "vertex" : "vertices"),
-                           choice.teams * choice.vertices, choice.tile != 0,
+                           choice.teams * choice.vertices, choice.tile != 0, quiet_groups(choice),
                            choice.most_vertices_of_body == 0 ? any_number : choice.most_vertices_of_body});
   }
 
@@ -160,6 +161,13 @@ class GpuDevice final : public Device {
   }
 
  private:
+  // A multiprocessor runs one large group. Of small ones an H100 runs four on each, and not eight.
+  std::uint32_t quiet_groups(const Lanes& lanes) const {
+    if (lanes.tile == 0) return 0;
+    if (context_.adapter().is_software) return 1;
+    return context_.adapter().multiprocessors * std::max(256u / lanes.threads(), 1u);
+  }
+
   struct Kernel {
     std::string name;
     const Caller* caller;

@@ -159,5 +159,29 @@ TEST_CASE("a body that stays where it is sleeps though it trembles, and one that
   }
 }
 
+// Each of them goes further than a body may that sleeps, in a second.
+TEST_CASE("bodies that creep fall asleep together, though one began later", "[gl]") {
+  constexpr float speed = 0.9f;
+  for (const TestDevice& test : all_devices())
+    for (const int delay : {0, 1, 2, 3, 7}) {
+      CAPTURE(test.name, delay);
+      Slumber bodies;
+      bodies.statuses[0].slow_for = bodies.statuses[1].slow_for = 0;
+      float first = 7, second = 7;
+      int slept = -1;
+      for (int k = 0; k < 20 && slept < 0; ++k) {
+        const float way = speed * static_cast<float>(step);
+        bodies.clusters = Slumber().clusters;
+        bodies.clusters[1].is_stirred = k < delay ? 1 : 0;
+        bodies.go(0, first, first + way);
+        bodies.go(1, second, second + way);
+        if (bodies.fall_asleep(*test.device)[0]) slept = k;
+        first += way;
+        second += way;
+      }
+      CHECK(slept == delay + 3);
+    }
+}
+
 }  // namespace
 }  // namespace pliant

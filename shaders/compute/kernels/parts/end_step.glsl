@@ -10,9 +10,8 @@ void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity,
 
 // Writes the world position on axis k, rounded once, of a vertex that stands at `position` in the body's frame [m].
 void end_in_world(uint i, uint k, uint b, dvec3 position) {
-  double turned =
-      row_times(pose[b].rotation[3u * k], pose[b].rotation[3u * k + 1u], pose[b].rotation[3u * k + 2u], position);
-  EXACT double coordinate = turned + pose[b].origin[k];
+  double turned = in_world(b, k, position);
+  EXACT double coordinate = turned + origin_of(b, k);
   uint after = in_half(other_half(from_half), vertex_count, i);
   world_coordinate[number_of(after, k)] = float(coordinate);
   bound(i, b, k, float(coordinate));

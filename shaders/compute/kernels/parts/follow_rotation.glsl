@@ -17,14 +17,15 @@ double place_of_sample(double rest, double displacement, double origin) {
 
 // From sums over all samples. Products are summed about the means.
 Samples about_means(Samples s) {
-  s.rest_mean /= double(sample_count);
+  const double part = double(1) / double(sample_count);  // a power of two
+  s.rest_mean *= part;
   EXACT dvec3 about_x = s.correlation_x - s.rest_mean.x * s.moved_mean;
   EXACT dvec3 about_y = s.correlation_y - s.rest_mean.y * s.moved_mean;
   EXACT dvec3 about_z = s.correlation_z - s.rest_mean.z * s.moved_mean;
   s.correlation_x = about_x;
   s.correlation_y = about_y;
   s.correlation_z = about_z;
-  s.moved_mean /= double(sample_count);
+  s.moved_mean *= part;
   return s;
 }
 
@@ -37,6 +38,7 @@ dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
   EXACT dvec3 turn = torque / (abs(alignment) + double(1e-30));
   return turn;
 }
+
 
 void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
   Quaternion old = quaternion(pose[b].quaternion[0], pose[b].quaternion[1], pose[b].quaternion[2], pose[b].quaternion[3]);
@@ -72,12 +74,20 @@ void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, d
 
 // The frame follows once the body has turned by more than 0.01 rad in it. Displacements then stay small against the body,
 // and their rounding to fp32 small against the strains.
+bool has_turned(IN(Samples) s) {
+  const double largest_turn = double(0.01);
+  EXACT dvec3 torque = dvec3(s.correlation_y.z - s.correlation_z.y, s.correlation_z.x - s.correlation_x.z,
+                             s.correlation_x.y - s.correlation_y.x);
+  EXACT double most = largest_turn * (s.correlation_x.x + s.correlation_y.y + s.correlation_z.z);
+  return ordered_dot(torque, torque) > most * most;
+}
+
 void follow_rotation(uint b, uint first_vertex, IN(Samples) samples, dvec3 origin) {
-  const double largest_turn = double(0.01), smallest_turn = double(1e-9);
+  const double smallest_turn = double(1e-9);
+  if (!has_turned(samples)) return;
   Quaternion q = quaternion(double(0), double(0), double(0), double(1));
   dvec3 turn = remaining_turn(samples, q);
-  if (!(dot(turn, turn) > largest_turn * largest_turn)) return;
-  for (uint iteration = 0u; iteration < 8u && dot(turn, turn) > smallest_turn * smallest_turn; ++iteration) {
+  for (uint iteration = 0u; iteration < 8u && ordered_dot(turn, turn) > smallest_turn * smallest_turn; ++iteration) {
     Quaternion small = quaternion(turn.x / double(2), turn.y / double(2), turn.z / double(2), double(1));
     q = normalized(product(small, q));
     turn = remaining_turn(samples, q);

@@ -12,15 +12,6 @@ void count_frame_change(uint b) { quiet_body[b].frame_changes += 1u; }
 shared double sample_number[6u * sample_count];
 shared double sample_sum[15];  // of rest positions, of places, and of their products, as in Samples
 
-void fetch_samples(IN(Body) material, dvec3 origin) {
-  for (uint number = gl_LocalInvocationID.x; number < 6u * sample_count; number += gl_WorkGroupSize.x) {
-    uint i = sample_vertex(material.first_vertex, material.vertex_count, number / 6u), k = number % 6u;
-    double rest = double(rest_position[i][int(k % 3u)]);
-    uint displacement = displacement_of(in_half(other_half(from_half), vertex_count, i)) + k % 3u;
-    sample_number[number] = k < 3u ? rest : place_of_sample(rest, motion[displacement], origin[int(k % 3u)]);
-  }
-}
-
 void sum_samples() {
   uint number = gl_LocalInvocationID.x;
   if (number >= 15u) return;
@@ -51,134 +42,146 @@ Samples summed_samples() {
 void restate_force(uint i, uint b) {}
 #endif
 
-#define EACH_OWN(i) \
-  for (uint i = s.first_vertex + gl_LocalInvocationID.x; i < s.first_vertex + s.vertex_count; i += gl_WorkGroupSize.x)
-#define POSE_BEFORE quiet_body[b].before[step_index & 1u]
-#define COPY_POSE(from, to)                                           \
-  for (uint k = 0u; k < 3u; ++k) {                                    \
-    to.origin[k] = from.origin[k];                                    \
-    to.gravity[k] = from.gravity[k];                                  \
-    to.reference[k] = from.reference[k];                              \
-  }                                                                   \
-  for (uint k = 0u; k < 4u; ++k) to.quaternion[k] = from.quaternion[k]; \
-  for (uint k = 0u; k < 9u; ++k) to.rotation[k] = from.rotation[k];
+#define EACH_THREAD(n, count) for (uint n = gl_LocalInvocationID.x; n < (count); n += gl_WorkGroupSize.x)
+#define EACH_COORDINATE(n) EACH_THREAD(n, 3u * s.vertex_count)
+#define VERTEX_OF(n) (s.first_vertex + n / 3u)
+#define AXIS_OF(n) (n % 3u)
 
-bool leads(Share s) { return gl_LocalInvocationID.x == 0u && s.first_vertex == s.body.first_vertex; }
+bool serves_first(Share s) { return s.first_vertex == s.body.first_vertex; }
+bool leads(Share s) { return gl_LocalInvocationID.x == 0u && serves_first(s); }
 
-void keep_pose(uint b) { COPY_POSE(pose[b], POSE_BEFORE) }
-void restore_pose(uint b) { COPY_POSE(POSE_BEFORE, pose[b]) }
-
-// One component in the world of a vector of the frame. A member of an array that others write is not passed on: NVIDIA's driver 580
-// fails then.
-double turned_before(uint b, uint k, dvec3 p) {
-  return row_times(POSE_BEFORE.rotation[3u * k], POSE_BEFORE.rotation[3u * k + 1u], POSE_BEFORE.rotation[3u * k + 2u], p);
-}
-
-dvec3 velocity_in(uint half_index, uint i) { return LOAD3(motion, velocity_of(in_half(half_index, vertex_count, i))); }
+uint before_step(uint i) { return in_half(from_half, vertex_count, i); }
+uint after_step(uint i) { return in_half(other_half(from_half), vertex_count, i); }
+dvec3 velocity_in(uint place) { return LOAD3(motion, velocity_of(place)); }
 dvec3 way_in_frame(uint i) {
-  uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
-  return LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
+  return LOAD3(motion, displacement_of(after_step(i))) - LOAD3(motion, displacement_of(before_step(i)));
 }
 
 // What `settle` keeps of a step for the next: the velocity that the vertex had in the step beyond that at the start, in the frame [m/s].
-dvec3 surplus_in_frame(uint i, dvec3 gone) { return gone / control[0].time_step - velocity_in(from_half, i); }
+dvec3 surplus_in_frame(uint i, dvec3 gone) { return gone / control[0].time_step - velocity_in(before_step(i)); }
 
-// A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then. One
-// axis at a time takes fewer registers, of which a large group has few.
-void look_at_vertex(uint i, uint b) {
-  dvec3 gone = way_in_frame(i), in_frame = surplus_in_frame(i, gone), first = velocity_in(from_half, i);
-  dvec3 last = velocity_in(other_half(from_half), i);
-  double room = double(quiet_body[b].room);
-  bool stays = true, goes_on = true;
-  for (uint k = 0u; k < 3u; ++k) {
-    double latest = surplus[surplus_of(0u, vertex_count, i) + k], oldest = surplus[surplus_of(1u, vertex_count, i) + k];
-    double along = turned_before(b, k, gone), next = turned_before(b, k, in_frame);
-    double expected = control[0].time_step * (turned_before(b, k, first) + (latest + double(0.5) * (latest - oldest)));
-    double speed = turned_before(b, k, last) + (next + double(0.5) * (next - latest));
-    stays = stays && along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
-    goes_on = goes_on && speed > double(quiet_body[b].least_velocity[k]) && speed < double(quiet_body[b].most_velocity[k]);
-  }
+// A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
+void look_at_vertex(uint i, uint k, uint b) {
+  dvec3 gone = way_in_frame(i);
+  double latest = surplus[surplus_of(0u, vertex_count, i) + k], oldest = surplus[surplus_of(1u, vertex_count, i) + k];
+  double along = in_world(b, k, gone), next = in_world(b, k, surplus_in_frame(i, gone)), room = double(bounds.room);
+  double expected =
+      control[0].time_step * (in_world(b, k, velocity_in(before_step(i))) + (latest + double(0.5) * (latest - oldest)));
+  double speed = in_world(b, k, velocity_in(after_step(i))) + (next + double(0.5) * (next - latest));
+  bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
+  bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
   if (!stays) atomicMin(quiet_steps[0].undone, step_index);
   if (!goes_on) atomicMin(quiet_steps[0].end, step_index + 1u);
 }
 
-void keep_surplus(uint i, uint b) {
-  dvec3 in_frame = surplus_in_frame(i, way_in_frame(i));
-  for (uint k = 0u; k < 3u; ++k) {
-    surplus[surplus_of(1u, vertex_count, i) + k] = surplus[surplus_of(0u, vertex_count, i) + k];
-    surplus[surplus_of(0u, vertex_count, i) + k] = turned_before(b, k, in_frame);
-  }
+void keep_surplus(uint i, uint k, uint b) {
+  double next = in_world(b, k, surplus_in_frame(i, way_in_frame(i)));
+  surplus[surplus_of(1u, vertex_count, i) + k] = surplus[surplus_of(0u, vertex_count, i) + k];
+  surplus[surplus_of(0u, vertex_count, i) + k] = next;
 }
 
 // Whether the step left an undeformed body where it was. That it comes to rest is left to other steps.
 bool is_left_where_it_was(IN(Share) s, uint b) {
   uint first = s.body.first_vertex;
-  return status[b].deformed == 0u && LOAD3(pose[b].gravity, 0u) == dvec3(0) && way_in_frame(first) == dvec3(0) &&
-         velocity_in(0u, first) == dvec3(0) && velocity_in(1u, first) == dvec3(0);
+  return LOAD3(frame.gravity, 0u) == dvec3(0) && way_in_frame(first) == dvec3(0) &&
+         velocity_in(before_step(first)) == dvec3(0) && velocity_in(after_step(first)) == dvec3(0);
 }
 
-void follow_body(Share s, uint b) {
-  frame_change[b].turned = 0u;
-  if (is_left_where_it_was(s, b)) {
-    status[b].calm = 1u;
-    atomicMin(quiet_steps[0].end, step_index + 1u);
+void tell_first(Share s) {
+  if (!serves_first(s)) return;
+  uint at = displacement_of(after_step(s.body.first_vertex));
+  EACH_THREAD(n, motion_size) quiet_body[s.body_index].first_motion[motion_size * other_half(from_half) + n] = motion[at + n];
+}
+
+uint sample_at(uint n) { return 3u * sample_count * (step_index & 1u) + n; }
+void tell_samples(Share s) {
+  EACH_THREAD(n, 3u * sample_count) {
+    uint i = sample_vertex(s.body.first_vertex, s.body.vertex_count, n / 3u);
+    if (i >= s.first_vertex && i < s.first_vertex + s.vertex_count)
+      quiet_body[s.body_index].samples[sample_at(n)] = motion[displacement_of(after_step(i)) + n % 3u];
   }
-  follow_rotation(b, s.body.first_vertex, summed_samples(), LOAD3(pose[b].reference, 0u));
 }
 
-void make_step(Share s) {
+void fetch_samples(IN(Body) material, uint b) {
+  EACH_THREAD(n, 3u * sample_count) {
+    uint i = sample_vertex(material.first_vertex, material.vertex_count, n / 3u), k = n % 3u, at = 6u * (n / 3u) + k;
+    double rest = double(rest_position[i][int(k)]);
+    sample_number[at] = rest;
+    sample_number[at + 3u] = place_of_sample(rest, quiet_body[b].samples[sample_at(n)], pose[b].reference[k]);
+  }
+}
+
+const uint no_share = 0xffffffffu;
+uint share_at_hand = no_share;  // the one whose body has been fetched for the next step
+
+void make_step(uint number, Share s) {
   uint b = s.body_index;
   barrier();  // shared memory changes from here on
   if (!runs(s)) return;
-  if (leads(s)) keep_pose(b);
+  if (share_at_hand != number) {
+    fetch_body(b, from_half);
+    share_at_hand = number;
+    barrier();
+  }
+  if (serves_first(s)) EACH_THREAD(k, 3u) quiet_body[b].reference_before[k] = frame.reference[k];
 #ifdef KICKS_FIRST
-  EACH_OWN(i) kick_first(i, b, s.body);
+  EACH_COORDINATE(n) kick_first(VERTEX_OF(n), AXIS_OF(n), b, s.body);
 #endif
   memoryBarrierBuffer();
   barrier();
   serve_stages(s);
   memoryBarrierBuffer();
   barrier();
-  EACH_OWN(i) look_at_vertex(i, b);
-  meet_others(s);
-  if (s.first_vertex != s.body.first_vertex) return;
-  fetch_samples(s.body, LOAD3(pose[b].reference, 0u));
+  EACH_COORDINATE(n) look_at_vertex(VERTEX_OF(n), AXIS_OF(n), b);
+  tell_first(s);
+  tell_samples(s);
+  if (group_sums || !leads(s) || !is_left_where_it_was(s, b)) return;
+  status[b].calm = 1u;
+  atomicMin(quiet_steps[0].end, step_index + 1u);
+}
+
+shared bool frame_turns;
+
+// The step stands. Each group of the body finds whether its frame turns.
+void end_step_of(uint number, Share s) {
+  uint b = s.body_index;
+  if (!runs(s)) return;
+  barrier();  // shared memory changes from here on
+  fetch_body(b, other_half(from_half));
+  share_at_hand = number;
+  fetch_samples(s.body, b);
   barrier();
   sum_samples();
   barrier();
-  if (leads(s)) follow_body(s, b);
-}
-
-shared bool frame_turned;
-
-void end_step_of(Share s) {
-  uint b = s.body_index;
-  if (!runs(s)) return;
+  if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) frame_turns = has_turned(summed_samples());
+  EACH_COORDINATE(n) keep_surplus(VERTEX_OF(n), AXIS_OF(n), b);
   barrier();
-  if (gl_LocalInvocationID.x == 0u) frame_turned = frame_change[b].turned != 0u;
-  barrier();
-  EACH_OWN(i) {
-    keep_surplus(i, b);
-    if (!frame_turned) continue;
-    restate(i, b, s.body.inverse_unit);
-    restate_force(i, b);
+  if (!frame_turns) return;
+  share_at_hand = no_share;
+  meet_others(s);
+  if (leads(s)) follow_rotation(b, s.body.first_vertex, summed_samples(), LOAD3(frame.reference, 0u));
+  meet_others(s);
+  EACH_THREAD(n, s.vertex_count) {
+    restate(s.first_vertex + n, b, s.body.inverse_unit);
+    restate_force(s.first_vertex + n, b);
   }
-  if (frame_turned) meet_others(s);
+  memoryBarrierBuffer();
+  barrier();
+  tell_first(s);
+  meet_others(s);
 }
 
-// The step's start is as it was: what stood there alone is the placement, and the pose.
+// Motions have a half for the step's start. The placement there and what it is relative to have not, so they are found again.
 void undo_step(Share s) {
   uint b = s.body_index;
   if (!runs(s)) return;
-  EACH_OWN(i) {
-    dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
-    for (uint k = 0u; k < 3u; ++k)
-      place(start_slot, i, k, s.body.inverse_unit, double(rest_position[i][int(k)]), displacement[int(k)] - POSE_BEFORE.reference[k]);
+  EACH_COORDINATE(n) {
+    uint i = VERTEX_OF(n), k = AXIS_OF(n);
+    double relative = motion[displacement_of(before_step(i)) + k] - quiet_body[b].reference_before[k];
+    place(start_slot, i, k, s.body.inverse_unit, double(rest_position[i][int(k)]), relative);
   }
-  if (!leads(s)) return;
-  if (frame_change[b].turned != 0u) quiet_body[b].frame_changes -= 1u;
-  status[b].calm = 0u;
-  restore_pose(b);
+  if (serves_first(s)) EACH_THREAD(k, 3u) pose[b].reference[k] = quiet_body[b].reference_before[k];
+  if (leads(s)) status[b].calm = 0u;
 }
 
 shared uint end_seen, undone_seen;
@@ -203,6 +206,7 @@ void meet_all(uint groups) {
 }
 
 // Groups meet before they change anything. If they do not all run at once, they make no step.
+#include "was_stopped.glsl"
 #define EACH_SHARE(k) for (uint k = group; k < share_count; k += groups)
 void make_quiet_steps(uint group, uint groups) {
   if (gl_LocalInvocationID.x == 0u) end_seen = atomicAdd(quiet_steps[0].end, 0u);
@@ -214,13 +218,14 @@ void make_quiet_steps(uint group, uint groups) {
   if (goes_on && gl_LocalInvocationID.x == 0u) atomicOr(quiet_steps[0].begun, 1u);
   for (step_index = 0u; goes_on; ++step_index) {
     from_half = (first_half + step_index) & 1u;
-    EACH_SHARE(k) make_step(share[first_share + k]);
+    EACH_SHARE(k) make_step(k, share[first_share + k]);
     meet_all(groups);
     if (undone_seen <= step_index) {
       EACH_SHARE(k) undo_step(share[first_share + k]);
     } else {
-      EACH_SHARE(k) end_step_of(share[first_share + k]);
+      EACH_SHARE(k) end_step_of(k, share[first_share + k]);
     }
     goes_on = undone_seen > step_index && end_seen > step_index + 1u;
   }
+  if (was_stopped(share_count)) atomicOr(quiet_steps[0].arrivals, waited_in_vain);
 }

@@ -13,9 +13,9 @@ double play_of(uint b, IN(Box) box) {
 }
 
 // Twice the expected way, because bodies must not come near each other in the next step, either. It is rounded outward by this part.
-Box grown_to_reach(uint b, Box places, IN(Box) motion, float rounding) {
+Box grown_to_reach(uint b, Box places, IN(Box) velocity, float rounding) {
   float play = float(play_of(b, places)), two_steps = float(double(2) * step_parts[0].full);
-  vec3 below = two_steps * max(-motion.lower, vec3(0)) + play, above = two_steps * max(motion.upper, vec3(0)) + play;
+  vec3 below = two_steps * max(-velocity.lower, vec3(0)) + play, above = two_steps * max(velocity.upper, vec3(0)) + play;
   vec3 slack = (max(abs(places.lower), abs(places.upper)) + max(below, above)) * rounding;
   places.lower -= below + slack;
   places.upper += above + slack;

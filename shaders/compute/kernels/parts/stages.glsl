@@ -1,7 +1,7 @@
 // What force kernels with several stages a step declare alike. A dispatch runs the stage that the parameter names. With TILE it runs
 // all of them, and the frame around counts. Placements are then read past caches, because other groups write them meanwhile. With QUIET
-// it runs all stages of many steps, in which nothing comes near. The frame around counts steps, too, and other groups write frames and
-// motions meanwhile.
+// it runs all stages of many steps, in which nothing comes near. The frame around counts steps, too, and other groups write frames
+// meanwhile.
 #ifdef TILE
 uint stage_index = 0u;
 SHARED_WRITE_AS(placement, real4, placed)
@@ -18,9 +18,10 @@ WRITE(placement)
 uint from_half = 0u;
 uint step_index = 0u;
 SHARED_WRITE(pose)
-SHARED_WRITE(motion)
+WRITE(motion)
 SHARED_WRITE(quiet_body)
 WRITE(quiet_steps)
+#include "quiet_frame.glsl"
 #include "quiet_bound.glsl"
 #else
 PARAMETER(uint, from_half)
@@ -28,6 +29,7 @@ WRITE(pose)
 WRITE(motion)
 WRITE(tally)
 WRITE(body_box)
+#include "frame.glsl"
 #include "bound.glsl"
 #endif
 PARAMETER(uint, stage_count)

@@ -104,8 +104,8 @@ FN uint flight_stop_of(uint vertex_count, uint flight) { return cut_rows * verte
 const uint pressed_for = 64u;
 
 const float sleeps_after = 0.5f;  // of being slow [s]
-// A body may sleep though it trembles: in each step at most at this multiple of the speed at which it may move, in the mean of squares over
-// the vertices that stand for it; and no vertex at more than that one. In a heap at rest single vertices reached 10 to 17 times that speed.
+// A body may sleep though it trembles. The first bounds the root mean square of its vertices' speeds, over those that stand for it, and the
+// second any vertex's, in multiples of the speed at which it may move. In a heap at rest single vertices reached 10 to 17 times that speed.
 const double tremble_ratio = double(2);
 const double most_tremble_ratio = double(10);
 const uint held_for = 2u;  // a body may sleep if a contact has pushed it in so many parts of steps, the latest ones
