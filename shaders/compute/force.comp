@@ -147,7 +147,7 @@ void fetch(uint from, uint count) {
 
 #if LANES == 1
 void finish(uint i, Share s, dvec3 force) {
-  double squared = dot(force, force);
+  double squared = ordered_dot(force, force);
   double x = after_force(i, 0u, s, force.x, squared, before_force(i, 0u, s));
   double y = after_force(i, 1u, s, force.y, squared, before_force(i, 1u, s));
   double z = after_force(i, 2u, s, force.z, squared, before_force(i, 2u, s));
@@ -232,6 +232,14 @@ dvec3 sum_of_runs(uint first) {
   return total;
 }
 
+void sum_over_threads(Share s, bool sums) {
+  uint thread = gl_LocalInvocationID.x;
+  sum_lanes(s, sums);
+  barrier();
+  if (thread < runs_of_lanes * VERTICES * TEAMS) sum_run(thread / runs_of_lanes * LANES + thread % runs_of_lanes);
+  barrier();
+}
+
 uint keeper() { return gl_LocalInvocationID.x - LANES * TEAMS; }
 bool keeps(Share s) { return gl_LocalInvocationID.x >= LANES * TEAMS && keeper() / 3u < s.vertex_count; }
 
@@ -242,18 +250,18 @@ void prepare(Share s) {
 }
 
 void serve(Share s, bool sums) {
-  uint thread = gl_LocalInvocationID.x;
   uint place = keeper() / 3u, k = keeper() % 3u, i = s.first_vertex + place;
   bool is_kept = keeps(s) && runs(s);
-  sum_lanes(s, sums);
-  barrier();
-  if (thread < runs_of_lanes * VERTICES * TEAMS) sum_run(thread / runs_of_lanes * LANES + thread % runs_of_lanes);
-  barrier();
+#ifdef TILE
+  if (sums) sum_over_threads(s, sums);
+#else
+  sum_over_threads(s, sums);  // threads might not agree on `sums`
+#endif
   if (is_kept) {
     if (keeper() == 0u && i == s.body.first_vertex) count_force(s, sums);
-    dvec3 force = (-s.body.unit_force) * sum_of_runs(place * LANES);
+    dvec3 force = (-s.body.unit_force) * (sums ? sum_of_runs(place * LANES) : dvec3(0));
     double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
-    settled[keeper()] = after_force(i, k, s, component, dot(force, force), pending);
+    settled[keeper()] = after_force(i, k, s, component, ordered_dot(force, force), pending);
   }
   if (!settles()) return;
   barrier();

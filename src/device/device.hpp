@@ -65,7 +65,7 @@ struct ForceVariant {
 };
 
 /// What one dispatch of a force kernel makes.
-enum class ForceSpan { stage, step, quiet_steps };
+enum class ForceSpan { stage, step, quiet_steps, quiet_steps_of_impulses };
 
 enum class DeviceKind { cpu, gpu };
 /// Returns "cpu" or "gpu".

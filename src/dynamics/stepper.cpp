@@ -199,7 +199,7 @@ bool Stepper::makes_quiet_steps() const {
          device.force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
 }
 
-Pass Stepper::quiet_pass(std::uint32_t first_half) const {
+Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
   PLIANT_EXPECT(makes_quiet_steps());
   const ForceGroup& group = bodies_.force_groups[0];
   const std::uint32_t work_groups =
@@ -214,8 +214,8 @@ Pass Stepper::quiet_pass(std::uint32_t first_half) const {
     parameters.emplace_back("first_kick_time", seconds(splitting->kick[0], time_step_));
     parameters.emplace_back("first_drift_time", seconds(splitting->drift[0], time_step_));
   }
-  const KernelId kernel = bodies_.arrays.device().force_kernel(splitting != nullptr ? "splitting_stage" : "runge_kutta_stage",
-                                                               group.variant, ForceSpan::quiet_steps);
+  const KernelId kernel =
+      bodies_.arrays.device().force_kernel(splitting != nullptr ? "splitting_stage" : "runge_kutta_stage", group.variant, span);
   return make_pass(bodies_.arrays, "quiet_steps", kernel, parameters, work_groups);
 }
 

@@ -39,8 +39,9 @@ class Stepper {
 
   /// Whether it can make quiet steps (physics/quiet.glsl).
   [[nodiscard]] bool makes_quiet_steps() const;
-  /// Returns the pass that makes quiet steps, the first of them from this half. Other passes have set bounds for it.
-  [[nodiscard]] Pass quiet_pass(std::uint32_t first_half) const;
+  /// Returns the pass that makes quiet steps, the first of them from this half. Other passes have set bounds for it. `span` says
+  /// which kind.
+  [[nodiscard]] Pass quiet_pass(std::uint32_t first_half, ForceSpan span) const;
 
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 

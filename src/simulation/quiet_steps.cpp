@@ -1,6 +1,7 @@
 #include "simulation/quiet_steps.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 namespace pliant {
@@ -16,22 +17,41 @@ std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper) {
   return static_cast<std::uint32_t>(std::min(most_turns / turns, std::uint64_t{4}));
 }
 
-std::vector<Pass> passes_from(std::uint32_t half, const Stepper& stepper, const Response& response) {
-  std::vector<Pass> passes = response.before_quiet_steps(half);
+// Whether contacts are found where steps end, if at all.
+bool looks_at_ends(const Collider& collider) {
+  return collider.response() == nullptr || (collider.response_row().answers_touching && collider.uses_trees());
+}
+
+std::vector<Pass> passes_before(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
+  if (!looks_at_ends(collider)) return collider.response()->before_quiet_steps(half);
+  if (bodies.body_count > most_compared_bodies) return {};
+  const bool may_touch = collider.response() != nullptr && collider.searches();
+  std::vector<Pass> passes;
+  if (may_touch) passes.push_back(collider.bounding_pass(half));
+  passes.push_back(
+      make_pass(bodies.arrays, "give_room", {{"from_half", half}, {"searches", may_touch ? 1u : 0u}}, bodies.body_count));
+  return passes;
+}
+
+std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
+  std::vector<Pass> passes = passes_before(half, bodies, collider);
   if (passes.empty()) return {};
-  passes.push_back(stepper.quiet_pass(half));
-  for (Pass& pass : response.after_quiet_steps()) passes.push_back(std::move(pass));
+  const bool at_ends = looks_at_ends(collider);
+  passes.push_back(stepper.quiet_pass(half, at_ends ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses));
+  const std::uint32_t pairs = collider.response() != nullptr ? collider.pair_count() : 0;
+  passes.push_back(make_pass(bodies.arrays, "end_quiet_steps", {{"pair_count", pairs}}, bodies.body_count));
+  if (!at_ends) std::ranges::move(collider.response()->after_quiet_steps(), std::back_inserter(passes));
   return passes;
 }
 
 }  // namespace
 
-QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Response* response)
+QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Collider& collider)
     : most_at_once_(most_at_once(bodies, stepper)) {
-  if (response == nullptr || !stepper.makes_quiet_steps() || most_at_once_ < physics::fewest_quiet_steps) return;
+  if (!stepper.makes_quiet_steps() || most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
-  for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, stepper, *response);
+  for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, bodies, stepper, collider);
 }
 
 void QuietSteps::aim_at(std::uint64_t most) const {

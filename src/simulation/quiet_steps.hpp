@@ -1,18 +1,20 @@
-// Makes steps in which nothing comes near, many in one dispatch (physics/quiet.glsl). Bits are those of other steps.
+// Makes steps in which nothing comes near, many in one dispatch (physics/quiet.glsl). Bits are those of other steps. Contact by
+// impulses foresees what bodies may reach. Responses that look at where steps end, and scenes in which nothing touches, give each
+// body room of its own (kernels/give_room.glsl).
 #pragma once
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "collision/responses/response.hpp"
+#include "collision/collider.hpp"
 #include "dynamics/stepper.hpp"
 
 namespace pliant {
 
 class QuietSteps {
  public:
-  /// All must outlive it. Without a response, or if stepper or response do not know quiet steps, none is ever made.
-  QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Response* response);
+  /// All must outlive it. If stepper or response do not know quiet steps, none is ever made.
+  QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Collider& collider);
 
   [[nodiscard]] bool are_known() const { return !passes_[0].empty(); }
   /// The passes make steps from this half on until something may come near, at most as many as aim_at() said.

@@ -27,6 +27,7 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.triangle_tests = total(control, physics::triangle_tests);
   report.pairs_beyond_capacity = total(control, physics::pairs_beyond_capacity);
   report.body_pairs_skipped = total(control, physics::body_pairs_skipped);
+  report.quiet_steps = total(control, physics::quiet_steps_made);
   report.unsettled_contacts = total(control, physics::unsettled_contacts);
 }
 
@@ -106,6 +107,7 @@ std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
 }
 
 void Simulation::queue(std::uint64_t steps) {
+  steps_to_next_try_ -= std::min(steps, steps_to_next_try_);
   known_control_.reset();
   is_anew_ = false;
   for (std::uint64_t k = 0; k < steps; ++k) {
@@ -122,15 +124,16 @@ void Simulation::run(std::span<const Pass> passes) {
 
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
-  if (parts() == nullptr) return queue(steps);
-  const std::uint64_t target = parts()->download().front().steps + steps;
+  if (parts() == nullptr && (!tries_quiet_steps_ || steps < physics::fewest_quiet_steps)) return queue(steps);
+  const std::uint64_t target = parts() != nullptr ? parts()->download().front().steps + steps : 0;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     if (const std::uint64_t quiet = make_quiet_steps(left); quiet > 0) {
       left -= quiet;
     } else {
-      queue(std::min(left, tries_quiet_steps_ ? busy_steps_ : most_steps_at_once));
-      busy_steps_ = std::min(2 * busy_steps_, most_steps_at_once);
-      left = target - std::min<std::uint64_t>(parts()->download().front().steps, target);
+      const std::uint64_t to_next_try = std::max<std::uint64_t>(steps_to_next_try_, 1);
+      const std::uint64_t queued = std::min(left, tries_quiet_steps_ ? to_next_try : most_steps_at_once);
+      queue(queued);
+      left = parts() != nullptr ? target - std::min<std::uint64_t>(parts()->download().front().steps, target) : left - queued;
     }
     if (left > 0 && stops && stops()) return;
   }
@@ -139,14 +142,15 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
 // twice as many each time.
 std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
-  if (!tries_quiet_steps_ || is_anew_ || most < physics::fewest_quiet_steps) return 0;
-  if (!quiet_) quiet_.emplace(bodies_, stepper_, collider_.response());
+  if (!tries_quiet_steps_ || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
+  if (!quiet_) quiet_.emplace(bodies_, stepper_, collider_);
   tries_quiet_steps_ = quiet_->are_known();
   if (!tries_quiet_steps_) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
   const std::uint32_t made = quiet_->take_made();
-  if (made > 0) busy_steps_ = 1;
+  steps_to_next_try_ = made > 0 ? 0 : pause_;
+  pause_ = made > 0 ? 1 : std::min(2 * pause_, most_steps_at_once);
   queued_steps_ += made;
   known_control_.reset();
   return made;
@@ -159,7 +163,6 @@ const DeviceArray<physics::StepParts>* Simulation::parts() const {
 void Simulation::add_parts(StepReport& report) const {
   const physics::StepParts made = parts()->download().front();
   report.held_parts = made.held;
-  report.quiet_steps = made.quiet;
   if (pacer_) return;
   report.steps = made.steps;
   const double part_over = 1 - made.left / static_cast<double>(physics::smallest_parts);  // of the step in hand

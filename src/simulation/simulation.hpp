@@ -160,7 +160,8 @@ class Simulation {
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
-  std::uint64_t busy_steps_ = 1;                   // to queue before quiet ones are tried again
+  std::uint64_t steps_to_next_try_ = 0;            // of quiet ones
+  std::uint64_t pause_ = 1;                        // steps to queue if the next try makes none
   bool tries_quiet_steps_ = false;
   bool timed_ = false, is_anew_ = true;  // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;

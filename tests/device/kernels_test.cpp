@@ -296,6 +296,9 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   }
   const auto passes_of = [](const Bench& bench) {
     std::vector<Pass> passes = bench.collider.response()->before_quiet_steps(1);
+    passes.push_back(make_pass(bench.bodies.arrays, "end_quiet_steps", {{"pair_count", 1u}}, 2));
+    passes.push_back(bench.collider.bounding_pass(1));
+    passes.push_back(make_pass(bench.bodies.arrays, "give_room", {{"from_half", 1u}, {"searches", 1u}}, 2));
     std::ranges::copy(bench.collider.response()->after_quiet_steps(), std::back_inserter(passes));
     return passes;
   };

@@ -33,9 +33,10 @@ std::vector<BodySetup> four_balls() {
 
 // A run that makes quiet steps, and one that makes none.
 struct Runs {
-  Runs(Device& device, const ModelAndState& start, const Method& method, bool sleeps = false)
-      : quiet(device, start.model, start.state, plan(method, sleeps), by_impulses),
-        busy(device, start.model, start.state, plan(method, sleeps), by_impulses) {
+  Runs(Device& device, const ModelAndState& start, const Method& method, bool sleeps = false,
+       const CollisionDescription& collision = by_impulses)
+      : quiet(device, start.model, start.state, plan(method, sleeps), collision),
+        busy(device, start.model, start.state, plan(method, sleeps), collision) {
     busy.skip(false);
   }
   static TimePlan plan(const Method& method, bool sleeps) {
@@ -70,8 +71,13 @@ TEST_CASE("quiet steps have the bits of others, and end in time for contacts", "
   if (test::lacks_gl()) return;
   const auto device = gpu();
   const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
-  for (const Method& method :
-       {Method{"verlet", 0.01}, {"verlet", 0.01, DampingLaw::constant}, {"cv8", 0.02}, {"dprkn8", 0.02}, {"srkn11b", 0.02}}) {
+  for (const Method& method : {Method{"verlet", 0.01},
+                               {"verlet", 0.01, DampingLaw::constant},
+                               {"verlet", 0.01, DampingLaw::adaptive},
+                               {"cv8", 0.02},
+                               {"rk4", 0.01, DampingLaw::adaptive},
+                               {"dprkn8", 0.02},
+                               {"srkn11b", 0.02}}) {
     CAPTURE(method.integrator, method.time_step);
     Runs runs(*device, start, method);
     for (const std::uint64_t steps : {1, 2, 7, 30, 40, 60, 60}) {
@@ -81,6 +87,51 @@ TEST_CASE("quiet steps have the bits of others, and end in time for contacts", "
     CHECK(runs.quiet.report().quiet_steps > 20);
     CHECK(runs.quiet.report().steps_at_rest > 0);
     CHECK(runs.busy.report().contact_steps > 0);
+  }
+}
+
+TEST_CASE("bodies that only reflect, or pass through each other, make quiet steps", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
+  for (const char* response : {"reflect", "none"})
+    for (const Method& method : {Method{"verlet", 0.01, DampingLaw::adaptive}, {"cv8", 0.02}, {"dprkn8", 0.02}}) {
+      CAPTURE(response, method.integrator);
+      Runs runs(*device, start, method, false, {.response = {response}});
+      for (const std::uint64_t steps : {1, 2, 7, 30, 40, 60, 60}) {
+        runs.advance(steps);
+        runs.check();
+      }
+      CHECK(runs.quiet.report().quiet_steps > 20);
+      CHECK((runs.busy.report().contact_steps > 0) == (response == std::string_view("reflect")));
+      const std::string saved = runs.quiet.save();
+      runs.advance(20);
+      runs.quiet.restore(saved);
+      runs.quiet.advance(20);
+      runs.check();
+    }
+}
+
+TEST_CASE("a body alone makes quiet steps, deformed or not, and where it blows up it tells the step", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  for (const double stretch : {1.0, 1.2}) {
+    CAPTURE(stretch);
+    BodySetup ball = ball_of("icosphere:1", {0, 0, 0});
+    ball.description.stretch = {stretch, 1, 1};
+    ball.description.velocity = {3, 0, 1};
+    const ModelAndState start = build_model(std::vector{ball}, {0, 0, -9.81});
+    Runs runs(*device, start, {"cv8", 0.01});
+    runs.advance(50);
+    runs.check();
+    CHECK(runs.quiet.report().quiet_steps > 40);
+    const double bound = step_bound(find_integrator("verlet"), start.model.bodies[0], DampingLaw::none);
+    Runs grows(*device, start, {"verlet", 2 * bound});
+    grows.advance(2000);
+    const StepReport quiet = grows.quiet.report(), busy = grows.busy.report();
+    CHECK(quiet.breakdown.has_value() == (stretch > 1));
+    CHECK(quiet.steps == busy.steps);
+    CHECK(quiet.breakdown == busy.breakdown);
   }
 }
 
@@ -130,10 +181,10 @@ std::map<std::string, std::vector<std::byte>> carried_by(const Bench& bench, std
     bench.device->read(array.buffer, array.first_byte, bytes[array.name]);
   }
   // that steps were quiet
-  auto parts = bench.bodies.arrays.get<physics::StepParts>("step_parts").download();
-  parts[0].quiet = 0;
-  const auto told = std::as_bytes(std::span(parts));
-  bytes["step_parts"].assign(told.begin(), told.end());
+  auto control = bench.bodies.control.download();
+  control[0].total_low[physics::quiet_steps_made] = 0;
+  const auto told = std::as_bytes(std::span(control));
+  bytes["control"].assign(told.begin(), told.end());
   return bytes;
 }
 
@@ -146,7 +197,7 @@ struct Turn {
 std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const Method& method, int count) {
   Bench bench(gpu(), start, method, by_impulses);
   bench.bodies.run_all_stages(true);
-  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
+  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
   REQUIRE(quiet.are_known());
   std::vector<Turn> turns;
   bool was_undone = false;
@@ -274,7 +325,7 @@ TEST_CASE("where work groups do not run at once no quiet step is made, and nothi
   if (test::lacks_gl()) return;
   Bench bench(gpu(), build_model(four_balls(), glm::dvec3(0.0)), {"verlet", 0.01}, by_impulses);
   bench.bodies.run_all_stages(true);
-  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider.response());
+  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
   bench.begin();
   bench.device->run(bench.step(0));
   const auto before = carried_by(bench, 1);

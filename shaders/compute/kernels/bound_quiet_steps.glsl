@@ -14,8 +14,7 @@ READ(body)
 READ(motion)
 READ(quiet_steps)
 WRITE(quiet_body)
-PARAMETER(uint, vertex_count)
-PARAMETER(uint, from_half)
+#include "parts/tell_first.glsl"
 #include "parts/quiet_region.glsl"
 
 // Less than what bodies that meet no others have (limit_step.glsl, expect_motion.glsl).
@@ -34,7 +33,6 @@ void bound_quiet_steps(uint b) {
     quiet_body[b].bounds.most_velocity[k] = velocities.upper[int(k)];
   }
   quiet_body[b].bounds.room = float(room_of(b));
-  uint first = displacement_of(in_half(from_half, vertex_count, body[b].first_vertex));
-  for (uint k = 0u; k < motion_size; ++k) quiet_body[b].first_motion[motion_size * from_half + k] = motion[first + k];
+  tell_first_motion(b);
   quiet_body[b].frame_changes = 0u;
 }

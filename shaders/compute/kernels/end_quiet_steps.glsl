@@ -3,34 +3,26 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
-#include "../physics/contact/parts.glsl"
 #include "../physics/quiet.glsl"
 READ(quiet_steps)
 READ(quiet_body)
 READ(body)
 READ(pose)
 WRITE(control)
-WRITE(step_parts)
 WRITE(status)
 WRITE(tally)
 WRITE(slept)
-WRITE(body_motion)
-WRITE(place_box)
+WRITE(body_box)
 WRITE(meeting)
 PARAMETER(uint, pair_count)  // of bodies that might touch
 PARAMETER(uint, forces_of_a_step)
+#include "parts/add_to_total.glsl"
 #include "parts/note_step_asleep.glsl"
 
 void move_clock(uint made) {
   control[0].step += made;
-  step_parts[0].parts += made;
-  step_parts[0].steps += made;
-  step_parts[0].quiet += made;
-  for (uint k = 0u; k < made; ++k) {
-    uint sum = control[0].total_low[body_pairs_skipped] + pair_count;
-    if (sum < pair_count) control[0].total_high[body_pairs_skipped] += 1u;
-    control[0].total_low[body_pairs_skipped] = sum;
-  }
+  add_to_total(quiet_steps_made, made);
+  for (uint k = 0u; k < made; ++k) add_to_total(body_pairs_skipped, pair_count);
   if (quiet_steps[0].begun != 0u && (quiet_steps[0].arrivals & waited_in_vain) != 0u) status[0].activity = halted_waiting;
 }
 
@@ -51,12 +43,9 @@ void end_quiet_steps(uint b) {
   uint made = steps_made(quiet_steps[0]);
   if (b == 0u) move_clock(made);
   count_work(b, made);
-  for (uint k = 0u; k < 3u; ++k) {
-    body_motion[b].lower[k] = 0xffffffffu;
-    body_motion[b].upper[k] = 0u;
-    if (status[b].calm == at_rest) continue;
-    place_box[b].lower[k] = 0xffffffffu;
-    place_box[b].upper[k] = 0u;
+  for (uint k = 0u; k < 3u && status[b].calm != at_rest; ++k) {
+    body_box[b].lower[k] = 0xffffffffu;
+    body_box[b].upper[k] = 0u;
   }
   meeting[b] = 0u;
 }

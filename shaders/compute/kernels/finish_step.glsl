@@ -2,6 +2,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 WRITE(control)
+#include "parts/add_to_total.glsl"
 
 void add_count(uint k) {
   uint count = control[0].count[k];
@@ -9,9 +10,7 @@ void add_count(uint k) {
     if (count != 0u) control[0].contact_steps += 1u;
     control[0].contact_pairs_max = max(control[0].contact_pairs_max, count);
   }
-  uint sum = control[0].total_low[k] + count;
-  if (sum < count) control[0].total_high[k] += 1u;
-  control[0].total_low[k] = sum;
+  add_to_total(k, count);
   control[0].count[k] = 0u;
 }
 

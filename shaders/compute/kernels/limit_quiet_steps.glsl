@@ -22,9 +22,9 @@ READ(cluster)
 WRITE(quiet_steps)
 PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
-PARAMETER(uint, keeps_force)
 #include "parts/quiet_region.glsl"
 #include "parts/dues.glsl"
+#include "parts/is_steady.glsl"
 
 void allow(uint steps) { atomicMin(quiet_steps[0].end, steps); }
 
@@ -41,16 +41,12 @@ bool is_bound_by_pressing(uint b) {
          surface[b].longest_pressed < step_parts[0].full;
 }
 
-bool may_be_quiet(uint b) {
-  Status s = status[b];
-  if (s.activity == immovable) return true;
-  if (s.activity != moving || s.disturbed != 0u || s.falls_asleep != 0u) return false;
-  if (is_idle(s)) return true;
-  bool was_pressed = pressed[b] != 0u && step_parts[0].parts - pressed[b] < held_for;
-  return s.calm == 0u && s.asleep == 0u && !was_pressed && !is_bound_by_pressing(b) && (keeps_force == 0u || s.force_stale == 0u);
-}
-
 bool moves(uint b) { return status[b].activity != immovable && !is_idle(status[b]); }
+
+bool may_be_quiet(uint b) {
+  bool was_pressed = pressed[b] != 0u && step_parts[0].parts - pressed[b] < held_for;
+  return is_steady(status[b]) && (!moves(b) || (!was_pressed && !is_bound_by_pressing(b)));
+}
 
 bool is_above(uint g, uint b, uint steps) {
   Box box = quiet_region(b, steps);

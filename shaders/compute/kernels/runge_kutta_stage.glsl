@@ -62,7 +62,8 @@ uint accelerations_of(uint stage, uint i) { return acceleration_of(stage, vertex
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
 double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
 dvec2 weigh_four(uint first, double a, double b, double c, double d) {
-  return (a * tableau[first] + b * tableau[first + 1u]) + (c * tableau[first + 2u] + d * tableau[first + 3u]);
+  EXACT dvec2 sum = (a * tableau[first] + b * tableau[first + 1u]) + (c * tableau[first + 2u] + d * tableau[first + 3u]);
+  return sum;
 }
 dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
   dvec2 sums = dvec2(0);
@@ -82,7 +83,8 @@ Course course_on_axis(uint k, IN(Share) s) {
   c.time_step = control[0].time_step;
   c.elapsed = tableau[row].x * c.time_step;
   c.keep = tableau[row].y;
-  c.reference = first_displacement(first, k) + c.elapsed * first_velocity(first, k);
+  EXACT double reference = first_displacement(first, k) + c.elapsed * first_velocity(first, k);
+  c.reference = reference;
   c.position_weight = c.time_step * c.time_step * tableau[row + 1u].x;
   c.velocity_weight = c.time_step * tableau[row + 1u].y;
   return c;
@@ -121,8 +123,10 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   p.rest = double(rest_position[i][int(k)]);
   p.stage_velocity = motion[w];
   if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
-  p.displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
-  p.velocity = c.keep * motion[w] + c.time_step * sums.y;
+  EXACT double displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
+  EXACT double velocity = c.keep * motion[w] + c.time_step * sums.y;
+  p.displacement = displacement;
+  p.velocity = velocity;
   return p;
 }
 
@@ -131,12 +135,13 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double a = all_force(i, k, spring_force) * s.body.inverse_mass + p.course.gravity;
-  if (damping_law != damping_none)
-    a -= damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared) * p.stage_velocity;
+  double rate = damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared);
+  EXACT double undamped = all_force(i, k, spring_force) * s.body.inverse_mass + p.course.gravity;
+  EXACT double damped = undamped - rate * p.stage_velocity;
+  double a = damping_law != damping_none ? damped : undamped;
   acceleration[accelerations_of(stage_index, i) + k] = a;
-  double displacement = p.displacement + p.course.position_weight * a;
-  double velocity = p.velocity + p.course.velocity_weight * a;
+  EXACT double displacement = p.displacement + p.course.position_weight * a;
+  EXACT double velocity = p.velocity + p.course.velocity_weight * a;
   double relative = displacement - p.course.reference;
   if (CANCELS_ROUNDING && !is_last())
     place_next(i, k, s.body.inverse_unit, p.rest, relative, p.rounding, tableau[next_row(s) + 2u]);

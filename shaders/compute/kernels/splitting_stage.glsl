@@ -51,14 +51,15 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   p.gravity = gravity_of(s.body_index, k);
   p.displacement = motion[displacement_of(after) + k];
   p.velocity = motion[velocity_of(after) + k];
-  p.reference = first_displacement(first, k) + elapsed() * first_velocity(first, k);
+  EXACT double reference = first_displacement(first, k) + elapsed() * first_velocity(first, k);
+  p.reference = reference;
   return p;
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   kept_force[force_of(in_half(other_half(from_half), vertex_count, i)) + k] = spring_force;
   double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), force_squared, p.velocity, kick_time());
-  double displacement = p.displacement + drift_time() * velocity;
+  EXACT double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
   end_step(i, k, s, displacement, velocity, p.reference);
   return p.rest + displacement;

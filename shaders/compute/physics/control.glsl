@@ -24,7 +24,8 @@ const uint body_pairs_skipped = 6u;  // the bodies' boxes are apart, so the pair
 const uint trees_refitted = 7u;      // a body without a partner keeps its old boxes
 const uint pairs_beyond_capacity = 8u;  // the list of leaf pairs was full, so the thread that found them tested them
 const uint unsettled_contacts = 9u;     // that still changed in the last round of a kick
-const uint counter_count = 10u;
+const uint quiet_steps_made = 10u;      // several of them at once
+const uint counter_count = 11u;
 
 struct Control {
   double time_step;        // of the step being made [s], 0 if the step is empty or was undone

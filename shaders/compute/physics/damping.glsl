@@ -8,15 +8,19 @@ const uint damping_none = 0u;
 const uint damping_constant = 1u;  // the paper's equation 2
 const uint damping_adaptive = 2u;  // the paper's equation 3
 
+// Several kernels have to find the same bits, so each operation rounds by itself.
+
 // Returns the rate g [1/s]: 0, c/m, or min(|F_s| / 10, 10) c/m. `damping` is c [kg/s], `inverse_mass` is 1/m [1/kg], and
 // `force_squared` is the square of the net spring force F_s [N^2].
 FN double damping_rate(uint law, double damping, double inverse_mass, double force_squared) {
   if (law == damping_none) return double(0);
-  if (law == damping_constant) return damping * inverse_mass;
+  EXACT double constant = damping * inverse_mass;
+  if (law == damping_constant) return constant;
   // GLSL reads literals as fp32. Square roots and divisions are slow on GPUs, but compilers fold these two constants.
   const double tiny = double(1e-30) * double(1e-30), tenth = double(1) / double(10);
-  double force = force_squared * inversesqrt(max(force_squared, tiny));
-  return min(tenth * force, double(10)) * damping * inverse_mass;
+  EXACT double force = force_squared * inversesqrt(max(force_squared, tiny));
+  EXACT double rate = min(tenth * force, double(10)) * damping * inverse_mass;
+  return rate;
 }
 
 // What a kick of duration t does, with z = g t. `keep` = e^-z is what it leaves of the velocity. `gain` = phi(z) = (1 - e^-z) / z is
@@ -43,11 +47,17 @@ FN Decay decay(double z) {
     return result;
   }
   result.gain = double(1);
-  for (int n = 13; n > 1; --n) result.gain = double(1) - y / double(n) * result.gain;
-  result.keep = double(1) - y * result.gain;
+  for (int n = 13; n > 1; --n) {
+    EXACT double term = double(1) - y / double(n) * result.gain;
+    result.gain = term;
+  }
+  EXACT double left = double(1) - y * result.gain;
+  result.keep = left;
   for (uint k = 0u; k < doublings; ++k) {
-    result.gain = result.gain * (double(1) + result.keep) * double(0.5);
-    result.keep = result.keep * result.keep;
+    EXACT double gain = result.gain * (double(1) + result.keep) * double(0.5);
+    EXACT double keep = result.keep * result.keep;
+    result.gain = gain;
+    result.keep = keep;
   }
   return result;
 }

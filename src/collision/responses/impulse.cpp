@@ -28,7 +28,6 @@ constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
-constexpr std::uint32_t most_compared = 1024;  // bodies, before quiet steps
 // A body may sleep that moves by less than so many diameters of the smallest one a second.
 constexpr double sleep_diameters = 0.05;
 
@@ -261,15 +260,14 @@ class Impulse final : public Response {
 
   // Two bodies of which each has a thread are compared. With many bodies that is too much.
   std::vector<Pass> before_quiet_steps(std::uint32_t from_half) const override {
-    if (restores_ || !divides_steps_ || bodies_.body_count > most_compared) return {};
+    if (restores_ || !divides_steps_ || bodies_.body_count > most_compared_bodies) return {};
     const Arrays& arrays = bodies_.arrays;
     return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
             make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}}, bodies_.body_count * bodies_.body_count),
             make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}}, bodies_.body_count)};
   }
   std::vector<Pass> after_quiet_steps() const override {
-    return {make_pass(bodies_.arrays, "end_quiet_steps", {{"pair_count", has_pairs_ ? body_pairs_.pair_count() : 0}},
-                      bodies_.body_count)};
+    return {make_pass(bodies_.arrays, "end_quiet_parts", {}, bodies_.body_count)};
   }
 
   std::vector<Pass> after_step(std::uint32_t from_half) const override {
@@ -325,9 +323,7 @@ class Impulse final : public Response {
                                                                                  .steps = 0,
                                                                                  .parts = 0,
                                                                                  .held = 0,
-                                                                                 .divides = divides_steps_ ? 1u : 0u,
-                                                                                 .quiet = 0,
-                                                                                 .padding = 0}});
+                                                                                 .divides = divides_steps_ ? 1u : 0u}});
     if (divides_steps_) bodies_.arrays.set_parameter("parts_of", time_step_);
   }
 

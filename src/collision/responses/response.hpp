@@ -52,7 +52,7 @@ class Response {
   /// `gives_impulses` is false. Waits for the queued steps. Nothing is read back without this call.
   [[nodiscard]] virtual std::vector<ContactImpulse> contact_impulses() const { return {}; }
   /// Returns passes that find for how many steps nothing can happen that the response answers (physics/quiet.glsl), with the
-  /// state in this half. None if it does not know. The others follow such steps.
+  /// state in this half. The others follow such steps. Responses to touching triangles need none (kernels/give_room.glsl).
   [[nodiscard]] virtual std::vector<Pass> before_quiet_steps(std::uint32_t /*from_half*/) const { return {}; }
   [[nodiscard]] virtual std::vector<Pass> after_quiet_steps() const { return {}; }
   /// Returns passes that run after the search for touching triangles, with the state in the other half. If a tolerance governs
@@ -61,6 +61,8 @@ class Response {
 };
 
 enum class StepLengths { fixed, varying };
+
+constexpr std::uint32_t most_compared_bodies = 1024;  // each with each other, before quiet steps
 
 /// What a response is made for. All but the description must outlive it.
 struct ResponseSetting {

@@ -113,8 +113,10 @@ class GpuDevice final : public Device {
                                        {"UNROLL", std::to_string(lanes.unroll)},
                                        {"PLAINLY", std::to_string(lanes.plainly)}};
     defines.push_back({span == ForceSpan::stage ? "!TILE" : "TILE", std::to_string(lanes.tile)});
-    defines.push_back({span == ForceSpan::quiet_steps ? "QUIET" : "!QUIET", ""});
-    constexpr std::string_view names[] = {"a stage", "a step", "quiet steps"};
+    const bool of_impulses = span == ForceSpan::quiet_steps_of_impulses;
+    defines.push_back({of_impulses || span == ForceSpan::quiet_steps ? "QUIET" : "!QUIET", ""});
+    defines.push_back({of_impulses ? "IMPULSES" : "!IMPULSES", ""});
+    constexpr std::string_view names[] = {"a stage", "a step", "quiet steps", "quiet steps of impulses"};
     return build(fmt::format("{}, {}, {}", name, variants_[variant].name, names[static_cast<std::size_t>(span)]), group_caller,
                  defines);
   }

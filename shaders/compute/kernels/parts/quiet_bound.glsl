@@ -3,10 +3,15 @@
 // all that belongs to a step, which notes the number.
 void note_non_finite(uint b, uint i) { atomicMin(quiet_steps[0].undone, step_index); }
 
-// A step is the last one if it moves a vertex out of its body's bounds.
+// Contact by impulses knows that nothing meets in a step in which a vertex leaves its body's bounds, and it is the last one. Others look at
+// where steps end, so that such a step is made again with all that belongs to it.
 void bound(uint i, uint b, uint k, float coordinate) {
   if (!is_finite(coordinate))
     note_non_finite(b, i);
   else if (coordinate < bounds.lower[k] || coordinate > bounds.upper[k])
+#ifdef IMPULSES
     atomicMin(quiet_steps[0].end, step_index + 1u);
+#else
+    atomicMin(quiet_steps[0].undone, step_index);
+#endif
 }

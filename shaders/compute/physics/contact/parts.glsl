@@ -14,8 +14,6 @@ struct StepParts {
   uint parts;        // made so far
   uint held;         // parts in which no body moved, because lists were too short or proofs were missing
   uint divides;      // 1: steps fall into parts; 0: they are made shorter
-  uint quiet;        // steps of those that were made many at once, because nothing came near (quiet.glsl)
-  uint padding;
 };
 
 // A step falls into so many parts at most. Motions that would need smaller ones are cut short.
