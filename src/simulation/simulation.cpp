@@ -99,7 +99,9 @@ void Simulation::skip(bool skips) {
   bodies_.arrays.set_parameter("skips", skips ? 1u : 0u);
   if (!skips) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
-  tries_quiet_steps_ = skips && !pacer_;
+  quiet_.reset();
+  if (skips && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
+  tries_quiet_steps_ = quiet_ && quiet_->are_known();
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -143,12 +145,10 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 // twice as many each time.
 std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
   if (!tries_quiet_steps_ || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
-  if (!quiet_) quiet_.emplace(bodies_, stepper_, collider_);
-  tries_quiet_steps_ = quiet_->are_known();
-  if (!tries_quiet_steps_) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
   const std::uint32_t made = quiet_->take_made();
+  tries_quiet_steps_ = quiet_->are_known();
   steps_to_next_try_ = made > 0 ? 0 : pause_;
   pause_ = made > 0 ? 1 : std::min(2 * pause_, most_steps_at_once);
   queued_steps_ += made;

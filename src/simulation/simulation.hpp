@@ -156,7 +156,7 @@ class Simulation {
   std::optional<Pacer> pacer_;                     // empty: steps have a fixed length
   physics::Pace known_pace_{};                     // of the latest report
   double fixed_step_;                              // length of a step without a pacer [s]
-  std::optional<QuietSteps> quiet_;                // made when they are first tried
+  std::optional<QuietSteps> quiet_;                // empty: what is known beforehand is not left out
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps

@@ -62,6 +62,29 @@ TEST_CASE("a body at rest keeps the gap, which is the geometric mean of the two"
   }
 }
 
+// In each of these steps it falls by more than what is left to the ground, so that contacts hold it from the first one on.
+TEST_CASE("a body that stops above the ground in a long step sinks to it") {
+  const auto device = make_cpu_device(1, 32);
+  for (const double step : {0.003, 0.01, 0.0167}) {
+    CAPTURE(step);
+    BodySetup setup = soft(generate_mesh("icosphere:1"), "grain");
+    setup.description.scale = 1e-3;
+    setup.description.position = {0, 0.05, 0};
+    setup.description.surface.gap = 0.05;
+    GroundDescription ground;
+    ground.surface.gap = 0.05;
+    const ModelAndState start = build_model({&setup, 1}, {0, -9.81, 0}, {&ground, 1});
+    Simulation falling(*device, start.model, start.state, plan_of(Method{"verlet", step, DampingLaw::internal}), by_impulses);
+    falling.advance(static_cast<std::uint64_t>(1 / step));
+    double lowest = 1;
+    for (const glm::dvec3& p : falling.state().world_positions(start.model)) lowest = std::min(lowest, p.y);
+    const double gap = 0.05 * mean_edge(start.model, start.model.bodies[0]);
+    CHECK(lowest > 0);
+    CHECK(lowest < 1.5 * gap);
+    CHECK(falling.report().reverted_vertices == 0);
+  }
+}
+
 TEST_CASE("momentum is what gravity and the ground have given") {
   const ModelAndState start = on_ground("icosphere:1", 1.3, 20, 0.3);
   const auto device = make_cpu_device(1, 64);

@@ -48,11 +48,14 @@ FN bool rests(IN(Course) c) { return abs(c.was) < abs(c.surplus) || c.was_cut; }
 FN bool would_pass(IN(Course) c, IN(Approach) a) { return c.distance + a.time_step * (c.velocity + c.surplus) < a.gap; }
 
 // Returns the least velocity along the normal that the contact asks for [m/s]. Points may come as near as the gap. If they would pass it,
-// they stop. Lost gap comes back slowly, however short steps are.
+// they stop. What has stopped further away comes half-way in a step, or it would hang there. Lost gap comes back slowly, however short
+// steps are.
 FN real least_velocity(IN(Course) c, IN(Approach) a) {
   real need = (a.gap - c.distance) / a.time_step;
-  if (c.distance > a.gap && c.distance < real(1.5) * a.gap) need *= real(0.05);
-  real mean = would_pass(c, a) ? max(need, real(0)) : need;
+  bool is_far = c.distance >= real(1.5) * a.gap;
+  if (c.distance > a.gap && !is_far) need *= real(0.05);
+  real nearing = is_far && rests(c) ? real(0.5) * need : real(0);
+  real mean = would_pass(c, a) ? max(need, nearing) : need;
   real most = real(0.5) * max(-c.was, real(0)) + real(0.02) * a.gap / max(a.time_step, a.slowest);
   return min(mean, most) - c.surplus;
 }
