@@ -22,6 +22,10 @@ bool looks_at_ends(const Collider& collider) {
   return collider.response() == nullptr || (collider.response_row().answers_touching && collider.uses_trees());
 }
 
+ForceSpan span_of(const Collider& collider) {
+  return looks_at_ends(collider) ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses;
+}
+
 std::vector<Pass> passes_before(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
   if (!looks_at_ends(collider)) return collider.response()->before_quiet_steps(half);
   if (bodies.body_count > most_compared_bodies) return {};
@@ -36,11 +40,10 @@ std::vector<Pass> passes_before(std::uint32_t half, const DeviceBodies& bodies, 
 std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
   std::vector<Pass> passes = passes_before(half, bodies, collider);
   if (passes.empty()) return {};
-  const bool at_ends = looks_at_ends(collider);
-  passes.push_back(stepper.quiet_pass(half, at_ends ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses));
+  passes.push_back(stepper.quiet_pass(half, span_of(collider)));
   const std::uint32_t pairs = collider.response() != nullptr ? collider.pair_count() : 0;
   passes.push_back(make_pass(bodies.arrays, "end_quiet_steps", {{"pair_count", pairs}}, bodies.body_count));
-  if (!at_ends) std::ranges::move(collider.response()->after_quiet_steps(), std::back_inserter(passes));
+  if (!looks_at_ends(collider)) std::ranges::move(collider.response()->after_quiet_steps(), std::back_inserter(passes));
   return passes;
 }
 
@@ -52,6 +55,10 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Colli
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
   for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, bodies, stepper, collider);
+  if (!are_known()) return;
+  aim_at(0);
+  const Pass pass = stepper.quiet_pass(0, span_of(collider));
+  bodies.arrays.device().run({&pass, 1});  // makes no step, but NVIDIA's driver ends building with the first run
 }
 
 void QuietSteps::aim_at(std::uint64_t most) const {
