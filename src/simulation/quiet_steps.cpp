@@ -14,7 +14,7 @@ std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper) {
   std::uint64_t turns = 0;  // of one thread in a step
   for (const physics::Share& share : bodies.shares.download())
     turns += stepper.stage_count() * (share.body.vertex_count + turns_beside_a_sum);
-  return static_cast<std::uint32_t>(std::min(most_turns / turns, std::uint64_t{4}));
+  return static_cast<std::uint32_t>(turns == 0 ? 0 : std::min(most_turns / turns, std::uint64_t{4}));
 }
 
 // Whether contacts are found where steps end, if at all.

@@ -61,7 +61,7 @@ struct StepReport {
   std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body
   std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
-  std::uint64_t quiet_steps = 0;            // steps that were known beforehand to have no contacts
+  std::uint64_t quiet_steps = 0;            // whole steps made many at once, because nothing came near
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
@@ -90,8 +90,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, it waits for some of them now and then, and asks `stops`. A yes ends it, perhaps in the midst of a step, where
-  /// another call goes on.
+  /// into parts, or some may be quiet, it waits for some of them now and then, and asks `stops`. A yes ends it, perhaps in the
+  /// midst of a step, where another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }

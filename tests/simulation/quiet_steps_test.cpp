@@ -340,6 +340,19 @@ TEST_CASE("where work groups do not run at once no quiet step is made, and nothi
   CHECK((carried_by(bench, 1) == before));
 }
 
+TEST_CASE("where no body moves no step is quiet, and steps go on", "[gl]") {
+  std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:1", {5, 0, 0})};
+  for (BodySetup& setup : setups) setup.description.kind = BodyKind::immovable;
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation simulation(*test.device, start.model, start.state, plan_of(Method{"verlet", 0.01}), by_impulses);
+    simulation.advance(10);
+    CHECK(simulation.report().steps == 10);
+    CHECK(simulation.state().motion == start.state.motion);
+  }
+}
+
 TEST_CASE("only a device that knows quiet steps makes them") {
   const auto device = make_cpu_device(1, 32);
   const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));

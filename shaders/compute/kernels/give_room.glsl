@@ -30,7 +30,7 @@ float between(Box a, Box b) {
 float room_around(uint b) {
   Box box = box_of_body(b);
   float room = endless;
-  for (uint other = 0u; other < body_count && searches != 0u; ++other)
+  for (uint other = 0u; other < body_count; ++other)
     if (other != b) room = min(room, 0.499f * between(box, box_of_body(other)));
   vec3 farthest = max(abs(box.lower), abs(box.upper));
   return room - 1e-5f * max(farthest.x, max(farthest.y, farthest.z));

@@ -1,17 +1,18 @@
-// Quiet steps: steps in which no body can come near another or a ground. One dispatch makes many of them.
+// Quiet steps: steps in which no body comes near another or a ground. One dispatch makes many of them.
 #ifndef QUIET_GLSL
 #define QUIET_GLSL
 #include "body.glsl"
 #include "language.glsl"
 SHARED_BEGIN
 
-// A step is quiet as long as each body is in bounds at its start: then what bodies may reach in it is apart (kernels/parts/reach.glsl).
+// With contact by impulses a step is quiet if each body is in bounds at its start: then what bodies may reach in it is apart
+// (kernels/parts/reach.glsl). Otherwise it is if each body is within its places at the end (kernels/give_room.glsl).
 struct QuietBounds {
   float lower[3];  // of the places of vertices [m]
   float upper[3];
-  float least_velocity[3];  // of the velocities that they are expected to have [m/s]
+  float least_velocity[3];  // for impulses: of the velocities that they are expected to have [m/s]
   float most_velocity[3];
-  float room;  // how much further than expected a vertex may go in a step without being cut short [m]
+  float room;  // for impulses: how much further than expected a vertex may go in a step without being cut short [m]
 };
 
 // Work groups that serve a body tell each other of its motion here.
@@ -25,7 +26,7 @@ struct QuietBody {
 
 struct QuietSteps {
   uint end;       // so many steps are made
-  uint undone;    // the first one that does not stand, because it moved a vertex too far, or ~0
+  uint undone;    // the first one that does not stand, because of where it moved a vertex, or ~0
   uint arrivals;  // of work groups that wait for each other
   uint begun;     // 1: they have met, so that they run at once. Else no step is made
 };

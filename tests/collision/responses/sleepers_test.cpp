@@ -159,7 +159,7 @@ TEST_CASE("a body that stays where it is sleeps though it trembles, and one that
   }
 }
 
-// Each of them goes further than a body may that sleeps, in a second.
+// They creep slowly enough in half a second, but in all they go further than a body may that sleeps.
 TEST_CASE("bodies that creep fall asleep together, though one began later", "[gl]") {
   constexpr float speed = 0.9f;
   for (const TestDevice& test : all_devices())
