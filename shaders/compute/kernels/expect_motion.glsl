@@ -77,8 +77,7 @@ void begin_part(double time_step, double longer) {
 
 // Without a kick [m/s].
 dvec3 expected_velocity(uint i, double longer) {
-  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
-  return LOAD3(start, start_velocity_of(i)) + longer * (latest + double(0.5) * (latest - before));
+  return LOAD3(start, start_velocity_of(i)) + longer * LOAD3(surplus, expected_surplus_of(i));
 }
 
 void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {

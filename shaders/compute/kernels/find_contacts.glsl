@@ -153,9 +153,9 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
         mw = LOAD3(expected, force_of(who.w));
   real3 velocity = weighed_differences(vx, vy, vz, vw, f.weight);
   real3 surplus_now = weighed_differences(mx - vx, my - vy, mz - vz, mw - vw, f.weight);
-  real3 surplus_before =
-      weighed_differences(LOAD3(surplus, surplus_of(0u, vertex_count, who.x)), LOAD3(surplus, surplus_of(0u, vertex_count, who.y)),
-                          LOAD3(surplus, surplus_of(0u, vertex_count, who.z)), LOAD3(surplus, surplus_of(0u, vertex_count, who.w)),
+  real3 end_surplus =
+      weighed_differences(LOAD3(surplus, end_surplus_of(vertex_count, who.x)), LOAD3(surplus, end_surplus_of(vertex_count, who.y)),
+                          LOAD3(surplus, end_surplus_of(vertex_count, who.z)), LOAD3(surplus, end_surplus_of(vertex_count, who.w)),
                           f.weight);
   Surface first = surface[uint(rest_position[p.vertex[0]].w)], second = surface[uint(rest_position[p.vertex[3]].w)];
   Approach a;
@@ -167,7 +167,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.distance = dot(normal, weighed(f, p.place));
   c.velocity = dot(normal, velocity);
   c.surplus = dot(normal, surplus_now);
-  c.was = c.velocity - dot(normal, surplus_before);
+  c.was = c.velocity - dot(normal, end_surplus);
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(normal, -surplus_now - velocity);

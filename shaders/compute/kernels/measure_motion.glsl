@@ -35,8 +35,8 @@ void leave_island(uint b) {
 
 // What sleeps is expected to stay.
 void forget_surplus(uint i) {
-  STORE3(surplus, surplus_of(0u, vertex_count, i), dvec3(0))
-  STORE3(surplus, surplus_of(1u, vertex_count, i), dvec3(0))
+  STORE3(surplus, expected_surplus_of(i), dvec3(0))
+  STORE3(surplus, end_surplus_of(vertex_count, i), dvec3(0))
 }
 
 // All else that a step finds of a body at rest still stands.
@@ -55,12 +55,11 @@ void measure_motion(uint i) {
   if (status[b].asleep != 0u) forget_surplus(i);
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
-  dvec3 latest = LOAD3(surplus, surplus_of(0u, vertex_count, i)), before = LOAD3(surplus, surplus_of(1u, vertex_count, i));
   dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
   STORE3(start, unkicked_velocity_of(i), in_frame)
-  dvec3 mean = velocity + (latest + double(0.5) * (latest - before));
+  dvec3 mean = velocity + LOAD3(surplus, expected_surplus_of(i));
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
     uint bits = ordered_bits(float(mean[int(k)]));

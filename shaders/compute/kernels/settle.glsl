@@ -6,6 +6,7 @@
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/parts.glsl"
 #include "../physics/contact/surface.glsl"
+#include "../physics/contact/surplus.glsl"
 WRITE(control)
 READ(body)
 READ(pose)
@@ -86,6 +87,15 @@ void prepare_next_step(uint i, uint b) {
   }
 }
 
+void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
+  dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
+  for (uint k = 0u; k < 3u; ++k) {
+    double of_end_before = contact_list[0].longer * surplus[end_surplus_of(vertex_count, i) + k];
+    surplus[expected_surplus_of(i) + k] = expected_surplus(of_start[int(k)], of_end[int(k)], of_end_before);
+    surplus[end_surplus_of(vertex_count, i) + k] = of_end[int(k)];
+  }
+}
+
 void settle(uint i) {
   uint b = uint(rest_position[i].w);
   prepare_next_step(i, b);
@@ -94,11 +104,8 @@ void settle(uint i) {
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
   double most = most_tremble_ratio * sleep_speed * control[0].time_step;
   if (sleep_speed > double(0) && length(gone) > most) ATOMIC_STORE(cluster[b].is_stirred, 1u);
-  dvec3 next = rotate(pose[b], gone / control[0].time_step - LOAD3(motion, velocity_of(before)));
-  uint latest = surplus_of(0u, vertex_count, i), oldest = surplus_of(1u, vertex_count, i);
-  dvec3 last = contact_list[0].longer * LOAD3(surplus, latest);
-  STORE3(surplus, oldest, last)
-  STORE3(surplus, latest, next)
+  dvec3 at_start = LOAD3(motion, velocity_of(before)), at_end = LOAD3(motion, velocity_of(after));
+  keep_surplus(i, b, at_start, gone / control[0].time_step, at_end);
   double part = part_left(i, b);
   last_cut[i] = part < double(1) ? 1u : 0u;
   if (part < double(1)) cut_short(i, b, part, gone);

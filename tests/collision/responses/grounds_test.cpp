@@ -62,7 +62,7 @@ TEST_CASE("a body at rest keeps the gap, which is the geometric mean of the two"
   }
 }
 
-// In each of these steps it falls by more than what is left to the ground, so that contacts hold it from the first one on.
+// Near the ground it falls in a step by more than what is left, so the first contact stops it far above.
 TEST_CASE("a body that stops above the ground in a long step sinks to it") {
   const auto device = make_cpu_device(1, 32);
   for (const double step : {0.003, 0.01, 0.0167}) {

@@ -1,17 +1,21 @@
 // What contact by impulses expects of motions, in a quiet step.
+#include "../../physics/contact/surplus.glsl"
 WRITE(surplus)
 
-// What `settle` keeps of a step for the next: the velocity that the vertex had in the step beyond that at the start, in the frame [m/s].
-dvec3 surplus_in_frame(uint i, dvec3 gone) { return gone / control[0].time_step - velocity_in(before_step(i)); }
+// Along axis k of the world [m/s].
+double surplus_of_end(uint i, uint k, uint b) {
+  return in_world(b, k, velocity_in(after_step(i)) - way_in_frame(i) / control[0].time_step);
+}
+double surplus_expected_next(uint i, uint k, uint b) {
+  double of_start = in_world(b, k, way_in_frame(i) / control[0].time_step - velocity_in(before_step(i)));
+  return expected_surplus(of_start, surplus_of_end(i, k, b), surplus[end_surplus_of(vertex_count, i) + k]);
+}
 
 // A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
 void look_at_vertex(uint i, uint k, uint b) {
-  dvec3 gone = way_in_frame(i);
-  double latest = surplus[surplus_of(0u, vertex_count, i) + k], oldest = surplus[surplus_of(1u, vertex_count, i) + k];
-  double along = in_world(b, k, gone), next = in_world(b, k, surplus_in_frame(i, gone)), room = double(bounds.room);
-  double expected =
-      control[0].time_step * (in_world(b, k, velocity_in(before_step(i))) + (latest + double(0.5) * (latest - oldest)));
-  double speed = in_world(b, k, velocity_in(after_step(i))) + (next + double(0.5) * (next - latest));
+  double along = in_world(b, k, way_in_frame(i)), room = double(bounds.room);
+  double expected = control[0].time_step * (in_world(b, k, velocity_in(before_step(i))) + surplus[expected_surplus_of(i) + k]);
+  double speed = in_world(b, k, velocity_in(after_step(i))) + surplus_expected_next(i, k, b);
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
   if (!stays) atomicMin(quiet_steps[0].undone, step_index);
@@ -19,7 +23,6 @@ void look_at_vertex(uint i, uint k, uint b) {
 }
 
 void keep_surplus(uint i, uint k, uint b) {
-  double next = in_world(b, k, surplus_in_frame(i, way_in_frame(i)));
-  surplus[surplus_of(1u, vertex_count, i) + k] = surplus[surplus_of(0u, vertex_count, i) + k];
-  surplus[surplus_of(0u, vertex_count, i) + k] = next;
+  surplus[expected_surplus_of(i) + k] = surplus_expected_next(i, k, b);
+  surplus[end_surplus_of(vertex_count, i) + k] = surplus_of_end(i, k, b);
 }
