@@ -11,6 +11,7 @@
 // sums_are_near. It says that threads share nothing but the group's own memory, in all rounds but the last.
 #version 450
 #include "physics/language.glsl"
+#include "physics/body.glsl"
 bool has_own_thread = false;  // whether an item has a thread to itself in all rounds
 #include "@kernel"
 #ifndef NEAR_ROUNDS
@@ -21,8 +22,6 @@ layout(local_size_x = GROUP_SIZE) in;
 PARAMETER(uint, item_count)  // work groups
 #include "kernels/parts/was_stopped.glsl"
 
-const uint most_polls_of_a_round = 1u << 22;  // which take some seconds
-
 // Waits until all groups have come here `often` times.
 void wait_for_others(uint groups, uint often) {
   memoryBarrierBuffer();
@@ -31,8 +30,8 @@ void wait_for_others(uint groups, uint often) {
   if (gl_LocalInvocationID.x == 0u) {
     uint polls = 0u;
     atomicAdd(contact_list[0].arrivals, 1u);
-    while (atomicAdd(contact_list[0].arrivals, 0u) < groups * often && polls < most_polls_of_a_round) ++polls;
-    if (polls == most_polls_of_a_round) atomicOr(contact_list[0].arrivals, waited_in_vain);  // the others need not wait, either
+    while (atomicAdd(contact_list[0].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
+    if (polls == most_polls) atomicOr(contact_list[0].arrivals, waited_in_vain);  // the others need not wait, either
     memoryBarrierBuffer();
   }
   barrier();

@@ -33,7 +33,7 @@ class Collider {
   /// Bounds every body at `half`. A step does that itself as it ends, but for static bodies.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
   /// Returns how many pairs of bodies a search looks at, or leaves out because their boxes are apart.
-  [[nodiscard]] std::uint32_t pair_count() const { return searches() && uses_trees() ? body_pairs_.pair_count() : 0; }
+  [[nodiscard]] std::uint32_t pair_count() const { return searches() ? body_pairs_.pair_count() : 0; }
   /// Return the passes of a search at `half`, which run in this order:
   /// - Pairing finds pairs of bodies. If there are static ones, it bounds bodies first.
   /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.

@@ -30,6 +30,7 @@
 namespace pliant {
 namespace {
 
+using Clock = std::chrono::steady_clock;
 constexpr double patience = 1;  // how long measuring may go on after Ctrl-C [s]
 constexpr std::uint64_t most_steps_of_a_batch = 1024;
 constexpr double time_of_a_batch = 0.1;  // aimed at between two checks for Ctrl-C and updates of the progress [s]
@@ -120,11 +121,13 @@ class Run {
     record_unless_recorded();
   }
 
-  // Batches grow while they are short, because a report after each step would cost more than small steps.
+  // Batches grow while they are short, because a report after each step would cost more than small steps. They end early where
+  // steps begin to take longer.
   void advance_by(std::uint64_t steps) {
     const double before = progress_.times.stepping.seconds();
     step([&] {
-      run_.simulation->advance(steps, is_interrupted);
+      const auto end = Clock::now() + std::chrono::duration<double>(time_of_a_batch);
+      run_.simulation->advance(steps, [end] { return is_interrupted() || Clock::now() > end; });
       return run_.simulation->report();
     });
     const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
@@ -218,7 +221,6 @@ class Run {
 
   // After Ctrl-C it measures for a moment only. If that is too short, the elastic energy is missing.
   Measurement measured() {
-    using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(patience);
     return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_,
                    [end] { return is_interrupted() && Clock::now() > end; });

@@ -49,9 +49,10 @@ std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, co
 
 }  // namespace
 
-QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Collider& collider)
-    : most_at_once_(most_at_once(bodies, stepper)) {
-  if (!stepper.makes_quiet_steps() || most_at_once_ < physics::fewest_quiet_steps) return;
+QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
+  if (!stepper.makes_quiet_steps()) return;
+  most_at_once_ = most_at_once(bodies, stepper);
+  if (most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
   for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, bodies, stepper, collider);

@@ -1,6 +1,6 @@
-// Makes steps in which nothing comes near, many in one dispatch (physics/quiet.glsl). Bits are those of other steps. Contact by
-// impulses foresees what bodies may reach. Responses that look at where steps end, and scenes in which nothing touches, give each
-// body room of its own (kernels/give_room.glsl).
+// Makes steps in which contacts need no answer, many in one dispatch (physics/quiet.glsl). Bits are those of other steps. Contact
+// by impulses foresees what bodies may reach. Responses that look at where steps end, and scenes in which nothing touches, give
+// each body room of its own (kernels/give_room.glsl).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -25,7 +25,7 @@ class QuietSteps {
   [[nodiscard]] std::uint32_t take_made();
 
  private:
-  std::uint32_t most_at_once_;
+  std::uint32_t most_at_once_ = 0;
   DeviceArray<physics::QuietSteps>* steps_ = nullptr;
   std::array<std::vector<Pass>, 2> passes_;  // by the half that the first step starts from
 };

@@ -101,7 +101,6 @@ void Simulation::skip(bool skips) {
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
   quiet_.reset();
   if (skips && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
-  tries_quiet_steps_ = quiet_ && quiet_->are_known();
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -117,6 +116,15 @@ void Simulation::queue(std::uint64_t steps) {
   }
 }
 
+void Simulation::queue_until(std::uint64_t steps, const std::function<bool()>& stops) {
+  for (std::uint64_t left = steps; left > 0;) {
+    const std::uint64_t queued = std::min(left, most_steps_at_once);
+    queue(queued);
+    left -= queued;
+    if (left > 0 && stops && stops()) return;
+  }
+}
+
 void Simulation::run(std::span<const Pass> passes) {
   if (timed_)
     run_timed(device_, passes, pass_seconds_);
@@ -126,14 +134,14 @@ void Simulation::run(std::span<const Pass> passes) {
 
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
-  if (parts() == nullptr && (!tries_quiet_steps_ || steps < physics::fewest_quiet_steps)) return queue(steps);
+  if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_until(steps, stops);
   const std::uint64_t target = parts() != nullptr ? parts()->download().front().steps + steps : 0;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     if (const std::uint64_t quiet = make_quiet_steps(left); quiet > 0) {
       left -= quiet;
     } else {
       const std::uint64_t to_next_try = std::max<std::uint64_t>(steps_to_next_try_, 1);
-      const std::uint64_t queued = std::min(left, tries_quiet_steps_ ? to_next_try : most_steps_at_once);
+      const std::uint64_t queued = std::min(left, tries_quiet_steps() ? to_next_try : most_steps_at_once);
       queue(queued);
       left = parts() != nullptr ? target - std::min<std::uint64_t>(parts()->download().front().steps, target) : left - queued;
     }
@@ -144,11 +152,10 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
 // twice as many each time.
 std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
-  if (!tries_quiet_steps_ || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
+  if (!tries_quiet_steps() || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
   const std::uint32_t made = quiet_->take_made();
-  tries_quiet_steps_ = quiet_->are_known();
   steps_to_next_try_ = made > 0 ? 0 : pause_;
   pause_ = made > 0 ? 1 : std::min(2 * pause_, most_steps_at_once);
   queued_steps_ += made;

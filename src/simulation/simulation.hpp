@@ -61,7 +61,7 @@ struct StepReport {
   std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body
   std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
-  std::uint64_t quiet_steps = 0;            // whole steps made many at once, because nothing came near
+  std::uint64_t quiet_steps = 0;            // whole steps made many at once (quiet_steps.hpp)
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
@@ -82,7 +82,8 @@ struct Intersections {
 
 class Simulation {
  public:
-  static constexpr std::uint64_t most_steps_at_once = 32;  // between reports, so that no caller waits long
+  /// Without a look at the device or a question to the caller, and with a tolerance between reports.
+  static constexpr std::uint64_t most_steps_at_once = 32;
 
   /// `device` and `model` must outlive the simulation.
   Simulation(Device& device, const Model& model, const State& start, const TimePlan& plan, const CollisionDescription& collision);
@@ -90,8 +91,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, or some may be quiet, it waits for some of them now and then, and asks `stops`. A yes ends it, perhaps in the
-  /// midst of a step, where another call goes on.
+  /// into parts, or some may be quiet, it waits for some of them now and then. It asks `stops` now and then, too. A yes ends it,
+  /// perhaps in the midst of a step, where another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
@@ -141,7 +142,9 @@ class Simulation {
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
+  void queue_until(std::uint64_t steps, const std::function<bool()>& stops);
   void run(std::span<const Pass> passes);
+  [[nodiscard]] bool tries_quiet_steps() const { return quiet_ && quiet_->are_known(); }
   [[nodiscard]] std::uint64_t make_quiet_steps(std::uint64_t most);
   void add_pace(StepReport& report);
   void add_parts(StepReport& report) const;
@@ -162,8 +165,7 @@ class Simulation {
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
   std::uint64_t steps_to_next_try_ = 0;            // of quiet ones
   std::uint64_t pause_ = 1;                        // steps to queue if the next try makes none
-  bool tries_quiet_steps_ = false;
-  bool timed_ = false, is_anew_ = true;  // anew: no step has been queued since the start or restore()
+  bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
 };
 

@@ -70,14 +70,16 @@ bool trembles_little(uint b) {
   return squares <= double(sample_count) * most * most;
 }
 
-// A body that creeps on stays fit to sleep until others of its island are, too. So windows follow each other. At the end of one slow_for is
-// twice sleeps_after.
+// A body that creeps on stays fit to sleep until others of its island are, too. So windows of sleeps_after follow each other. The first
+// begins at 0, all others begin at sleeps_after, and each ends at window_end.
+const float window_end = float(2) * sleeps_after;
+
 void count_slow_time(uint b) {
   float before = status[b].slow_for;
-  if (before == 0.0f || before == float(2) * sleeps_after) begin_window(b);
-  if (before == float(2) * sleeps_after) before = sleeps_after;
-  float slow_for = before + float(control[0].time_step), end = before < sleeps_after ? sleeps_after : float(2) * sleeps_after;
-  if (slow_for >= end) slow_for = float(2) * sleeps_after;
+  if (before == 0.0f || before == window_end) begin_window(b);
+  if (before == window_end) before = sleeps_after;
+  float slow_for = before + float(control[0].time_step), end = before < sleeps_after ? sleeps_after : window_end;
+  if (slow_for >= end) slow_for = window_end;
   status[b].slow_for = is_fit_to_sleep(b) && trembles_little(b) && has_stayed(b) ? slow_for : 0.0f;
 }
 

@@ -54,7 +54,7 @@ struct Status {
   uint calm;               // steps in a row that left the body where it was, counted up to at_rest: see below
   uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
   uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
-  float slow_for;          // how long it has been fit to sleep [s], at most twice sleeps_after
+  float slow_for;          // up to sleeps_after: how long it has been slow [s]; beyond: it is fit to sleep (find_sleepers.glsl)
   uint pressed_by_static;  // number of the latest part of a step in which a ground or a static body gave it an impulse, 0: none
   uint falls_asleep;       // 1: it sleeps from the end of this step on
   uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it
@@ -87,7 +87,7 @@ const uint halted_for_good = 1u;  // a step went non-finite, and nothing moves a
 const uint halted_for_now = 2u;   // until the next step, because this one is empty or was undone
 const uint halted_waiting = 3u;   // for good, because its work groups do not run at once, though they should
 const uint immovable = 4u;        // keeps its place and shape
-const uint most_polls = 1u << 22;  // a body is halted_waiting after so many polls, which take some seconds
+const uint most_polls = 1u << 22;  // of work groups that wait for others, which take some seconds
 const uint waited_in_vain = 1u << 31;  // in counts of arrivals: work groups did not run at once, though they should
 
 const uint no_vertex = 0xffffffffu;

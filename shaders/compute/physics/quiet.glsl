@@ -1,4 +1,4 @@
-// Quiet steps: steps in which no body comes near another or a ground. One dispatch makes many of them.
+// Quiet steps: steps in which no contact needs an answer. One dispatch makes many of them.
 #ifndef QUIET_GLSL
 #define QUIET_GLSL
 #include "body.glsl"

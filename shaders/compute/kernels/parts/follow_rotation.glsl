@@ -2,6 +2,7 @@
 
 // Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
 // the frame, relative to a point that moves with the body.
+// In sums over samples, before about_means(), products are not yet about the means, and means are still sums.
 struct Samples {
   dvec3 rest_mean;
   dvec3 moved_mean;
@@ -15,7 +16,7 @@ double place_of_sample(double rest, double displacement, double origin) {
   return place;
 }
 
-// From sums over all samples. Products are summed about the means.
+// From sums over all samples.
 Samples about_means(Samples s) {
   const double part = double(1) / double(sample_count);  // a power of two
   s.rest_mean *= part;
@@ -38,7 +39,6 @@ dvec3 remaining_turn(IN(Samples) s, Quaternion q) {
   EXACT dvec3 turn = torque / (abs(alignment) + double(1e-30));
   return turn;
 }
-
 
 void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, dvec3 moved_mean) {
   Quaternion old = quaternion(pose[b].quaternion[0], pose[b].quaternion[1], pose[b].quaternion[2], pose[b].quaternion[3]);
