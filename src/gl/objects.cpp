@@ -93,10 +93,9 @@ void expect_within_limit(std::size_t bytes, std::string_view label) {
                 "use coarser meshes or --device cpu");
 }
 
-// Gives the buffer its storage, which the GPU alone may write if `content` is null. Returns whether there is room for it.
-bool has_room_for(GLuint buffer, std::size_t bytes, const std::byte* content) {
+// Gives the buffer its storage. Returns whether there is room for it.
+bool has_room_for(GLuint buffer, std::size_t bytes, const std::byte* content, GLbitfield flags) {
   const Allocation allocation;
-  const GLbitfield flags = content != nullptr ? GL_DYNAMIC_STORAGE_BIT : 0;
   glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), content, flags);
   return !allocation.ran_out();
 }
@@ -114,7 +113,7 @@ Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
   // Zeros are uploaded, because a clear is not safe. On NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued
   // before it and is lost. An empty buffer still gets storage, so that it can be bound.
   const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
-  if (!has_room_for(id_, zeros.size(), zeros.data())) {
+  if (!has_room_for(id_, zeros.size(), zeros.data(), GL_DYNAMIC_STORAGE_BIT)) {
     glDeleteBuffers(1, &id_);
     throw no_room(bytes, label);
   }
@@ -141,7 +140,7 @@ void Buffer::write(std::size_t first_byte, std::span<const std::byte> data) {
   if (data.empty()) return;
   GLuint copy = 0;
   glCreateBuffers(1, &copy);
-  const bool has_room = has_room_for(copy, data.size(), data.data());
+  const bool has_room = has_room_for(copy, data.size(), data.data(), GL_DYNAMIC_STORAGE_BIT);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   if (has_room) glCopyNamedBufferSubData(copy, id_, 0, static_cast<GLintptr>(first_byte), static_cast<GLsizeiptr>(data.size()));
   glDeleteBuffers(1, &copy);
@@ -154,7 +153,7 @@ void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   const auto size = static_cast<GLsizeiptr>(data.size());
   GLuint copy = 0;
   glCreateBuffers(1, &copy);
-  const bool has_room = has_room_for(copy, data.size(), nullptr);
+  const bool has_room = has_room_for(copy, data.size(), nullptr, 0);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   if (has_room) {
     glCopyNamedBufferSubData(id_, copy, static_cast<GLintptr>(first_byte), 0, size);
@@ -162,6 +161,37 @@ void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
   }
   glDeleteBuffers(1, &copy);
   if (!has_room) throw no_room(data.size(), "data on its way");
+}
+
+Landing::~Landing() {
+  if (id_ != 0) glDeleteBuffers(1, &id_);
+}
+
+void Landing::make_room(std::size_t bytes) {
+  if (bytes <= size_) return;
+  if (id_ != 0) glDeleteBuffers(1, &id_);
+  glCreateBuffers(1, &id_);
+  constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  if (!has_room_for(id_, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT)) {
+    size_ = 0;
+    throw no_room(bytes, "data on its way");
+  }
+  size_ = bytes;
+  mapped_ = static_cast<const std::byte*>(glMapNamedBufferRange(id_, 0, static_cast<GLsizeiptr>(bytes), access));
+}
+
+std::span<const std::byte> Landing::copy(std::span<const Buffer* const> buffers) {
+  std::size_t bytes = 0;
+  for (const Buffer* buffer : buffers) bytes += buffer->size();
+  make_room(bytes);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::size_t place = 0;
+  for (const Buffer* buffer : buffers) {
+    glCopyNamedBufferSubData(buffer->id(), id_, 0, static_cast<GLintptr>(place), static_cast<GLsizeiptr>(buffer->size()));
+    place += buffer->size();
+  }
+  glFinish();
+  return {mapped_, bytes};
 }
 
 Program Program::compute(const FlatShader& source, std::string_view label) {

@@ -33,6 +33,26 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
+/// Memory that the GPU copies buffers to, so that the processor waits once for several of them.
+class Landing {
+ public:
+  Landing() = default;
+  ~Landing();
+  Landing(const Landing&) = delete;
+  Landing& operator=(const Landing&) = delete;
+
+  /// Waits for the GPU, and returns whole buffers, each behind the one before. The bytes stand until the next call. Throws Error
+  /// (device) when there is no room for them.
+  [[nodiscard]] std::span<const std::byte> copy(std::span<const Buffer* const> buffers);
+
+ private:
+  void make_room(std::size_t bytes);
+
+  std::uint32_t id_ = 0;
+  std::size_t size_ = 0;
+  const std::byte* mapped_ = nullptr;
+};
+
 /// A linked program. A shader that does not compile throws Error (device) with its true file and line.
 class Program {
  public:

@@ -18,6 +18,10 @@ std::uint64_t total(const Control& control, std::uint32_t counter) {
   return (static_cast<std::uint64_t>(control.total_high[counter]) << 32) | control.total_low[counter];
 }
 
+// What has to be known between steps, and what a report has.
+constexpr std::string_view clocks[] = {"control", "step_parts", "quiet_steps"};
+constexpr std::string_view reported[] = {"control", "step_parts", "pace", "contact_total", "status", "slept", "tally"};
+
 void add_collision_counts(StepReport& report, const Control& control) {
   report.contact_steps = control.contact_steps;
   report.contact_pairs_max = control.contact_pairs_max;
@@ -135,18 +139,20 @@ void Simulation::run(std::span<const Pass> passes) {
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
   if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_until(steps, stops);
-  const std::uint64_t target = parts() != nullptr ? parts()->download().front().steps + steps : 0;
+  const std::uint64_t target = whole_steps() + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
-    if (const std::uint64_t quiet = make_quiet_steps(left); quiet > 0) {
-      left -= quiet;
-    } else {
+    if (make_quiet_steps(left) == 0) {
       const std::uint64_t to_next_try = std::max<std::uint64_t>(steps_to_next_try_, 1);
-      const std::uint64_t queued = std::min(left, tries_quiet_steps() ? to_next_try : most_steps_at_once);
-      queue(queued);
-      left = parts() != nullptr ? target - std::min<std::uint64_t>(parts()->download().front().steps, target) : left - queued;
+      queue(std::min(left, tries_quiet_steps() ? to_next_try : most_steps_at_once));
     }
+    left = target - std::min(whole_steps(), target);
     if (left > 0 && stops && stops()) return;
   }
+}
+
+std::uint64_t Simulation::whole_steps() {
+  const std::uint64_t passed = control().step - 1;  // parts of steps, if they fall into such
+  return parts() != nullptr ? parts()->download().front().steps : passed;
 }
 
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
@@ -155,11 +161,12 @@ std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
   if (!tries_quiet_steps() || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
+  known_control_.reset();
+  (void)control();  // and with it what the next line takes
   const std::uint32_t made = quiet_->take_made();
   steps_to_next_try_ = made > 0 ? 0 : pause_;
   pause_ = made > 0 ? 1 : std::min(2 * pause_, most_steps_at_once);
   queued_steps_ += made;
-  known_control_.reset();
   return made;
 }
 
@@ -197,7 +204,10 @@ void Simulation::pull(const Pull& by, double seconds) {
 }
 
 const Control& Simulation::control() {
-  if (!known_control_) known_control_ = bodies_.control.download().front();
+  if (!known_control_) {
+    device_.read_ahead(bodies_.arrays.made_buffers(clocks));
+    known_control_ = bodies_.control.download().front();
+  }
   return *known_control_;
 }
 
@@ -215,6 +225,7 @@ void Simulation::add_pace(StepReport& report) {
 }
 
 StepReport Simulation::report() {
+  device_.read_ahead(bodies_.arrays.made_buffers(reported));
   const Control& control = this->control();
   StepReport report;
   report.steps = control.step - 1;

@@ -145,6 +145,7 @@ class Simulation {
   void queue_until(std::uint64_t steps, const std::function<bool()>& stops);
   void run(std::span<const Pass> passes);
   [[nodiscard]] bool tries_quiet_steps() const { return quiet_ && quiet_->are_known(); }
+  [[nodiscard]] std::uint64_t whole_steps();  // that stand, since the start
   [[nodiscard]] std::uint64_t make_quiet_steps(std::uint64_t most);
   void add_pace(StepReport& report);
   void add_parts(StepReport& report) const;

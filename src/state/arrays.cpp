@@ -80,6 +80,13 @@ const Arrays::Held& Arrays::find(std::string_view name, std::string_view element
 
 BufferId Arrays::buffer(std::string_view name) const { return find(name, {}).bytes.buffer; }
 
+std::vector<BufferId> Arrays::made_buffers(std::span<const std::string_view> names) const {
+  std::vector<BufferId> buffers;
+  for (const std::string_view name : names)
+    if (const auto found = held_.find(name); found != held_.end()) buffers.push_back(found->second.bytes.buffer);
+  return buffers;
+}
+
 const Parameter* Arrays::parameter(std::string_view name) const {
   const auto found = parameters_.find(name);
   return found == parameters_.end() ? nullptr : &found->second;

@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -115,6 +116,8 @@ class Arrays {
     return *static_cast<DeviceArray<T>*>(find(name, expected_element<T>()).array.get());
   }
   [[nodiscard]] BufferId buffer(std::string_view name) const;
+  /// Returns the buffers of those arrays that somebody has made.
+  [[nodiscard]] std::vector<BufferId> made_buffers(std::span<const std::string_view> names) const;
   [[nodiscard]] Device& device() const { return device_; }
 
   /// Sets a parameter that has one value for all kernels.

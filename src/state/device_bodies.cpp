@@ -210,6 +210,7 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
 }
 
 State DeviceBodies::download(std::uint32_t half) const {
+  arrays.device().read_ahead(std::array{poses.id(), motions.id()});
   return {.poses = poses.download(),
           .motion =
               motions.download(physics::displacement_of(first_of_half(half)), std::size_t{physics::motion_size} * vertex_count)};
