@@ -17,7 +17,7 @@ std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> 
 
 }  // namespace
 
-Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description, StepLengths step_lengths,
+Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description, StepTraits steps,
                    std::optional<std::uint32_t> parallel_items, bool sleeps)
     : description_(description),
       body_count_(bodies.body_count),
@@ -28,7 +28,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       response_row_(row_of(description, searches() || !model.grounds.empty())) {
   if (response_row_.make != nullptr)
-    response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, step_lengths, sleeps});
+    response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, steps, sleeps});
 }
 
 bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }

@@ -15,8 +15,8 @@ class Collider {
  public:
   /// `bodies` and `model` must outlive the collider. The trees' structure comes from the rest positions. Searches are cut for
   /// `parallel_items` threads at once, or else for as many as keep the device busy. Throws Error if there is no such response.
-  Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description,
-           StepLengths step_lengths = StepLengths::fixed, std::optional<std::uint32_t> parallel_items = {}, bool sleeps = false);
+  Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description, StepTraits steps = {},
+           std::optional<std::uint32_t> parallel_items = {}, bool sleeps = false);
   Collider(const Collider&) = delete;
   Collider& operator=(const Collider&) = delete;
 

@@ -143,6 +143,11 @@ int evaluations_per_step(const Integrator& integrator) {
   return static_cast<int>(std::get<Splitting>(integrator.method).drift.size());
 }
 
+bool has_forces_at_ends(const Integrator& integrator) {
+  const auto* splitting = std::get_if<Splitting>(&integrator.method);
+  return splitting != nullptr && splitting->drift.size() == 1;
+}
+
 bool allows_damping(const Integrator& integrator, DampingLaw law) {
   if (law == DampingLaw::none || std::holds_alternative<RungeKutta>(integrator.method)) return true;
   if (std::holds_alternative<Nystrom>(integrator.method)) return law == DampingLaw::constant;

@@ -59,6 +59,9 @@ struct Integrator {
 /// last acceleration.
 [[nodiscard]] int evaluations_per_step(const Integrator& integrator);
 
+/// Returns whether forces act at the ends of steps alone. Then the positions at a step's end follow from its start.
+[[nodiscard]] bool has_forces_at_ends(const Integrator& integrator);
+
 /// Returns whether the method allows the damping law. A splitting damps with every kick, so a negative kick would feed energy in.
 /// A Nystrom method's stages have no velocities to damp, but its weights can hold a constant rate of damping.
 [[nodiscard]] bool allows_damping(const Integrator& integrator, DampingLaw law);

@@ -37,6 +37,7 @@ void leave_island(uint b) {
 void forget_surplus(uint i) {
   STORE3(surplus, expected_surplus_of(i), dvec3(0))
   STORE3(surplus, end_surplus_of(vertex_count, i), dvec3(0))
+  STORE3(surplus, surplus_lead_of(vertex_count, i), dvec3(0))
 }
 
 // All else that a step finds of a body at rest still stands.

@@ -26,6 +26,7 @@ WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
+PARAMETER(double, share_of_end)
 PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been so slow for long; 0: none does
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
@@ -90,9 +91,13 @@ void prepare_next_step(uint i, uint b) {
 void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
   for (uint k = 0u; k < 3u; ++k) {
-    double of_end_before = contact_list[0].longer * surplus[end_surplus_of(vertex_count, i) + k];
-    surplus[expected_surplus_of(i) + k] = expected_surplus(of_start[int(k)], of_end[int(k)], of_end_before);
-    surplus[end_surplus_of(vertex_count, i) + k] = of_end[int(k)];
+    Surplus before;
+    before.of_end = contact_list[0].longer * surplus[end_surplus_of(vertex_count, i) + k];
+    before.lead = contact_list[0].longer * contact_list[0].longer * surplus[surplus_lead_of(vertex_count, i) + k];
+    Surplus now = surplus_after(of_start[int(k)], of_end[int(k)], before, share_of_end);
+    surplus[expected_surplus_of(i) + k] = now.expected;
+    surplus[end_surplus_of(vertex_count, i) + k] = now.of_end;
+    surplus[surplus_lead_of(vertex_count, i) + k] = now.lead;
   }
 }
 

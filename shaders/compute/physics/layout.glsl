@@ -18,13 +18,14 @@ FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 
-// `start` has nine numbers a vertex: where it is in the world, its velocity there, and in the body's frame. `surplus` holds what
-// is expected of the coming step, then that of the last step's end. `impulse_sum` has three sums a vertex in each of its buffers.
+// `start` has nine numbers a vertex: where it is in the world, its velocity there, and in the body's frame. `surplus` holds
+// three numbers a vertex of each of what contact/surplus.glsl lists. `impulse_sum` has three sums a vertex in each of its buffers.
 FN uint start_position_of(uint i) { return 9u * i; }
 FN uint start_velocity_of(uint i) { return 9u * i + 3u; }
 FN uint unkicked_velocity_of(uint i) { return 9u * i + 6u; }
 FN uint expected_surplus_of(uint i) { return 3u * i; }
 FN uint end_surplus_of(uint vertex_count, uint i) { return 3u * (vertex_count + i); }
+FN uint surplus_lead_of(uint vertex_count, uint i) { return 3u * (2u * vertex_count + i); }
 FN uint impulse_sum_of(uint buffer_index, uint vertex_count, uint i) { return 3u * (buffer_index * vertex_count + i); }
 
 // `slept` has four numbers a body: energy, then momentum.

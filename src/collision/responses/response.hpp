@@ -60,7 +60,11 @@ class Response {
   [[nodiscard]] virtual std::vector<Pass> after_step(std::uint32_t from_half) const = 0;
 };
 
-enum class StepLengths { fixed, varying };
+/// What a response knows of the method that makes steps.
+struct StepTraits {
+  bool vary_in_length = false;       // as a tolerance demands
+  bool have_forces_at_ends = false;  // and at no time between
+};
 
 constexpr std::uint32_t most_compared_bodies = 1024;  // each with each other, before quiet steps
 
@@ -72,7 +76,7 @@ struct ResponseSetting {
   const Forest& forest;
   const BodyPairs& body_pairs;
   const TreeSearch& trees;
-  StepLengths step_lengths;
+  StepTraits steps;
   bool sleeps;  // whether bodies that rest on something stop to move
 };
 
