@@ -26,6 +26,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, part_count)
 PARAMETER(double, least_speed)
+PARAMETER(double, gravity_size)
 
 const uint last_round = 2u;
 
@@ -56,6 +57,9 @@ dvec3 mean_velocity(uint b) {
 double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) / double(body[b].vertex_count) : double(0); }
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
 
+// Bodies that rest on each other swing by what gravity gives them in a step. If that were taken they would be pressed ever closer.
+double speed_of_rest() { return double(2) * gravity_size * step_parts[0].full; }
+
 void judge_impact(uint a, uint b) {
   uint at = impact_of(a, b, body_count);
   if (!goes_on_at(at)) {
@@ -74,7 +78,7 @@ void judge_impact(uint a, uint b) {
   double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));
   if (impact[at].approach == double(0)) impact[at].approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
   impact[at].approach = max(impact[at].approach, -parts_at);
-  impact[at].parts_too_fast = parts_at > restitution * impact[at].approach ? 1u : 0u;
+  impact[at].parts_too_fast = parts_at > max(restitution * impact[at].approach, speed_of_rest()) ? 1u : 0u;
 }
 
 void judge_impacts(uint a) {
