@@ -172,12 +172,11 @@ void Landing::make_room(std::size_t bytes) {
   if (id_ != 0) glDeleteBuffers(1, &id_);
   glCreateBuffers(1, &id_);
   constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-  if (!has_room_for(id_, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT)) {
-    size_ = 0;
-    throw no_room(bytes, "data on its way");
-  }
-  size_ = bytes;
+  size_ = 0;
+  if (!has_room_for(id_, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT)) throw no_room(bytes, "data on its way");
   mapped_ = static_cast<const std::byte*>(glMapNamedBufferRange(id_, 0, static_cast<GLsizeiptr>(bytes), access));
+  if (mapped_ == nullptr) throw no_room(bytes, "data on its way");
+  size_ = bytes;
 }
 
 std::span<const std::byte> Landing::copy(std::span<const Buffer* const> buffers) {

@@ -125,7 +125,9 @@ void Simulation::queue_until(std::uint64_t steps, const std::function<bool()>& s
     const std::uint64_t queued = std::min(left, most_steps_at_once);
     queue(queued);
     left -= queued;
-    if (left > 0 && stops && stops()) return;
+    if (left == 0 || !stops) continue;
+    device_.finish();  // or a GPU would not have begun
+    if (stops()) return;
   }
 }
 
@@ -226,7 +228,7 @@ void Simulation::add_pace(StepReport& report) {
 
 StepReport Simulation::report() {
   device_.read_ahead(bodies_.arrays.made_buffers(reported));
-  const Control& control = this->control();
+  const Control& control = known_control_.emplace(bodies_.control.download().front());
   StepReport report;
   report.steps = control.step - 1;
   report.time = static_cast<double>(report.steps) * fixed_step_;

@@ -1,6 +1,7 @@
 // A kernel in rounds, at a step's start. One thread serves some vertices of a body. Bodies that touch and part faster than their
 // restitution allows lose their deformation velocities. So they have nothing that would drive them further apart. Both momenta stay.
 #include "../physics/body.glsl"
+#include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/impact.glsl"
@@ -12,6 +13,7 @@ READ(pose)
 READ(status)
 READ(surface)
 READ(step_parts)
+READ(control)
 READ(rest_position)
 WRITE(motion)
 READ(vertex_part)
@@ -58,7 +60,9 @@ double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) /
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
 
 // Bodies that rest on each other swing by what gravity gives them in a step. If that were taken they would be pressed ever closer.
-double speed_of_rest() { return double(2) * gravity_size * step_parts[0].full; }
+double speed_of_rest() {
+  return double(2) * gravity_size * (step_parts[0].divides != 0u ? step_parts[0].full : control[0].time_step);
+}
 
 void judge_impact(uint a, uint b) {
   uint at = impact_of(a, b, body_count);

@@ -15,7 +15,6 @@ READ(rest_position)
 WRITE(placement)
 WRITE(motion)
 WRITE(world_position)
-WRITE(surplus)
 WRITE(last_cut)
 WRITE(cut)
 WRITE(contact_list)
@@ -37,6 +36,7 @@ PARAMETER(uint, contact_capacity)
 #include "parts/place.glsl"
 #include "parts/rouse.glsl"
 #include "parts/is_left_alone.glsl"
+#include "parts/kept_surplus.glsl"
 
 double part_left(uint i, uint b) {
   if (all_stay() || (flight_was_stopped(b) && !goes_on_alone(i, b))) return double(0);
@@ -91,13 +91,9 @@ void prepare_next_step(uint i, uint b) {
 void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
   for (uint k = 0u; k < 3u; ++k) {
-    Surplus before;
-    before.of_end = contact_list[0].longer * surplus[end_surplus_of(vertex_count, i) + k];
-    before.lead = contact_list[0].longer * contact_list[0].longer * surplus[surplus_lead_of(vertex_count, i) + k];
-    Surplus now = surplus_after(of_start[int(k)], of_end[int(k)], before, share_of_end);
-    surplus[expected_surplus_of(i) + k] = now.expected;
-    surplus[end_surplus_of(vertex_count, i) + k] = now.of_end;
-    surplus[surplus_lead_of(vertex_count, i) + k] = now.lead;
+    double longer = contact_list[0].longer;
+    Surplus before = in_longer_steps(kept_surplus(i, k), longer);
+    store_surplus(i, k, surplus_after(of_start[int(k)], of_end[int(k)], before, longer, share_of_end));
   }
 }
 

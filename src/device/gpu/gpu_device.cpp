@@ -98,6 +98,7 @@ class GpuDevice final : public Device {
   void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) override {
     const auto found = ahead_.find(buffer);
     if (found == ahead_.end()) return storage(buffer).read(first_byte, data);
+    PLIANT_EXPECT(first_byte <= found->second.size() && data.size() <= found->second.size() - first_byte);
     std::ranges::copy(found->second.subspan(first_byte, data.size()), data.begin());
   }
   // An H200 takes 30 us to answer, whatever the size.

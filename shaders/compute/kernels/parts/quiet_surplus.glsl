@@ -1,22 +1,19 @@
 // What contact by impulses expects of motions, in a quiet step.
 #include "../../physics/contact/surplus.glsl"
-WRITE(surplus)
 PARAMETER(double, share_of_end)
+#include "kept_surplus.glsl"
 
 // After this step, along axis k of the world.
 Surplus surplus_next(uint i, uint k, uint b) {
   dvec3 mean = way_in_frame(i) / control[0].time_step;
-  Surplus before;
-  before.of_end = surplus[end_surplus_of(vertex_count, i) + k];
-  before.lead = surplus[surplus_lead_of(vertex_count, i) + k];
-  return surplus_after(in_world(b, k, mean - velocity_in(before_step(i))), in_world(b, k, velocity_in(after_step(i)) - mean), before,
-                       share_of_end);
+  double s = in_world(b, k, mean - velocity_in(before_step(i))), e = in_world(b, k, velocity_in(after_step(i)) - mean);
+  return surplus_after(s, e, kept_surplus(i, k), double(1), share_of_end);
 }
 
 // A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
 void look_at_vertex(uint i, uint k, uint b) {
   double along = in_world(b, k, way_in_frame(i)), room = double(bounds.room);
-  double expected = control[0].time_step * (in_world(b, k, velocity_in(before_step(i))) + surplus[expected_surplus_of(i) + k]);
+  double expected = control[0].time_step * (in_world(b, k, velocity_in(before_step(i))) + kept_surplus(i, k).expected);
   double speed = in_world(b, k, velocity_in(after_step(i))) + surplus_next(i, k, b).expected;
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
@@ -24,9 +21,4 @@ void look_at_vertex(uint i, uint k, uint b) {
   if (!goes_on) atomicMin(quiet_steps[0].end, step_index + 1u);
 }
 
-void keep_surplus(uint i, uint k, uint b) {
-  Surplus now = surplus_next(i, k, b);
-  surplus[expected_surplus_of(i) + k] = now.expected;
-  surplus[end_surplus_of(vertex_count, i) + k] = now.of_end;
-  surplus[surplus_lead_of(vertex_count, i) + k] = now.lead;
-}
+void keep_surplus(uint i, uint k, uint b) { store_surplus(i, k, surplus_next(i, k, b)); }

@@ -1,29 +1,38 @@
 // How a vertex is expected to move in a step. Forces act within it, so its mean velocity is not the one at its start. What it has beyond
-// that is the surplus. Back from its end a step has a surplus, too: the velocity there less the mean one.
+// that is the surplus. docs/contact.md explains how it is foreseen.
 #ifndef SURPLUS_GLSL
 #define SURPLUS_GLSL
 #include "../language.glsl"
 SHARED_BEGIN
 
-// Along one axis [m/s].
+// What is known after a step, along one axis [m/s].
 struct Surplus {
-  double expected;  // of the coming step
-  double of_end;    // of the last step, 0 if there was none
-  double lead;      // what that of the last step's start had beyond that of the end before it: nothing by Verlet's method
+  double expected;  // S: the surplus that is expected of the coming step
+  double of_end;    // e: the velocity at the last step's end less its mean velocity. 0: no force acted, or no step was made
+  double lead;      // s - e', where s is the last step's surplus and e' was that of the end before it. It is 0 by Verlet's method
 };
 
-// Returns what is known after another step, from the surplus of its start and of its end, and from what was known before. What the end's
-// has changed by is known a step sooner than what the start's will change by. `share` of it counts: 1 is exact for Verlet's method. For
-// others the leads make up for most of what is missing. Where nothing changes the last surplus is expected, whatever damping takes: else
-// bodies at rest would creep. docs/contact.md says how `share` was chosen.
-FN Surplus surplus_after(double of_start, double of_end, IN(Surplus) before, double share) {
+// Returns what was known if the steps so far had been `longer` times as long. A lead grows with the lengths of two steps.
+FN Surplus in_longer_steps(Surplus known, double longer) {
+  known.expected *= longer;
+  known.of_end *= longer;
+  known.lead *= longer * longer;
+  return known;
+}
+
+// Returns what is known after another step with the surplus s and the surplus e of its end. `before` is what was known, as if steps had
+// been as long as this one, which was `longer` times as long as the last. `share` of what e has changed by counts. A step that is far
+// shorter, such as the last one before a frame, changes nothing that is known: later its roundings would be multiplied.
+FN Surplus surplus_after(double s, double e, IN(Surplus) before, double longer, double share) {
+  bool continues = before.of_end != double(0);
+  if (continues && longer < double(0.1)) return before;
+  EXACT double of_like_steps = double(2) * longer / (double(1) + longer);
+  EXACT double lead = continues ? of_like_steps * (s - before.of_end) : double(0);
+  EXACT double expected = continues ? s + share * (e - before.of_end) + (lead - before.lead) : e;
   Surplus now;
-  now.of_end = of_end;
-  bool is_first = before.of_end == double(0);
-  EXACT double lead = is_first ? double(0) : of_start - before.of_end;
-  EXACT double expected = is_first ? of_start : of_start + share * (of_end - before.of_end) + (lead - before.lead);
-  now.lead = lead;
   now.expected = expected;
+  now.of_end = e;
+  now.lead = lead;
   return now;
 }
 
