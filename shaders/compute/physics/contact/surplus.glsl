@@ -28,7 +28,8 @@ FN Surplus surplus_after(double s, double e, IN(Surplus) before, double longer, 
   if (continues && longer < double(0.1)) return before;
   EXACT double of_like_steps = double(2) * longer / (double(1) + longer);
   EXACT double lead = continues ? of_like_steps * (s - before.of_end) : double(0);
-  EXACT double expected = continues ? s + share * (e - before.of_end) + (lead - before.lead) : e;
+  double more = share < double(1) ? lead - before.lead : double(0);  // by Verlet's method leads are due to damping alone
+  EXACT double expected = continues ? s + share * (e - before.of_end) + more : e;
   Surplus now;
   now.expected = expected;
   now.of_end = e;
