@@ -26,6 +26,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
 PARAMETER(double, share_of_end)
+PARAMETER(double, share_of_lead)
 PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been so slow for long; 0: none does
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
@@ -93,7 +94,7 @@ void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   for (uint k = 0u; k < 3u; ++k) {
     double longer = contact_list[0].longer;
     Surplus before = in_longer_steps(kept_surplus(i, k), longer);
-    store_surplus(i, k, surplus_after(of_start[int(k)], of_end[int(k)], before, longer, share_of_end));
+    store_surplus(i, k, surplus_after(of_start[int(k)], of_end[int(k)], before, longer, share_of_end, share_of_lead));
   }
 }
 

@@ -28,11 +28,6 @@ constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // Step times the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with 0.9 none did (docs/contact.md).
 constexpr double longest_pressed = 0.8;
-// How much of what the surplus of a step's end has changed by is expected to come (physics/contact/surplus.glsl). Methods that
-// move as springs do, which most come close to, gain nothing with it from vertices that stick to a ground in steps of up to
-// 0.75 / omega, and up to 8e-5 a step at 0.8 / omega. With more of it columns settle sooner, and bodies gain more: 0.1 % with
-// 0.7.
-constexpr double share_of_end = 0.6;
 // A body may sleep that moves by less than so many diameters of the smallest one a second.
 constexpr double sleep_diameters = 0.05;
 
@@ -155,7 +150,9 @@ class Impulse final : public Response {
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
-    bodies_.arrays.set_parameter("share_of_end", setting.steps.have_forces_at_ends ? 1.0 : share_of_end);
+    const Foresight& foresight = setting.steps.have_forces_at_ends ? foresight_with_forces_at_ends : foresight_of_most_methods;
+    bodies_.arrays.set_parameter("share_of_end", foresight.share_of_end);
+    bodies_.arrays.set_parameter("share_of_lead", foresight.share_of_lead);
     bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_speed(setting.model, gravity_size()) : 0.0);
     if (sleeps_) make_slow_places(setting.model);
     make_grounds(setting);

@@ -127,37 +127,25 @@ TEST_CASE("a stiff cube comes to rest in steps near their bound") {
 }
 
 // A column of stiff cubes, in steps near their bound. They are 0.6 mm further apart than their gap.
-ModelAndState column(double damping) {
+ModelAndState column() {
   std::vector<BodySetup> setups;
   for (int i = 0; i < 4; ++i) {
     setups.push_back(resting("cube:1", "cube", 1, 1, 1e5));
     setups.back().description.rotation = {0, 0, 0};
     setups.back().description.position = {0, 0.5575 + 1.0575 * i, 0};
-    setups.back().description.damping = damping;
+    setups.back().description.damping = 1;
   }
   const GroundDescription ground;
   return build_model(setups, {0, -9.81, 0}, {&ground, 1});
 }
-const TimePlan long_steps = plan_of(Method{"verlet", 1.0 / 540, DampingLaw::internal});
-
-TEST_CASE("contacts of a column that swings give next to no energy by Verlet's method, which foresees motions exactly") {
-  const ModelAndState start = column(0);
-  const auto device = make_cpu_device(1, 64);
-  Simulation swinging(*device, start.model, start.state, long_steps, {.response = {"impulse"}, .elasticity = 0.5});
-  swinging.advance(5000);
-  const ResponseReport contacts = swinging.report().response;
-  CHECK(contacts.energy_taken > 0.05);
-  CHECK(contacts.energy_given < 0.01 * contacts.energy_taken);
-}
 
 TEST_CASE("a stiff column comes to rest by damping") {
-  const ModelAndState start = column(1);
-  for (const char* integrator : {"verlet", "cv8"}) {
+  const ModelAndState start = column();
+  for (const char* integrator : {"cv8", "rk4"}) {
     CAPTURE(integrator);
     const auto device = make_cpu_device(1, 64);
-    TimePlan plan = long_steps;
-    plan.integrator = &find_integrator(integrator);
-    Simulation settling(*device, start.model, start.state, plan, {.response = {"impulse"}, .elasticity = 0.5});
+    Simulation settling(*device, start.model, start.state, plan_of(Method{integrator, 1.0 / 540, DampingLaw::internal}),
+                        {.response = {"impulse"}, .elasticity = 0.5});
     const std::uint32_t top = start.model.bodies.back().first_vertex;
     std::vector<double> swings;
     for (int second = 0; second < 16; ++second) {

@@ -1,13 +1,14 @@
 // What contact by impulses expects of motions, in a quiet step.
 #include "../../physics/contact/surplus.glsl"
 PARAMETER(double, share_of_end)
+PARAMETER(double, share_of_lead)
 #include "kept_surplus.glsl"
 
 // After this step, along axis k of the world.
 Surplus surplus_next(uint i, uint k, uint b) {
   dvec3 mean = way_in_frame(i) / control[0].time_step;
   double s = in_world(b, k, mean - velocity_in(before_step(i))), e = in_world(b, k, velocity_in(after_step(i)) - mean);
-  return surplus_after(s, e, kept_surplus(i, k), double(1), share_of_end);
+  return surplus_after(s, e, kept_surplus(i, k), double(1), share_of_end, share_of_lead);
 }
 
 // A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
