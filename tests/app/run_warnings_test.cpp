@@ -198,6 +198,23 @@ TEST_CASE("masses and edges that contact by impulses can't resolve are named in 
   for (const std::string& options : {masses, edges}) CHECK(warnings(options + reflect) == "[]");
 }
 
+TEST_CASE("damping that takes contacts' kicks within a step is told, with a step that mends it") {
+  const ScratchFolder folder;
+  const auto warnings = [&](const std::string& options) {
+    const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet " +
+                                             options + " --out " + folder.path.string());
+    CHECK(result.exit_code == 0);
+    return summary_in(folder.path)["warnings"].text();
+  };
+  const std::string strong = " --set body.left.vertex_mass=1 --set body.left.damping=200 --integrator ";
+  CHECK_THAT(warnings("--time-step 0.01" + strong + "verlet"),
+             Catch::Contains("all but 14 % of a contact's kick on \\\"left\\\"") && Catch::Contains("time_step = 0.0025"));
+  CHECK(warnings("--time-step 0.0025" + strong + "verlet") == "[]");
+  CHECK(warnings("--time-step 0.01" + strong + "rk4") == "[]");
+  CHECK(warnings("--time-step 0.01" + strong + "verlet --set simulation.damping_law=none") == "[]");
+  CHECK(warnings("--time-step 0.01" + strong + "verlet --set collision.response=reflect") == "[]");
+}
+
 TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
