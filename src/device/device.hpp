@@ -96,8 +96,8 @@ class Device {
   virtual void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) = 0;
   /// Waits for the kernels before it.
   virtual void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) = 0;
-  /// Says that these buffers will be read, and no others. A device that makes readers wait may wait once for all of them, if
-  /// nothing runs or is written in between.
+  /// Says which buffers will be read next. A device that makes readers wait may wait once for all of them, if nothing runs or is
+  /// written in between. What was read ahead before is forgotten.
   virtual void read_ahead(std::span<const BufferId> /*buffers*/) {}
 
   /// Returns the kernel in the file kernels/NAME.glsl, whose function has the same name. Throws Error (device) if it does not

@@ -120,13 +120,13 @@ void Simulation::queue(std::uint64_t steps) {
   }
 }
 
-void Simulation::queue_until(std::uint64_t steps, const std::function<bool()>& stops) {
+void Simulation::queue_unless(std::uint64_t steps, const std::function<bool()>& stops) {
   for (std::uint64_t left = steps; left > 0;) {
     const std::uint64_t queued = std::min(left, most_steps_at_once);
     queue(queued);
     left -= queued;
     if (left == 0 || !stops) continue;
-    device_.finish();  // or a GPU would not have begun
+    device_.finish();  // otherwise a GPU may not have begun when `stops` is asked
     if (stops()) return;
   }
 }
@@ -140,7 +140,7 @@ void Simulation::run(std::span<const Pass> passes) {
 
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
-  if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_until(steps, stops);
+  if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_unless(steps, stops);
   const std::uint64_t target = whole_steps() + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     if (make_quiet_steps(left) == 0) {
@@ -153,8 +153,8 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 }
 
 std::uint64_t Simulation::whole_steps() {
-  const std::uint64_t passed = control().step - 1;  // parts of steps, if they fall into such
-  return parts() != nullptr ? parts()->download().front().steps : passed;
+  const std::uint64_t made = control().step - 1;  // steps or parts. It reads the parts ahead, too
+  return parts() != nullptr ? parts()->download().front().steps : made;
 }
 
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,

@@ -82,7 +82,8 @@ struct Intersections {
 
 class Simulation {
  public:
-  /// Without a look at the device or a question to the caller, and with a tolerance between reports.
+  /// At most so many steps are queued before `stops` is asked, before parts of steps or quiet steps are counted, and with a
+  /// tolerance before a report.
   static constexpr std::uint64_t most_steps_at_once = 32;
 
   /// `device` and `model` must outlive the simulation.
@@ -91,8 +92,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, or some may be quiet, it waits for some of them now and then. It asks `stops` now and then, too. A yes ends it,
-  /// perhaps in the midst of a step, where another call goes on.
+  /// into parts, or some may be quiet, it waits for some of them now and then. With `stops` it does so, too, and asks. A yes ends
+  /// it, perhaps in the midst of a step, where another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part() { queue(1); }
@@ -142,7 +143,7 @@ class Simulation {
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
-  void queue_until(std::uint64_t steps, const std::function<bool()>& stops);
+  void queue_unless(std::uint64_t steps, const std::function<bool()>& stops);
   void run(std::span<const Pass> passes);
   [[nodiscard]] bool tries_quiet_steps() const { return quiet_ && quiet_->are_known(); }
   [[nodiscard]] std::uint64_t whole_steps();  // that stand, since the start
