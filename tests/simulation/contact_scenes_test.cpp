@@ -270,9 +270,10 @@ TEST_CASE("spheres and a bunny that rain into a box stay in it and out of each o
   CHECK(play.report().held_parts == 0);
 }
 
+// With starts that differ a little they sleep after 8.75 to 17.5 s.
 TEST_CASE("spheres and a bunny that have rained into a box come to rest and sleep", "[long]") {
   Play play("thousand_bodies", 32, few_of_a_thousand);
-  CHECK(play.intersections_until(play.scene().simulation.duration, 120) == 0);
+  CHECK(play.intersections_until(24, 240) == 0);
   CHECK(play.report().bodies_asleep == play.model().bodies.size());
   CHECK(play.report().held_parts == 0);
 }

@@ -76,7 +76,7 @@ inline std::vector<double> numbers_of(const physics::RigidMotion& motion) {
 }
 
 inline std::vector<double> numbers_of(const physics::Control& control) {
-  std::vector<double> numbers{control.time_step};
+  std::vector<double> numbers{control.time_step, control.time_left};
   std::uint32_t words[(sizeof(physics::Control) - offsetof(physics::Control, step)) / 4];
   std::memcpy(words, &control.step, sizeof(words));
   numbers.insert(numbers.end(), std::begin(words), std::end(words));
@@ -97,7 +97,7 @@ inline std::vector<double> numbers_of(const physics::Pace& pace) {
 }
 
 inline std::vector<double> numbers_of(const physics::ContactList& list) {
-  return {list.longer,
+  return {list.last_part,
           double(list.triangle_pair_count),
           double(list.contact_count),
           double(list.uncertified),
@@ -139,7 +139,7 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
 inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
+  return {parts.full, parts.ahead, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {

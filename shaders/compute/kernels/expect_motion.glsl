@@ -69,15 +69,15 @@ void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
   }
 }
 
-void begin_part(double time_step, double longer) {
+void begin_part(double time_step) {
   control[0].time_step = time_step;
-  contact_list[0].longer = longer;
+  contact_list[0].last_part = step_parts[0].last;
   empty_lists();
 }
 
 // Without a kick [m/s].
-dvec3 expected_velocity(uint i, double longer) {
-  return LOAD3(start, start_velocity_of(i)) + longer * LOAD3(surplus, expected_surplus_of(i));
+dvec3 expected_velocity(uint i, double time_step) {
+  return LOAD3(start, start_velocity_of(i)) + time_step * LOAD3(surplus, expected_surplus_of(i));
 }
 
 void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {
@@ -93,9 +93,8 @@ void expect_motion(uint i) {
   uint b = uint(rest_position[i].w);
   bool is_at_rest = is_idle(status[b]);
   double time_step = next_part(step_parts[0]);
-  double longer = step_parts[0].last > double(0) ? time_step / step_parts[0].last : double(1);
-  if (i == 0u) begin_part(time_step, longer);
-  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_at_rest ? dvec3(0) : expected_velocity(i, longer);
+  if (i == 0u) begin_part(time_step);
+  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_at_rest ? dvec3(0) : expected_velocity(i, time_step);
   dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.

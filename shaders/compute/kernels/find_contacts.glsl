@@ -167,7 +167,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   c.distance = dot(normal, weighed(f, p.place));
   c.velocity = dot(normal, velocity);
   c.surplus = dot(normal, surplus_now);
-  c.was = c.velocity - dot(normal, end_surplus);
+  c.was = c.velocity - real(contact_list[0].last_part) * dot(normal, end_surplus);
   c.was_cut = (last_cut[who.x] | last_cut[who.y] | last_cut[who.z] | last_cut[who.w]) != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(normal, -surplus_now - velocity);

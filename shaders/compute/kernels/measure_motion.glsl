@@ -33,6 +33,11 @@ void leave_island(uint b) {
   if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
 }
 
+void fit_step() {
+  step_parts[0].full = control[0].time_step;
+  step_parts[0].ahead = control[0].time_left;
+}
+
 // What sleeps is expected to stay.
 void forget_surplus(uint i) {
   STORE3(surplus, expected_surplus_of(i), dvec3(0))
@@ -46,7 +51,7 @@ void expect_rest(uint b) {
 }
 
 void measure_motion(uint i) {
-  if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
+  if (i == 0u && step_parts[0].divides == 0u) fit_step();
   uint b = uint(rest_position[i].w);
   if (i == body[b].first_vertex) leave_island(b);
   if (is_idle(status[b])) {
@@ -60,7 +65,7 @@ void measure_motion(uint i) {
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
   STORE3(start, unkicked_velocity_of(i), in_frame)
-  dvec3 mean = velocity + LOAD3(surplus, expected_surplus_of(i));
+  dvec3 mean = velocity + step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // the coming part's length is not known yet
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
     uint bits = ordered_bits(float(mean[int(k)]));

@@ -29,7 +29,7 @@ void meet_ground(uint i, uint g) {
   c.distance = real(dot(normal, LOAD3(start, start_position_of(i))) - ground[g].offset);
   c.velocity = real(dot(normal, velocity));
   c.surplus = real(dot(normal, surplus_now));
-  c.was = c.velocity - real(dot(normal, LOAD3(surplus, end_surplus_of(vertex_count, i))));
+  c.was = c.velocity - real(contact_list[0].last_part * dot(normal, LOAD3(surplus, end_surplus_of(vertex_count, i))));
   c.was_cut = last_cut[i] != 0u;
   if (!is_near(c, a)) return;
   real3 goal = across(real3(normal), real3(-surplus_now - velocity));

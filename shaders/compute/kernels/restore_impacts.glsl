@@ -59,9 +59,13 @@ dvec3 mean_velocity(uint b) {
 double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) / double(body[b].vertex_count) : double(0); }
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
 
-// Bodies that rest on each other swing by what gravity gives them in a step. If that were taken they would be pressed ever closer.
-double speed_of_rest() {
-  return double(2) * gravity_size * (step_parts[0].divides != 0u ? step_parts[0].full : control[0].time_step);
+// Bodies that rest on each other swing by what gravity gives them in a step of bodies in contact. If that were taken they would be
+// pressed ever closer.
+double speed_of_rest(uint a, uint b) {
+  double longest = step_parts[0].divides != 0u ? step_parts[0].full : control[0].time_step;
+  if (is_movable(a)) longest = min(longest, surface[a].longest_pressed);
+  if (is_movable(b)) longest = min(longest, surface[b].longest_pressed);
+  return double(2) * gravity_size * longest;
 }
 
 void judge_impact(uint a, uint b) {
@@ -82,7 +86,7 @@ void judge_impact(uint a, uint b) {
   double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));
   if (impact[at].approach == double(0)) impact[at].approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
   impact[at].approach = max(impact[at].approach, -parts_at);
-  impact[at].parts_too_fast = parts_at > max(restitution * impact[at].approach, speed_of_rest()) ? 1u : 0u;
+  impact[at].parts_too_fast = parts_at > max(restitution * impact[at].approach, speed_of_rest(a, b)) ? 1u : 0u;
 }
 
 void judge_impacts(uint a) {

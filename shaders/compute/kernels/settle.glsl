@@ -25,8 +25,6 @@ WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
-PARAMETER(double, share_of_end)
-PARAMETER(double, share_of_lead)
 PARAMETER(double, sleep_speed)  // [m/s] bodies sleep that have been so slow for long; 0: none does
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
@@ -90,12 +88,9 @@ void prepare_next_step(uint i, uint b) {
 }
 
 void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
+  if (!tells_of_surplus(control[0].time_step, contact_list[0].last_part)) return;
   dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
-  for (uint k = 0u; k < 3u; ++k) {
-    double longer = contact_list[0].longer;
-    Surplus before = in_longer_steps(kept_surplus(i, k), longer);
-    store_surplus(i, k, surplus_after(of_start[int(k)], of_end[int(k)], before, longer, share_of_end, share_of_lead));
-  }
+  for (uint k = 0u; k < 3u; ++k) store_surplus(i, k, surplus_next(i, k, of_start[int(k)], of_end[int(k)]));
 }
 
 void settle(uint i) {

@@ -75,7 +75,7 @@ ARRAY(contact_sum, uvec2, run, step, "[6 + body] sums in quanta, as 64 bits in t
 ARRAY(contact_total, double, run, carried, "[6 + body] the same of all steps so far [Ns], [J]; but of each body only what it owes for the latest step")
 ARRAY(start, double, vertex, step, "[vertex][9] where the vertex is at the step's start [m] and its velocity before the kick, in the world, then that velocity in the body's frame [m/s]")
 ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex is expected to have in the step, without a kick [m/s]")
-ARRAY(surplus, double, vertex, carried, "[3][vertex][3] mean velocity that is expected in the coming step less the velocity at its start, then the velocity at the last step's end less the mean velocity in it, then the lead (contact/surplus.glsl) [m/s]")
+ARRAY(surplus, double, vertex, carried, "[3][vertex][3] of the surplus over the step's length: what is expected in the coming step, then what the last step's end had, then the lead (contact/surplus.glsl) [m/s^2]")
 ARRAY(cage, vec4, vertex, step, "[vertex][4] lower, upper: where the vertex stays in the step, then the same of the way it is expected to go, and later of the way it went [m]")
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
 ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order: the third vertex of the triangle across each edge, or 0xffffffff; then bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")

@@ -29,6 +29,7 @@ const uint counter_count = 11u;
 
 struct Control {
   double time_step;        // of the step being made [s], 0 if the step is empty or was undone
+  double time_left;        // from its start to the target, if a tolerance governs steps [s]
   uint step;               // the step being made, from 1
   uint non_finite_step;    // 0: none so far
   uint non_finite_vertex;  // the first one, or no_vertex

@@ -18,7 +18,7 @@ struct Foresight {
   double share_of_end, share_of_lead;
 };
 /// For methods that move as springs do. Vertices that stick to a ground gain nothing in steps of up to 0.75 / omega, and up to
-/// 8e-5 a step at 0.8 / omega. With a larger share of the end columns settle sooner, and bodies gain more.
+/// 9e-5 a step at 0.8 / omega. With a larger share of the end columns settle sooner, and bodies gain more.
 constexpr Foresight foresight_of_most_methods = {0.6, 1};
 /// For Verlet's method. Leads are due to damping alone there. With a larger share of the end heaps rest later.
 constexpr Foresight foresight_with_forces_at_ends = {0.5, 0};

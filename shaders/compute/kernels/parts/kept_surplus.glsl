@@ -1,6 +1,8 @@
-// Where the surplus of a vertex is kept between steps, along axis k of the world. Kernels that use it have the same bits in quiet steps,
-// which all have one length.
+// What is known of a vertex's surplus between steps, along axis k of the world.
+#include "../../physics/contact/surplus.glsl"
 WRITE(surplus)
+PARAMETER(double, share_of_end)
+PARAMETER(double, share_of_lead)
 
 Surplus kept_surplus(uint i, uint k) {
   Surplus kept;
@@ -14,4 +16,9 @@ void store_surplus(uint i, uint k, IN(Surplus) known) {
   surplus[expected_surplus_of(i) + k] = known.expected;
   surplus[end_surplus_of(vertex_count, i) + k] = known.of_end;
   surplus[surplus_lead_of(vertex_count, i) + k] = known.lead;
+}
+
+// Returns what is known after a step with these surpluses of its start and of its end [m/s].
+Surplus surplus_next(uint i, uint k, double of_start, double of_end) {
+  return surplus_after(of_start, of_end, kept_surplus(i, k), control[0].time_step, share_of_end, share_of_lead);
 }

@@ -7,6 +7,7 @@ SHARED_BEGIN
 
 struct StepParts {
   double full;       // length of the scene's steps, or with a tolerance of the step as errors allow it [s]
+  double ahead;      // from the step's start to the target, if a tolerance governs steps [s]
   double last;       // length of the last part [s], 0 before the first one
   uint left;         // of the scene's step, in units of the smallest part
   uint longest;      // bound on the next part [s], as bits of a float
@@ -34,7 +35,8 @@ FN uint next_size(IN(StepParts) p) {
 // Returns the length of the next part, or of the next step if steps do not fall into parts [s].
 FN double next_part(IN(StepParts) p) {
   if (p.divides != 0u) return length_of(p, next_size(p));
-  return min(p.full, double(uintBitsToFloat(p.longest)));
+  double longest = double(uintBitsToFloat(p.longest));
+  return p.full > longest ? p.ahead / ceil(p.ahead / longest) : p.full;
 }
 
 // Counts a part that was made.

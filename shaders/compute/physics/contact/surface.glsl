@@ -11,7 +11,7 @@ struct Surface {
   double friction;
   double gap;              // that contacts keep, in edges
   double restitution;      // negative: none
-  double longest_pressed;  // step in which contacts do not pump energy into the body [s]
+  double longest_pressed;  // no part of a step is longer while contacts press the body [s]
   double frequency;        // the stiffest of the body's vibrations, omega [1/s], 0 if it is immovable
   double diameter;         // at rest, at most [m]
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
@@ -35,7 +35,7 @@ struct Ground {
 
 // Lists can be longer than they have room for.
 struct ContactList {
-  double longer;             // the step's length over that of the last one
+  double last_part;          // length of the last step or part [s], 0 before the first one
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them, and with grounds
   uint uncertified;          // pairs of triangles that were not proven to stay apart
