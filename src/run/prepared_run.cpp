@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/read_text.hpp"
 #include "dynamics/integrator.hpp"
+#include "dynamics/stability.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/start_check.hpp"
@@ -122,21 +123,22 @@ void warn_of_rounding(PreparedRun& run) {
 // Methods whose forces act at the ends of steps damp the kick of a contact before the vertex has moved. Internal damping then
 // spreads it over the body.
 void warn_of_damping(PreparedRun& run) {
-  if (!has_forces_at_ends(*run.plan.integrator) || run.plan.damping_law == DampingLaw::none) return;
+  if (!has_forces_at_ends(*run.plan.integrator) || run.plan.damping_law != DampingLaw::internal) return;
   const ModelBody* worst = nullptr;
-  double most = 1, rate_of_worst = 0;
+  double most = 1, largest_rate = 0;
   for (const ModelBody& body : run.start.model.bodies) {
     if (body.is_static) continue;
-    const double rate = body.damping / body.vertex_mass;
+    const double rate = largest_damping_rate(body, run.plan.damping_law);
     const double longest = surface_of(run.start.model, body, run.scene.collision).longest_pressed;
     const double exponent = rate * std::min(run.plan.time_step, longest);
-    if (exponent > most) worst = &body, most = exponent, rate_of_worst = rate;
+    if (exponent > 1) largest_rate = std::max(largest_rate, rate);
+    if (exponent > most) worst = &body, most = exponent;
   }
   if (worst != nullptr)
     run.warnings.push_back(fmt::format(
-        "damping takes all but {:.2g} % of a contact's kick on \"{}\" within a step by {}: where it rests on others it is "
+        "internal damping leaves {:.2g} of a contact's kick on \"{}\" after a step by {}: where it rests on others it is "
         "too little deformed, and may creep; give time_step = {:.2g}, or another integrator",
-        100 * std::exp(-most), worst->name, run.plan.integrator->name, 0.5 / rate_of_worst));
+        std::exp(-most), worst->name, run.plan.integrator->name, 0.5 / largest_rate));
 }
 
 void warn_of_near_starts(PreparedRun& run) {

@@ -206,13 +206,19 @@ TEST_CASE("damping that takes contacts' kicks within a step is told, with a step
     CHECK(result.exit_code == 0);
     return summary_in(folder.path)["warnings"].text();
   };
-  const std::string strong = " --set body.left.vertex_mass=1 --set body.left.damping=200 --integrator ";
-  CHECK_THAT(warnings("--time-step 0.01" + strong + "verlet"),
-             Catch::Contains("all but 14 % of a contact's kick on \\\"left\\\"") && Catch::Contains("time_step = 0.0025"));
-  CHECK(warnings("--time-step 0.0025" + strong + "verlet") == "[]");
-  CHECK(warnings("--time-step 0.01" + strong + "rk4") == "[]");
-  CHECK(warnings("--time-step 0.01" + strong + "verlet --set simulation.damping_law=none") == "[]");
-  CHECK(warnings("--time-step 0.01" + strong + "verlet --set collision.response=reflect") == "[]");
+  const std::string slow =
+                        "--set simulation.time_step=0.01 --set body.left.vertex_mass=1 --set body.left.damping=200 --integrator ",
+                    verlet = slow + "verlet --set simulation.damping_law=internal";
+  CHECK_THAT(warnings(verlet),
+             Catch::Contains("leaves 0.14 of a contact's kick on \\\"left\\\"") && Catch::Contains("time_step = 0.0025"));
+  // contact makes steps of the stiff one shorter, and its damping is quicker all the same
+  const std::string two = " --set body.left.stiffness=421 --set body.right.vertex_mass=1 --set body.right.damping=150";
+  CHECK_THAT(warnings(verlet + two), Catch::Contains("on \\\"right\\\"") && Catch::Contains("time_step = 0.0025"));
+  CHECK(warnings(verlet + two + " --set simulation.time_step=0.0025") == "[]");
+  CHECK(warnings(slow + "rk4 --set simulation.damping_law=internal") == "[]");
+  for (const char* other : {"none", "constant"}) CHECK(warnings(slow + "verlet --set simulation.damping_law=" + other) == "[]");
+  CHECK(warnings(verlet + " --set collision.response=reflect") == "[]");
+  CHECK(warnings(verlet + " --set body.left.stiffness=1000") == "[]");  // contact makes its steps short enough
 }
 
 TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
