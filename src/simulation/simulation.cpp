@@ -120,7 +120,7 @@ void Simulation::queue(std::uint64_t steps) {
   }
 }
 
-void Simulation::queue_unless(std::uint64_t steps, const std::function<bool()>& stops) {
+void Simulation::queue_in_batches(std::uint64_t steps, const std::function<bool()>& stops) {
   for (std::uint64_t left = steps; left > 0;) {
     const std::uint64_t queued = std::min(left, most_steps_at_once);
     queue(queued);
@@ -140,7 +140,7 @@ void Simulation::run(std::span<const Pass> passes) {
 
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
-  if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_unless(steps, stops);
+  if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_in_batches(steps, stops);
   const std::uint64_t target = whole_steps() + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
     if (make_quiet_steps(left) == 0) {

@@ -143,7 +143,7 @@ class Simulation {
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
   void queue(std::uint64_t steps);
-  void queue_unless(std::uint64_t steps, const std::function<bool()>& stops);
+  void queue_in_batches(std::uint64_t steps, const std::function<bool()>& stops);
   void run(std::span<const Pass> passes);
   [[nodiscard]] bool tries_quiet_steps() const { return quiet_ && quiet_->are_known(); }
   [[nodiscard]] std::uint64_t whole_steps();  // that stand, since the start

@@ -98,6 +98,7 @@ inline std::vector<double> numbers_of(const physics::Pace& pace) {
 
 inline std::vector<double> numbers_of(const physics::ContactList& list) {
   return {list.last_part,
+          list.growth_of_kick,
           double(list.triangle_pair_count),
           double(list.contact_count),
           double(list.uncertified),
@@ -139,7 +140,7 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
 inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.ahead, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
+  return {parts.full, parts.last, parts.second_last, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {

@@ -72,6 +72,7 @@ void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
 void begin_part(double time_step) {
   control[0].time_step = time_step;
   contact_list[0].last_part = step_parts[0].last;
+  contact_list[0].growth_of_kick = growth_of_kick(step_parts[0], time_step);
   empty_lists();
 }
 
@@ -92,7 +93,7 @@ void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {
 void expect_motion(uint i) {
   uint b = uint(rest_position[i].w);
   bool is_at_rest = is_idle(status[b]);
-  double time_step = next_part(step_parts[0]);
+  double time_step = next_part(step_parts[0], control[0].time_left);
   if (i == 0u) begin_part(time_step);
   dvec3 position = LOAD3(start, start_position_of(i)), mean = is_at_rest ? dvec3(0) : expected_velocity(i, time_step);
   dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;

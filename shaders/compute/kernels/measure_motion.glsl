@@ -33,11 +33,6 @@ void leave_island(uint b) {
   if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
 }
 
-void fit_step() {
-  step_parts[0].full = control[0].time_step;
-  step_parts[0].ahead = control[0].time_left;
-}
-
 // What sleeps is expected to stay.
 void forget_surplus(uint i) {
   STORE3(surplus, expected_surplus_of(i), dvec3(0))
@@ -51,7 +46,7 @@ void expect_rest(uint b) {
 }
 
 void measure_motion(uint i) {
-  if (i == 0u && step_parts[0].divides == 0u) fit_step();
+  if (i == 0u && step_parts[0].divides == 0u) step_parts[0].full = control[0].time_step;
   uint b = uint(rest_position[i].w);
   if (i == body[b].first_vertex) leave_island(b);
   if (is_idle(status[b])) {

@@ -63,7 +63,7 @@ void cut_short(uint i, uint b, double part, dvec3 gone) {
 
 void end_step_part(bool is_made) {
   StepParts p = step_parts[0];
-  if (is_made) end_part(p);
+  if (is_made) end_part(p, control[0].time_step);
   if (is_made && all_stay()) p.held += 1u;
   p.longest = no_bound;
   step_parts[0] = p;
@@ -90,7 +90,7 @@ void prepare_next_step(uint i, uint b) {
 void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   if (!tells_of_surplus(control[0].time_step, contact_list[0].last_part)) return;
   dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
-  for (uint k = 0u; k < 3u; ++k) store_surplus(i, k, surplus_next(i, k, of_start[int(k)], of_end[int(k)]));
+  for (uint k = 0u; k < 3u; ++k) store_surplus(i, k, kept_surplus_after(i, k, of_start[int(k)], of_end[int(k)]));
 }
 
 void settle(uint i) {

@@ -14,11 +14,11 @@ PARAMETER(uint, contact_capacity)
 PARAMETER(uint, contacts_at_once)
 #include "parts/kept_slots.glsl"
 
-// What the contact had, as in a step of this length, or nothing [Ns].
+// What the contact would have had before this step, or nothing [Ns].
 real4 kept_impulse_of(uvec4 key) {
   for (uint slot = first_slot_of(key); is_of_this_step(kept_slot[slot]); slot = slot_after(slot)) {
     uint c = index_of(kept_slot[slot]);
-    if (c < contact_list[0].latest_count && kept_vertex[c] == key) return real(control[0].time_step / contact_list[0].last_part) * kept_row[c];
+    if (c < contact_list[0].latest_count && kept_vertex[c] == key) return real(contact_list[0].growth_of_kick) * kept_row[c];
   }
   return real4(0);
 }

@@ -320,8 +320,8 @@ class Impulse final : public Response {
   void make_step_parts() {
     time_step_ = bodies_.control.download().front().time_step;
     parts_ = &bodies_.arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
-                                                                                 .ahead = 0,
                                                                                  .last = 0,
+                                                                                 .second_last = 0,
                                                                                  .left = physics::smallest_parts,
                                                                                  .longest = physics::no_bound,
                                                                                  .steps = 0,

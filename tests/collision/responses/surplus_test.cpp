@@ -108,7 +108,7 @@ TEST_CASE("a body that is held on a ground gains no energy from how its motion i
 
 TEST_CASE("a body that is held gains no energy from short steps in between, and little from many of them") {
   for (const double held_mass : held_masses)
-    for (const double shorter : {1e-6, 1e-3, 0.05, 0.1, 0.15, 0.2, 0.25, 0.4, 0.7, 0.9}) {
+    for (const double shorter : {1e-6, 0.9e-3, 1.1e-3, 0.05, 0.1, 0.15, 0.2, 0.25, 0.4, 0.7, 0.9}) {
       CAPTURE(held_mass, shorter);
       const double l = 0.75, s = shorter * l;
       CHECK(growth(springs, held_mass, {l, s}) < 1.01);
@@ -123,7 +123,7 @@ TEST_CASE("a body that is held gains no energy from short steps in between, and 
 
 TEST_CASE("a smooth motion is foreseen to the first order, whatever lengths steps have") {
   const std::vector<std::vector<double>> ways = {
-      {1}, {1, 0.5}, {1, 1, 1, 1e-6}, {1, 1, 1, 0.06, 0.06, 0.5, 0.5}, {1, 1e-3, 1e-3}};
+      {1}, {1, 0.5}, {1, 1, 1, 1e-6}, {1, 1, 1, 0.06, 0.06, 0.5, 0.5}, {1, 1.1e-3, 1.1e-3}};
   for (const Foresight& foresight : {foresight_of_most_methods, foresight_with_forces_at_ends})
     for (const auto& way : ways)
       for (const double longest : {0.01, 0.3}) {
@@ -152,6 +152,14 @@ TEST_CASE("where nothing changes the last step is expected to repeat, whatever d
       CHECK(known.expected == Approx(is_first ? 0.3 : 0.5).epsilon(1e-12));
     }
   }
+}
+
+TEST_CASE("a step of less than a thousandth of the last one's length changes nothing, and one more does") {
+  Surplus known{};
+  for (int k = 0; k < 3; ++k) known = after(known, 0.5, 0.3, 1, 1, foresight_of_most_methods);
+  const Surplus then = after(known, 9, 7, 0.9e-3, 1, foresight_of_most_methods);
+  CHECK(std::array{then.expected, then.of_end, then.lead} == std::array{known.expected, known.of_end, known.lead});
+  CHECK(after(then, 9, 7, 0.9e-3, 0.9e-3, foresight_of_most_methods).expected != known.expected);
 }
 
 }  // namespace

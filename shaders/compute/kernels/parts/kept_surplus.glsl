@@ -1,4 +1,4 @@
-// What is known of a vertex's surplus between steps, along axis k of the world.
+// What is known of a vertex's surplus between steps, along axis k of the world. Quiet steps have to give the same bits as others.
 #include "../../physics/contact/surplus.glsl"
 WRITE(surplus)
 PARAMETER(double, share_of_end)
@@ -18,7 +18,7 @@ void store_surplus(uint i, uint k, IN(Surplus) known) {
   surplus[surplus_lead_of(vertex_count, i) + k] = known.lead;
 }
 
-// Returns what is known after a step with these surpluses of its start and of its end [m/s].
-Surplus surplus_next(uint i, uint k, double of_start, double of_end) {
-  return surplus_after(of_start, of_end, kept_surplus(i, k), control[0].time_step, share_of_end, share_of_lead);
+// Returns what is known after a step with the surplus s, and e at its end [m/s].
+Surplus kept_surplus_after(uint i, uint k, double s, double e) {
+  return surplus_after(s, e, kept_surplus(i, k), control[0].time_step, share_of_end, share_of_lead);
 }

@@ -2,9 +2,9 @@
 #include "kept_surplus.glsl"
 
 // After this step, along axis k of the world.
-Surplus surplus_then(uint i, uint k, uint b) {
+Surplus surplus_after_step(uint i, uint k, uint b) {
   dvec3 mean = way_in_frame(i) / control[0].time_step;
-  return surplus_next(i, k, in_world(b, k, mean - velocity_in(before_step(i))), in_world(b, k, velocity_in(after_step(i)) - mean));
+  return kept_surplus_after(i, k, in_world(b, k, mean - velocity_in(before_step(i))), in_world(b, k, velocity_in(after_step(i)) - mean));
 }
 
 // A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
@@ -12,11 +12,11 @@ void look_at_vertex(uint i, uint k, uint b) {
   double along = in_world(b, k, way_in_frame(i)), room = double(bounds.room);
   double h = control[0].time_step;
   double expected = h * (in_world(b, k, velocity_in(before_step(i))) + h * kept_surplus(i, k).expected);
-  double speed = in_world(b, k, velocity_in(after_step(i))) + h * surplus_then(i, k, b).expected;
+  double speed = in_world(b, k, velocity_in(after_step(i))) + h * surplus_after_step(i, k, b).expected;
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
   if (!stays) atomicMin(quiet_steps[0].undone, step_index);
   if (!goes_on) atomicMin(quiet_steps[0].end, step_index + 1u);
 }
 
-void keep_surplus(uint i, uint k, uint b) { store_surplus(i, k, surplus_then(i, k, b)); }
+void keep_surplus(uint i, uint k, uint b) { store_surplus(i, k, surplus_after_step(i, k, b)); }

@@ -35,7 +35,8 @@ struct Ground {
 
 // Lists can be longer than they have room for.
 struct ContactList {
-  double last_part;          // length of the last step or part [s], 0 before the first one
+  double last_part;          // length of the last part [s], 0 before the first one
+  double growth_of_kick;     // how many times as large a kick at rest is as the last one
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them, and with grounds
   uint uncertified;          // pairs of triangles that were not proven to stay apart
