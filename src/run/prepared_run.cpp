@@ -137,7 +137,7 @@ void warn_of_damping(PreparedRun& run) {
   if (worst != nullptr)
     run.warnings.push_back(fmt::format(
         "internal damping leaves {:.2g} of a contact's kick on \"{}\" after a step by {}: where it rests on others it is "
-        "too little deformed, and may creep; give time_step = {:.2g}, or another integrator",
+        "too little deformed, and may creep; give time_step = {:.2g}",
         std::exp(-most), worst->name, run.plan.integrator->name, 0.5 / largest_rate));
 }
 

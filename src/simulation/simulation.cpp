@@ -86,7 +86,8 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       bodies_(device, model, start),
       stepper_(bodies_, model, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
-      collider_(bodies_, model, collision, {plan.tolerance.has_value(), has_forces_at_ends(*plan.integrator)}, {}, plan.sleep),
+      collider_(bodies_, model, collision, {plan.tolerance.has_value(), has_forces_at_ends(*plan.integrator), plan.damping_law},
+                {}, plan.sleep),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {
     pacer_.emplace(
