@@ -121,7 +121,7 @@ void warn_of_rounding(PreparedRun& run) {
 }
 
 // Methods whose forces act at the ends of steps damp the kick of a contact before the vertex has moved. Internal damping then
-// spreads it over the body.
+// spreads it over the body. The step that mends it has to suit the quickest damping of all bodies that are concerned.
 void warn_of_damping(PreparedRun& run) {
   if (!has_forces_at_ends(*run.plan.integrator) || run.plan.damping_law != DampingLaw::internal) return;
   const ModelBody* worst = nullptr;

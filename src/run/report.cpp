@@ -79,7 +79,8 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
 }
 
 std::string_view shorter_steps(const StepReport& report) {
-  return report.adaptive ? "a smaller tolerance or a time_step in its place" : "a shorter time step";
+  if (!report.adaptive) return "a shorter time step";
+  return report.contact_steps > 0 ? "a fixed time_step in place of the tolerance" : "a smaller tolerance";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step),
-        collider(bodies, start.model, collision, {false, has_forces_at_ends(find_integrator(method.integrator))}, 256,
+        collider(bodies, start.model, collision, {false, has_forces_at_ends(find_integrator(method.integrator)), method.law}, 256,
                  true),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
@@ -36,7 +36,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(bodies, start.model, collision, {true, has_forces_at_ends(find_integrator(method.integrator))}, 256),
+        collider(bodies, start.model, collision, {true, has_forces_at_ends(find_integrator(method.integrator)), method.law}, 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.run_all_stages(false);

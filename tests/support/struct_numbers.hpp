@@ -140,7 +140,7 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
 inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
-  return {parts.full, parts.last, parts.second_last, double(parts.left), double(parts.steps), double(parts.parts)};
+  return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};
 }
 
 inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {

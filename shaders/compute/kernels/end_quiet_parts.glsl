@@ -15,7 +15,6 @@ void end_quiet_parts(uint b) {
   if (b == 0u) {
     step_parts[0].parts += made;
     step_parts[0].steps += made;
-    if (made > 0u) step_parts[0].second_last = step_parts[0].last;
   }
   for (uint k = 0u; k < 3u; ++k) {
     body_motion[b].lower[k] = 0xffffffffu;

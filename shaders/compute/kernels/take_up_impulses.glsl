@@ -14,7 +14,7 @@ PARAMETER(uint, contact_capacity)
 PARAMETER(uint, contacts_at_once)
 #include "parts/kept_slots.glsl"
 
-// What the contact would have had before this step, or nothing [Ns].
+// The last impulse of the contact, scaled to this step's length, or nothing [Ns].
 real4 kept_impulse_of(uvec4 key) {
   for (uint slot = first_slot_of(key); is_of_this_step(kept_slot[slot]); slot = slot_after(slot)) {
     uint c = index_of(kept_slot[slot]);

@@ -154,11 +154,43 @@ TEST_CASE("a ball on the ground gains no energy where damping bounds steps") {
       double gained = 0;
       for (double before = energy(); simulation.report().time < 2;) {
         simulation.advance(10);
+        REQUIRE_FALSE(simulation.report().breakdown);
         gained += std::max(energy() - before, 0.0);
         before = energy();
       }
       CHECK(gained < 1e-4);  // [J]. Without a bound of contact some of them blew up
     }
+}
+
+TEST_CASE("a strongly damped cube gains no energy on the ground in steps of a tolerance") {
+  BodySetup cube = resting("cube:2", "cube");
+  cube.description.position = {0, 0.56, 0};
+  cube.description.rotation = {0, 0, 0};
+  cube.description.damping = 1260.0 / 26;  // 40 omega
+  const glm::dvec3 gravity(0, -9.81, 0);
+  const GroundDescription ground;
+  const ModelAndState start = build_model({&cube, 1}, gravity, {&ground, 1});
+  for (const double tolerance : {0.1, 1e-3}) {
+    CAPTURE(tolerance);
+    const auto device = make_cpu_device(1, 64);
+    const TimePlan plan =
+        plan_of(Adaptive{.integrator = "dop853", .tolerance = tolerance, .law = DampingLaw::internal}, start.model);
+    Simulation simulation(*device, start.model, start.state, plan, without_bounce);
+    ThreadPool pool(1);
+    const auto energy = [&] { return measure(start.model, simulation.state(), gravity, pool).energy(); };
+    REQUIRE_FALSE(simulation.advance_to(2).breakdown);
+    double longest = 0, gained = 0, before = energy();
+    for (double time = 2; time < 3;) {
+      const double next = simulation.advance_toward(3, 1).time;
+      REQUIRE(next > time);
+      longest = std::max(longest, next - time);
+      time = next;
+      gained += std::max(energy() - before, 0.0);
+      before = energy();
+    }
+    CHECK(longest < 2.001 / 1260);
+    CHECK(gained < 1e-4);  // [J]
+  }
 }
 
 TEST_CASE("a stiff cube comes to rest in steps near their bound") {

@@ -8,7 +8,6 @@ SHARED_BEGIN
 struct StepParts {
   double full;       // length of the scene's steps, or with a tolerance of the step as errors allow it [s]
   double last;       // length of the last part [s], 0 before the first one
-  double second_last;
   uint left;         // of the scene's step, in units of the smallest part
   uint longest;      // bound on the next part [s], as bits of a float
   uint steps;        // complete ones
@@ -37,18 +36,17 @@ FN uint next_size(IN(StepParts) p) {
 FN double next_part(IN(StepParts) p, double ahead) {
   if (p.divides != 0u) return length_of(p, next_size(p));
   double longest = double(uintBitsToFloat(p.longest));
-  return p.full > longest ? ahead / ceil(ahead / longest) : p.full;
+  return p.full > longest ? ahead / ceil(ahead / longest - double(1e-9)) : p.full;
 }
 
-// What a kick has to change velocities by goes with the mean length of the two parts around it. Returns how many times as large that
-// makes the kick before a part of the length `next` as the last one. More than 16 would be of no use as a start.
+// Returns by how much kept impulses are scaled before a part of the length `next`: with the lengths of parts, but 16-fold at most. At rest a
+// kick goes with the mean length of the parts around it. Scaled with that, a jam of three bodies more than doubled its energy.
 FN double growth_of_kick(IN(StepParts) p, double next) {
-  return p.last > double(0) ? min((p.last + next) / (p.second_last + p.last), double(16)) : double(1);
+  return p.last > double(0) ? min(next / p.last, double(16)) : double(1);
 }
 
 // Counts a part that was made and had this length.
 FN void end_part(INOUT(StepParts) p, double made) {
-  p.second_last = p.last;
   p.last = made;
   p.parts += 1u;
   p.left -= p.divides != 0u ? next_size(p) : p.left;
