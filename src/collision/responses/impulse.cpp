@@ -325,14 +325,7 @@ class Impulse final : public Response {
 
   void make_step_parts() {
     time_step_ = bodies_.control.download().front().time_step;
-    parts_ = &bodies_.arrays.make("step_parts", std::vector<physics::StepParts>{{.full = time_step_,
-                                                                                 .last = 0,
-                                                                                 .left = physics::smallest_parts,
-                                                                                 .longest = physics::no_bound,
-                                                                                 .steps = 0,
-                                                                                 .parts = 0,
-                                                                                 .held = 0,
-                                                                                 .divides = divides_steps_ ? 1u : 0u}});
+    parts_ = &bodies_.arrays.make("step_parts", std::vector{physics::before_first_part(time_step_, divides_steps_)});
     if (divides_steps_) bodies_.arrays.set_parameter("parts_of", time_step_);
   }
 

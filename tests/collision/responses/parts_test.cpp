@@ -9,19 +9,8 @@ namespace {
 
 using physics::StepParts;
 
-StepParts in_steps_of(double full, bool divides) {
-  return {.full = full,
-          .last = 0,
-          .left = physics::smallest_parts,
-          .longest = physics::no_bound,
-          .steps = 0,
-          .parts = 0,
-          .held = 0,
-          .divides = divides ? 1u : 0u};
-}
-
 TEST_CASE("kept impulses are scaled with the lengths of parts, within bounds") {
-  StepParts parts = in_steps_of(1, true);
+  StepParts parts = physics::before_first_part(1, true);
   CHECK(physics::growth_of_kick(parts, 1) == 1);  // there was no part
   physics::end_part(parts, 1);
   CHECK(physics::growth_of_kick(parts, 0.5) == 0.5);
@@ -32,7 +21,7 @@ TEST_CASE("kept impulses are scaled with the lengths of parts, within bounds") {
 TEST_CASE("steps that contact shortens are equal up to the target, and need no more than they must") {
   for (const double bound : {1.0, 0.999, 0.76, 0.5, 0.3, 1.0 / 3, 0.0101}) {
     CAPTURE(bound);
-    StepParts parts = in_steps_of(1, false);
+    StepParts parts = physics::before_first_part(1, false);
     parts.longest = std::bit_cast<std::uint32_t>(static_cast<float>(bound));
     const double first = physics::next_part(parts, 1);
     int steps = 0;

@@ -21,6 +21,18 @@ const uint smallest_parts = 4096u;
 
 const uint no_bound = 0x7f800000u;  // bits of infinity
 
+// Before the first step. `full` is the length of the scene's steps [s].
+FN StepParts before_first_part(double full, bool divides) {
+  StepParts p;
+  p.full = full;
+  p.last = double(0);
+  p.left = smallest_parts;
+  p.longest = no_bound;
+  p.steps = p.parts = p.held = 0u;
+  p.divides = divides ? 1u : 0u;
+  return p;
+}
+
 FN double length_of(IN(StepParts) p, uint size) { return p.full * (double(size) / double(smallest_parts)); }
 
 // Returns the size of the next part, in units of the smallest one. It is a power of two.
