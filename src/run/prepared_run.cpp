@@ -120,27 +120,6 @@ void warn_of_rounding(PreparedRun& run) {
     run.warnings.push_back(std::move(told));
 }
 
-// Methods whose forces act at the ends of steps damp the kick of a contact before the vertex has moved. Internal damping then
-// spreads it over the body. The step that mends it has to suit the quickest damping of all bodies that are concerned.
-void warn_of_damping(PreparedRun& run) {
-  if (!has_forces_at_ends(*run.plan.integrator) || run.plan.damping_law != DampingLaw::internal) return;
-  const ModelBody* worst = nullptr;
-  double most = 1, largest_rate = 0;
-  for (const ModelBody& body : run.start.model.bodies) {
-    if (body.is_static) continue;
-    const double rate = largest_damping_rate(body, run.plan.damping_law);
-    const double longest = surface_of(run.start.model, body, run.scene.collision).longest_pressed;
-    const double exponent = rate * std::min(run.plan.time_step, longest);
-    if (exponent > 1) largest_rate = std::max(largest_rate, rate);
-    if (exponent > most) worst = &body, most = exponent;
-  }
-  if (worst != nullptr)
-    run.warnings.push_back(fmt::format(
-        "internal damping leaves {:.2g} of a contact's kick on \"{}\" after a step by {}: where it rests on others it is "
-        "too little deformed, and may creep; give time_step = {:.2g}",
-        std::exp(-most), worst->name, run.plan.integrator->name, 0.5 / largest_rate));
-}
-
 void warn_of_near_starts(PreparedRun& run) {
   for (std::string& told : told_near_starts(run.start.model, run.start.state, run.scene.collision))
     run.warnings.push_back(std::move(told));
@@ -157,7 +136,6 @@ void check_start(PreparedRun& run) {
     warn_of_near_starts(run);
     warn_of_masses(run);
     warn_of_rounding(run);
-    warn_of_damping(run);
   } else {
     warn_of_overlap(run);
   }

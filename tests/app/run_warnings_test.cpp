@@ -200,22 +200,6 @@ TEST_CASE("masses and edges that contact by impulses can't resolve are named in 
   for (const std::string& options : {masses, edges}) CHECK(warnings(options + reflect) == "[]");
 }
 
-TEST_CASE("damping that takes contacts' kicks within a step is told, with a step that mends it") {
-  const std::string slow =
-                        "--set simulation.time_step=0.01 --set body.left.vertex_mass=1 --set body.left.damping=200 --integrator ",
-                    verlet = slow + "verlet --set simulation.damping_law=internal";
-  CHECK_THAT(warnings(verlet),
-             Catch::Contains("leaves 0.14 of a contact's kick on \\\"left\\\"") && Catch::Contains("time_step = 0.0025"));
-  // contact makes steps of the stiff one shorter, and its damping is quicker all the same
-  const std::string two = " --set body.left.stiffness=421 --set body.right.vertex_mass=1 --set body.right.damping=150";
-  CHECK_THAT(warnings(verlet + two), Catch::Contains("on \\\"right\\\"") && Catch::Contains("time_step = 0.0025"));
-  CHECK(warnings(verlet + two + " --set simulation.time_step=0.0025") == "[]");
-  CHECK(warnings(slow + "rk4 --set simulation.damping_law=internal") == "[]");
-  for (const char* other : {"none", "constant"}) CHECK(warnings(slow + "verlet --set simulation.damping_law=" + other) == "[]");
-  CHECK(warnings(verlet + " --set collision.response=reflect") == "[]");
-  CHECK(warnings(verlet + " --set body.left.stiffness=1000") == "[]");  // contact makes its steps short enough
-}
-
 TEST_CASE("steps of fast bodies fall into parts, and no time is lost") {
   const ScratchFolder folder;
   const ProgramResult result = run_program(

@@ -26,10 +26,6 @@ constexpr std::uint32_t contact_capacity = 1u << physics::kept_index_bits;
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
 constexpr std::uint32_t kept_slot_count =
     4 * contact_capacity;  // entries of a step that had the same number may still stand there
-// Steps of bodies that contacts press are at most this over the rate of damping, where damping is not exact. Kicks and what
-// damping takes of them pump each other up near the bound on steps: with 2 by rk4, 2.6 by cv8 and 3.5 by dop853 bodies rested,
-// and with 2.6, 3.3 and 5 they trembled or blew up.
-constexpr double longest_step_rate = 2;
 // A body may sleep that moves by less than so many diameters of the smallest one a second.
 constexpr double sleep_diameters = 0.05;
 
@@ -49,12 +45,18 @@ void find_nearness(std::span<physics::Surface> surfaces) {
       surface.nearness = 1.5 * surface.edge * std::max(0.5 * surface.gap, std::sqrt(surface.gap * largest_static_gap));
 }
 
+// Of a step while contacts press the body [s]. Forces act within a step, and damping takes of its kick. Where omega and half the
+// rate of damping are together longer than this allows, piles jam (docs/contact.md).
+double longest_pressed(const ModelBody& body, DampingLaw law) {
+  const double rate = stiffest_frequency(body) + largest_damping_rate(body, law) / 2;
+  return body.is_static ? 1e30 : physics::longest_step_omega / std::max(rate, 1e-30);
+}
+
 std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
   std::vector<physics::Surface> surfaces;
   for (const ModelBody& body : setting.model.bodies) {
     physics::Surface& surface = surfaces.emplace_back(surface_of(setting.model, body, setting.description));
-    const double rate = setting.steps.have_forces_at_ends ? 0 : largest_damping_rate(body, setting.steps.damping_law);
-    if (!body.is_static) surface.longest_pressed = std::min(surface.longest_pressed, longest_step_rate / std::max(rate, 1e-30));
+    surface.longest_pressed = longest_pressed(body, setting.steps.damping_law);
   }
   find_nearness(surfaces);
   return surfaces;
@@ -478,7 +480,7 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
           .restitution = restitution_of(body, description).value_or(-1),
-          .longest_pressed = body.is_static ? 1e30 : physics::longest_step_omega / std::max(stiffest_frequency(body), 1e-30),
+          .longest_pressed = 0,
           .frequency = body.is_static ? 0 : stiffest_frequency(body),
           .diameter = 2 * body.radius,
           .nearness = 0};

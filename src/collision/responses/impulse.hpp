@@ -7,8 +7,8 @@
 
 namespace pliant {
 
-/// Returns what contacts know of a body, but for its nearness, which takes all bodies, and for the bound that damping sets to
-/// steps.
+/// Returns what contacts know of a body, but for its bound on steps, which takes the law of damping, and its nearness, which takes
+/// all bodies. Both are 0.
 [[nodiscard]] physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description);
 /// Returns what they know of a ground.
 [[nodiscard]] physics::Ground ground_of(const Ground& ground, const CollisionDescription& description);

@@ -4,8 +4,8 @@
 #include "../language.glsl"
 SHARED_BEGIN
 
-// Steps of bodies that contacts press are at most this over the stiffest frequency. With 1 slow impacts made up to 2 % of the energy, with
-// 0.9 none did (docs/contact.md).
+// Steps of bodies that contacts press are at most this over the stiffest frequency and half the rate of damping. Without damping slow
+// impacts made up to 2 % of the energy with 1, and none with 0.9 (docs/contact.md).
 const double longest_step_omega = double(0.8);
 
 struct Surface {
