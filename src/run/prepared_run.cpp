@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <system_error>
 
-#include "collision/responses/impulse.hpp"
 #include "collision/responses/response.hpp"
 #include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/read_text.hpp"
-#include "dynamics/integrator.hpp"
-#include "dynamics/stability.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/start_check.hpp"

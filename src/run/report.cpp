@@ -78,9 +78,17 @@ void show_timings(const std::map<std::string_view, double>& pass_seconds, std::u
   fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(steps));
 }
 
-std::string_view shorter_steps(const StepReport& report) {
-  if (!report.adaptive) return "a shorter time step";
-  return report.contact_steps > 0 ? "a fixed time_step in place of the tolerance" : "a smaller tolerance";
+bool meets_by_impulses(const Simulation& simulation) { return simulation.collider().response_row().gives_impulses; }
+
+// Where contacts by impulses make the trouble. Their bounds rule steps then, not errors.
+std::string_view shorter_steps_in_contact(const StepReport& report) {
+  return report.adaptive ? "a fixed time_step in place of the tolerance" : "a shorter time step";
+}
+
+std::string_view shorter_steps(const RunStatus& status) {
+  if (meets_by_impulses(*status.run.simulation) && status.report.contact_steps > 0)
+    return shorter_steps_in_contact(status.report);
+  return status.report.adaptive ? "a smaller tolerance" : "a shorter time step";
 }
 
 }  // namespace
@@ -105,12 +113,12 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   const Model& model = run.start.model;
   if (has_blown_up(status))
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
-                       shorter_steps(report));
+                       shorter_steps(status));
   if (progress.largest_growth >= told_growth)
     return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                                 : "the motion is unstable, or the steps are too long for the method",
-                       shorter_steps(report));
+                       shorter_steps(status));
   return {};
 }
 
@@ -124,12 +132,10 @@ std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint
     told.push_back(
         fmt::format("motions of vertices were cut short {} times, because they could not be proven to meet nothing: the bodies "
                     "move too far in a step, or are pressed too hard; try a larger gap, stiffer bodies or {}{}",
-                    report.reverted_vertices, shorter_steps(report),
+                    report.reverted_vertices, shorter_steps_in_contact(report),
                     precision == 32 ? ", or --precision 64, whose proofs fail more rarely" : ""));
   return told;
 }
-
-bool meets_by_impulses(const Simulation& simulation) { return simulation.collider().response_row().gives_impulses; }
 
 // Where bodies must stay apart, the count is by positions in fp64. The device's would have pairs that are nearer than fp32 tells.
 std::uint64_t intersecting_pairs(const PreparedRun& run) {

@@ -86,7 +86,10 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
       bodies_(device, model, start),
       stepper_(bodies_, model, *plan.integrator, plan.damping_law, plan.time_step,
                plan.tolerance ? Stages::of_estimates : Stages::of_result),
-      collider_(bodies_, model, collision, {plan.tolerance.has_value(), has_forces_at_ends(*plan.integrator), plan.damping_law},
+      collider_(bodies_, model, collision,
+                {.vary_in_length = plan.tolerance.has_value(),
+                 .have_forces_at_ends = has_forces_at_ends(*plan.integrator),
+                 .damping_law = plan.damping_law},
                 {}, plan.sleep),
       fixed_step_(plan.time_step) {
   if (plan.tolerance) {
@@ -122,11 +125,12 @@ void Simulation::queue(std::uint64_t steps) {
 }
 
 void Simulation::queue_in_batches(std::uint64_t steps, const std::function<bool()>& stops) {
+  if (!stops) return queue(steps);
   for (std::uint64_t left = steps; left > 0;) {
     const std::uint64_t queued = std::min(left, most_steps_at_once);
     queue(queued);
     left -= queued;
-    if (left == 0 || !stops) continue;
+    if (left == 0) return;
     device_.finish();  // otherwise a GPU may not have begun when `stops` is asked
     if (stops()) return;
   }
@@ -154,7 +158,7 @@ void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops
 }
 
 std::uint64_t Simulation::whole_steps() {
-  const std::uint64_t made = control().step - 1;  // steps or parts. It reads the parts ahead, too
+  const std::uint64_t made = control().step - 1;  // steps or parts. control() has read the parts ahead, too
   return parts() != nullptr ? parts()->download().front().steps : made;
 }
 
@@ -229,6 +233,7 @@ void Simulation::add_pace(StepReport& report) {
 
 StepReport Simulation::report() {
   device_.read_ahead(bodies_.arrays.made_buffers(reported));
+  // not control(), which would read ahead anew
   const Control& control = known_control_.emplace(bodies_.control.download().front());
   StepReport report;
   report.steps = control.step - 1;

@@ -37,5 +37,13 @@ TEST_CASE("only who has doubles left to take is told to take them for motions th
   CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), !Catch::Contains("--precision"));
 }
 
+TEST_CASE("a shorter time step is no remedy for motions cut short where a tolerance makes steps, and a fixed one is") {
+  StepReport report;
+  report.reverted_vertices = 100;
+  CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), Catch::Contains("or a shorter time step"));
+  report.adaptive.emplace();
+  CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), Catch::Contains("or a fixed time_step in place of the tolerance"));
+}
+
 }  // namespace
 }  // namespace pliant

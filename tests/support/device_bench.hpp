@@ -17,14 +17,19 @@
 
 namespace pliant {
 
+inline StepTraits traits_of(const Method& method, bool vary_in_length) {
+  return {.vary_in_length = vary_in_length,
+          .have_forces_at_ends = has_forces_at_ends(find_integrator(method.integrator)),
+          .damping_law = method.law};
+}
+
 /// A whole simulation's passes on one device, with its objects kept alive.
 struct Bench {
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step),
-        collider(bodies, start.model, collision, {false, has_forces_at_ends(find_integrator(method.integrator)), method.law}, 256,
-                 true),  // every device cuts its searches alike
+        collider(bodies, start.model, collision, traits_of(method, false), 256, true),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.run_all_stages(false);  // every device runs stages one by one
@@ -36,7 +41,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(bodies, start.model, collision, {true, has_forces_at_ends(find_integrator(method.integrator)), method.law}, 256),
+        collider(bodies, start.model, collision, traits_of(method, true), 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.run_all_stages(false);

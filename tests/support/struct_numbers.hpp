@@ -98,7 +98,6 @@ inline std::vector<double> numbers_of(const physics::Pace& pace) {
 
 inline std::vector<double> numbers_of(const physics::ContactList& list) {
   return {list.last_part,
-          list.growth_of_kick,
           double(list.triangle_pair_count),
           double(list.contact_count),
           double(list.uncertified),

@@ -72,7 +72,6 @@ void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
 void begin_part(double time_step) {
   control[0].time_step = time_step;
   contact_list[0].last_part = step_parts[0].last;
-  contact_list[0].growth_of_kick = growth_of_kick(step_parts[0], time_step);
   empty_lists();
 }
 

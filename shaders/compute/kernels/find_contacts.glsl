@@ -161,7 +161,7 @@ void add_contact(IN(Pair) p, IN(Feature) f, IN(real3) normal) {
   Approach a;
   a.gap = p.gap;
   a.time_step = real(control[0].time_step);
-  a.slowest = real(longest_step_omega / max(max(first.frequency, second.frequency), double(1e-30)));
+  a.slowest = real(fastest_return(max(first.frequency, second.frequency)));
   a.elasticity = real(mean_of_pair(first.elasticity, second.elasticity));
   Course c;
   c.distance = dot(normal, weighed(f, p.place));

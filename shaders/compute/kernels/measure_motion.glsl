@@ -60,7 +60,7 @@ void measure_motion(uint i) {
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
   STORE3(start, unkicked_velocity_of(i), in_frame)
-  dvec3 mean = velocity + step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // the coming part's length is not known yet
+  dvec3 mean = velocity + step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // limit_step has yet to find this one's length
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
     uint bits = ordered_bits(float(mean[int(k)]));

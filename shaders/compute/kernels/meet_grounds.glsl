@@ -23,7 +23,7 @@ void meet_ground(uint i, uint g) {
   Approach a;
   a.gap = real(gap_above(ground[g], s));
   a.time_step = real(control[0].time_step);
-  a.slowest = real(longest_step_omega / max(s.frequency, double(1e-30)));
+  a.slowest = real(fastest_return(s.frequency));
   a.elasticity = real(mean_of_pair(s.elasticity, ground[g].elasticity));
   Course c;
   c.distance = real(dot(normal, LOAD3(start, start_position_of(i))) - ground[g].offset);

@@ -59,8 +59,9 @@ dvec3 mean_velocity(uint b) {
 double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) / double(body[b].vertex_count) : double(0); }
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
 
-// Bodies that rest on each other swing by what gravity gives them in a step: this one or the last, whichever is longer, but no longer than
-// contact allows. If they lost that they would be pressed ever closer.
+// Bodies that rest on each other swing by what gravity gives them in a step. With a fixed length that is the scene's step. With a tolerance
+// it is this step, or the last one if that was longer. The bound of contact limits both. If bodies lost that swing, they would be pressed
+// ever closer.
 double speed_of_rest(uint a, uint b) {
   double longest = step_parts[0].divides != 0u ? step_parts[0].full : max(control[0].time_step, step_parts[0].last);
   if (is_movable(a)) longest = min(longest, surface[a].longest_pressed);

@@ -2,6 +2,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/contact/contact.glsl"
+#include "../physics/contact/parts.glsl"
 READ(control)
 READ(contact_list)
 READ(contact_vertex)
@@ -16,9 +17,10 @@ PARAMETER(uint, contacts_at_once)
 
 // The last impulse of the contact, scaled to this step's length, or nothing [Ns].
 real4 kept_impulse_of(uvec4 key) {
+  real growth = real(growth_of_kick(contact_list[0].last_part, control[0].time_step));
   for (uint slot = first_slot_of(key); is_of_this_step(kept_slot[slot]); slot = slot_after(slot)) {
     uint c = index_of(kept_slot[slot]);
-    if (c < contact_list[0].latest_count && kept_vertex[c] == key) return real(contact_list[0].growth_of_kick) * kept_row[c];
+    if (c < contact_list[0].latest_count && kept_vertex[c] == key) return growth * kept_row[c];
   }
   return real4(0);
 }

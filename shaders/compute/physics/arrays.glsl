@@ -67,7 +67,7 @@ ARRAY(mark, uint, vertex, carried, "latest step in which it touched another body
 // contacts by impulses
 ARRAY(surface, Surface, body, fixed, "what contacts know of the body")
 ARRAY(step_parts, StepParts, run, carried, "how the scene's steps fall into parts")
-ARRAY(body_motion, BoxBits, body, step, "of the expected velocities of its vertices, as bits that order as floats do; empty between steps")
+ARRAY(body_motion, BoxBits, body, step, "of the velocities that its vertices are expected to have in a part as long as the last one, as bits that order as floats do; empty between steps")
 ARRAY(room, Room, body, step, "how much further than expected its vertices may go; without bounds and pushes between steps")
 ARRAY(pressed, uint, body, carried, "number of the latest part of a step in which a contact gave it an impulse, 0: none")
 ARRAY(ground, Ground, ground, fixed, "half-spaces that bodies stay out of; one that nothing reaches where there are none")

@@ -21,6 +21,7 @@
 namespace pliant {
 namespace {
 
+constexpr double unbounded = 1e30;  // [s]
 constexpr std::uint64_t most_triangle_pairs = 1u << 22;
 constexpr std::uint32_t contact_capacity = 1u << physics::kept_index_bits;
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
@@ -45,11 +46,11 @@ void find_nearness(std::span<physics::Surface> surfaces) {
       surface.nearness = 1.5 * surface.edge * std::max(0.5 * surface.gap, std::sqrt(surface.gap * largest_static_gap));
 }
 
-// Of a step while contacts press the body [s]. Forces act within a step, and damping takes of its kick. Where omega and half the
-// rate of damping are together longer than this allows, piles jam (docs/contact.md).
+// Returns the longest step while contacts press the body [s]. Damping takes a part of a kick within the step, which the next step
+// does not foresee. In longer steps piles of damped bodies jam (docs/contact.md).
 double longest_pressed(const ModelBody& body, DampingLaw law) {
   const double rate = stiffest_frequency(body) + largest_damping_rate(body, law) / 2;
-  return body.is_static ? 1e30 : physics::longest_step_omega / std::max(rate, 1e-30);
+  return body.is_static ? unbounded : physics::longest_pressed_rate / std::max(rate, 1e-30);
 }
 
 std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
@@ -480,7 +481,7 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
           .restitution = restitution_of(body, description).value_or(-1),
-          .longest_pressed = 0,
+          .longest_pressed = unbounded,
           .frequency = body.is_static ? 0 : stiffest_frequency(body),
           .diameter = 2 * body.radius,
           .nearness = 0};

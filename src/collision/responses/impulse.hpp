@@ -7,19 +7,20 @@
 
 namespace pliant {
 
-/// Returns what contacts know of a body, but for its bound on steps, which takes the law of damping, and its nearness, which takes
-/// all bodies. Both are 0.
+/// Returns what contacts know of a body. Its steps have no bound yet, which takes the law of damping, and its nearness is 0,
+/// which takes all bodies.
 [[nodiscard]] physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description);
 /// Returns what they know of a ground.
 [[nodiscard]] physics::Ground ground_of(const Ground& ground, const CollisionDescription& description);
 
-/// How a step's surplus is foreseen (physics/contact/surplus.glsl): how much counts of what its end's surplus and its lead have
-/// changed by.
+/// The two shares of the formula for S in docs/contact.md.
 struct Foresight {
-  double share_of_end, share_of_lead;
+  double share_of_end;   // p: how much of the change of the end's surplus counts
+  double share_of_lead;  // q: how much of the change of the lead counts
 };
-/// For methods that move as springs do. Vertices that stick to a ground gain nothing in steps of up to 0.75 / omega, and up to
-/// 9e-5 a step at 0.8 / omega. With a larger share of the end columns settle sooner, and bodies gain more.
+/// For methods that move as springs do. Bodies of which a part sticks to a ground gain nothing in steps of up to 0.75 / omega,
+/// and up to 9e-5 of their amplitude a step at 0.8 / omega. With a larger share of the end columns settle sooner, and bodies gain
+/// more.
 constexpr Foresight foresight_of_most_methods = {0.6, 1};
 /// For Verlet's method. Leads are due to damping alone there. With a larger share of the end heaps rest later.
 constexpr Foresight foresight_with_forces_at_ends = {0.5, 0};

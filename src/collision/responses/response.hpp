@@ -63,8 +63,8 @@ class Response {
 /// What a response knows of the method that makes steps.
 struct StepTraits {
   bool vary_in_length = false;       // as a tolerance demands
-  bool have_forces_at_ends = false;  // forces act at the ends of a step alone, and damping is exact
-  DampingLaw damping_law = DampingLaw::none;
+  bool have_forces_at_ends = false;  // forces act at the ends of a step alone
+  DampingLaw damping_law = DampingLaw::none;  // its rate bounds steps of bodies in contact
 };
 
 constexpr std::uint32_t most_compared_bodies = 1024;  // each with each other, before quiet steps

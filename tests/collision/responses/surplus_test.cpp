@@ -84,12 +84,12 @@ double growth(const Foreseen& how, double held_mass, const std::vector<double>& 
   return last / first;
 }
 
-// A part so large is gained in a step at most.
+// Returns the growth over all these steps if each adds this part.
 double in_all_steps(double a_step) { return std::exp(19900 * a_step); }
 
 constexpr std::array held_masses = {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.96, 0.98};
 
-TEST_CASE("a body that is held on a ground gains no energy from how its motion is expected") {
+TEST_CASE("the swing of a held body does not grow in steps of up to 0.75 / omega, and by 1e-4 a step at most at 0.8") {
   for (const double held_mass : held_masses) {
     for (const double length : {0.1, 0.3, 0.5, 0.7, 0.75}) {
       CAPTURE(held_mass, length);
@@ -106,7 +106,7 @@ TEST_CASE("a body that is held on a ground gains no energy from how its motion i
   CHECK(growth({moved_by_verlet, {1.5, 0}}, 0.5, {0.5}) > in_all_steps(1e-3));
 }
 
-TEST_CASE("a body that is held gains no energy from short steps in between, and little from many of them") {
+TEST_CASE("one short step among long ones makes no swing grow, and two in a row by 0.25 % a step at most") {
   for (const double held_mass : held_masses)
     for (const double shorter : {1e-6, 0.9e-3, 1.1e-3, 0.05, 0.1, 0.15, 0.2, 0.25, 0.4, 0.7, 0.9}) {
       CAPTURE(held_mass, shorter);

@@ -18,7 +18,7 @@ void store_surplus(uint i, uint k, IN(Surplus) known) {
   surplus[surplus_lead_of(vertex_count, i) + k] = known.lead;
 }
 
-// Returns what is known after a step with the surplus s, and e at its end [m/s].
-Surplus kept_surplus_after(uint i, uint k, double s, double e) {
-  return surplus_after(s, e, kept_surplus(i, k), control[0].time_step, share_of_end, share_of_lead);
+// Returns what is known after a step in which velocities grew so from its start to its mean, and from that to its end [m/s].
+Surplus kept_surplus_after(uint i, uint k, double gained_at_start, double gained_at_end) {
+  return surplus_after(gained_at_start, gained_at_end, kept_surplus(i, k), control[0].time_step, share_of_end, share_of_lead);
 }

@@ -22,7 +22,7 @@ REAL_BEGIN
 struct Approach {
   real gap;        // that contacts keep
   real time_step;
-  real slowest;    // lost gap comes back no faster than in steps of this length, 0.8 / omega [s]
+  real slowest;    // lost gap comes back no faster than in steps of this length [s]
   real elasticity;
 };
 

@@ -43,19 +43,19 @@ FN uint next_size(IN(StepParts) p) {
   return size;
 }
 
-// Returns the length of the next part, or of the next step if steps do not fall into parts [s]. Then the target is `ahead` of it [s], and
-// steps that the bound shortens are equal up to it: shapes at rest depend a little on the step's length.
+// Returns the length of the next part [s]. If steps do not fall into parts, it is the step's length, and the target is `ahead` away [s].
+// Then all steps up to it are equally long if the bound shortens them, because shapes at rest depend a little on the step's length. 1e-9
+// keeps roundings from adding a step.
 FN double next_part(IN(StepParts) p, double ahead) {
   if (p.divides != 0u) return length_of(p, next_size(p));
   double longest = double(uintBitsToFloat(p.longest));
   return p.full > longest ? ahead / ceil(ahead / longest - double(1e-9)) : p.full;
 }
 
-// Returns by how much kept impulses are scaled before a part of the length `next`: with the lengths of parts, but 16-fold at most. At rest a
-// kick goes with the mean length of the parts around it. Scaled with that, a jam of three bodies more than doubled its energy.
-FN double growth_of_kick(IN(StepParts) p, double next) {
-  return p.last > double(0) ? min(next / p.last, double(16)) : double(1);
-}
+// Returns the factor of kept impulses before a part of the length `next` [s]: the ratio of lengths, but at most 16. `last` is 0 before the
+// first part. At rest the mean length of neighbouring parts would be the exact measure. But scaled by that, a jam of three bodies more than
+// doubled its energy.
+FN double growth_of_kick(double last, double next) { return last > double(0) ? min(next / last, double(16)) : double(1); }
 
 // Counts a part that was made and had this length.
 FN void end_part(INOUT(StepParts) p, double made) {

@@ -4,9 +4,10 @@
 #include "../language.glsl"
 SHARED_BEGIN
 
-// Steps of bodies that contacts press are at most this over the stiffest frequency and half the rate of damping. Without damping slow
-// impacts made up to 2 % of the energy with 1, and none with 0.9 (docs/contact.md).
-const double longest_step_omega = double(0.8);
+// Steps of bodies that contacts press are no longer than this over (omega + g / 2), with the stiffest frequency omega and the rate of
+// damping g. In longer ones contacts give energy: a vibration gains up to 9e-5 of its amplitude a step with 0.8 / omega, and up to 1.5e-3
+// with 0.9 / omega (docs/contact.md).
+const double longest_pressed_rate = double(0.8);
 
 struct Surface {
   double edge;          // mean length of the mesh's edges [m]
@@ -39,8 +40,7 @@ struct Ground {
 
 // Lists can be longer than they have room for.
 struct ContactList {
-  double last_part;          // length of the last part [s], 0 before the first one
-  double growth_of_kick;     // by how much kept impulses are scaled
+  double last_part;          // what step_parts.last was at the part's start [s]. settle changes that while others read it
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them, and with grounds
   uint uncertified;          // pairs of triangles that were not proven to stay apart
@@ -67,6 +67,9 @@ FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
 }
 
 FN double sum_of_sizes(IN(dvec3) p) { return abs(p.x) + abs(p.y) + abs(p.z); }
+
+// Returns the length of steps in which lost gap comes back fastest [s]. In shorter ones it does not come back faster.
+FN double fastest_return(double frequency) { return longest_pressed_rate / max(frequency, double(1e-30)); }
 
 // What positions in the world are rounded from, summed over the axes [m]: bounds of the place in the world and of the centre of its body,
 // and the way between, which the radius at rest of the largest body bounds.
