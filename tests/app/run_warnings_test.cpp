@@ -179,16 +179,14 @@ TEST_CASE("bodies that overlap can't begin with contact by impulses") {
   CHECK_FALSE(std::filesystem::exists(folder.path / "out"));
 }
 
-// Of the small scene with these options, before its first step.
-std::string warnings(const std::string& options) {
-  const ScratchFolder folder;
-  const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet " + options +
-                                           " --out " + folder.path.string());
-  CHECK(result.exit_code == 0);
-  return summary_in(folder.path)["warnings"].text();
-}
-
 TEST_CASE("masses and edges that contact by impulses can't resolve are named in warnings, with that response alone") {
+  const auto warnings = [](const std::string& options) {
+    const ScratchFolder folder;
+    const ProgramResult result = run_program("run " + small_scene(folder).string() + " --device cpu --steps 0 --quiet " +
+                                             options + " --out " + folder.path.string());
+    CHECK(result.exit_code == 0);
+    return summary_in(folder.path)["warnings"].text();
+  };
   const std::string masses = "--set body.left.vertex_mass=2e9",
                     edges = "--set body.left.scale=1e-4 --set body.right.scale=100 --set body.right.position=[200,0,0]",
                     reflect = " --set collision.response=reflect";
