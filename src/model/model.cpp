@@ -191,20 +191,14 @@ Model with_materials(Model model, std::span<const Material> materials) {
 }
 
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
-  std::vector<glm::dvec3> positions;
-  for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Pose& pose = poses[model.body_index(vertex)];
-    positions.push_back(physics::to_world(pose, model.rest_position(vertex) + displacement(vertex)));
-  }
+  std::vector<glm::dvec3> positions(model.vertex_count());
+  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) positions[vertex] = world_position(model, vertex);
   return positions;
 }
 
 std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
-  std::vector<glm::dvec3> velocities;
-  for (std::size_t vertex = 0; vertex < model.rest_positions.size(); ++vertex) {
-    const physics::Pose& pose = poses[model.body_index(vertex)];
-    velocities.push_back(physics::rotate(pose, velocity(vertex)));
-  }
+  std::vector<glm::dvec3> velocities(model.vertex_count());
+  for (std::size_t vertex = 0; vertex < velocities.size(); ++vertex) velocities[vertex] = world_velocity(model, vertex);
   return velocities;
 }
 

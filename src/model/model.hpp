@@ -88,7 +88,14 @@ struct State {
   [[nodiscard]] glm::dvec3 velocity(std::size_t vertex) const {
     return load(physics::velocity_of(static_cast<std::uint32_t>(vertex)));
   }
-  /// Return the world position [m] and velocity [m/s] of every vertex, in fp64.
+  /// Return the world position [m] and velocity [m/s] of a vertex, in fp64.
+  [[nodiscard]] glm::dvec3 world_position(const Model& model, std::size_t vertex) const {
+    return physics::to_world(poses[model.body_index(vertex)], model.rest_position(vertex) + displacement(vertex));
+  }
+  [[nodiscard]] glm::dvec3 world_velocity(const Model& model, std::size_t vertex) const {
+    return physics::rotate(poses[model.body_index(vertex)], velocity(vertex));
+  }
+  /// Return those of every vertex.
   [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;
   [[nodiscard]] std::vector<glm::dvec3> world_velocities(const Model& model) const;
 
