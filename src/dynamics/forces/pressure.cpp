@@ -90,16 +90,12 @@ std::unique_ptr<AddedForce> make_pressure(DeviceBodies& bodies, const Model& mod
   return std::make_unique<AddedPressure>(bodies, shells_of(model));
 }
 
-// Returns the positions in the bodies' frames.
-std::vector<glm::dvec3> positions_of(const Model& model, const State& state) {
-  std::vector<glm::dvec3> positions;
-  for (std::size_t i = 0; i < model.rest_positions.size(); ++i)
-    positions.push_back(model.rest_position(i) + state.displacement(i));
+// Returns the positions of a body's vertices in its frame.
+std::vector<glm::dvec3> positions_of(const ModelBody& body, const Model& model, const State& state) {
+  std::vector<glm::dvec3> positions(body.vertex_count);
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    positions[k] = model.rest_position(body.first_vertex + k) + state.displacement(body.first_vertex + k);
   return positions;
-}
-
-std::span<const glm::dvec3> of_body(const ModelBody& body, std::span<const glm::dvec3> positions) {
-  return positions.subspan(body.first_vertex, body.vertex_count);
 }
 
 double energy_at(const Inflation& inside, double volume) {
@@ -109,10 +105,10 @@ double energy_at(const Inflation& inside, double volume) {
 }
 
 double pressure_energy(const EnergyQuestion& question) {
-  const std::vector<glm::dvec3> positions = positions_of(question.model, question.state);
+  const Model& model = question.model;
   double sum = 0;
-  for (const ModelBody& body : question.model.bodies)
-    if (has_pressure(body)) sum += energy_at(body.inflation, volume_of(question.model, body, of_body(body, positions)));
+  for (const ModelBody& body : model.bodies)
+    if (has_pressure(body)) sum += energy_at(body.inflation, volume_of(model, body, positions_of(body, model, question.state)));
   return sum;
 }
 
@@ -154,11 +150,10 @@ std::optional<std::string> warning_of(const ModelBody& body, const VolumeAt& at)
 }
 
 std::vector<std::string> pressure_warnings(const Model& model, const State& state) {
-  const std::vector<glm::dvec3> positions = positions_of(model, state);
   std::vector<std::string> all;
   for (const ModelBody& body : model.bodies) {
     if (!has_pressure(body)) continue;
-    const VolumeAt at = volume_at(model, body, of_body(body, positions));
+    const VolumeAt at = volume_at(model, body, positions_of(body, model, state));
     if (const auto warning = warning_of(body, at)) all.push_back(*warning);
   }
   return all;
