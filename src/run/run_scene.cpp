@@ -43,6 +43,7 @@ class Run {
         run_(prepared),
         folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
+        meter_(prepared.start.model),
         progress_(from ? from->checkpoint.progress : RunProgress()),
         checkpoints_(options, from ? std::move(from->lock) : nullptr),
         folder_lock_(folder_),
@@ -222,8 +223,8 @@ class Run {
   // After Ctrl-C it measures for a moment only. If that is too short, the elastic energy is missing.
   Measurement measured() {
     const auto end = Clock::now() + std::chrono::duration<double>(patience);
-    return measure(run_.start.model, state_, run_.scene.simulation.gravity, measuring_pool_,
-                   [end] { return is_interrupted() && Clock::now() > end; });
+    return meter_.measure(state_, run_.scene.simulation.gravity, measuring_pool_,
+                          [end] { return is_interrupted() && Clock::now() > end; });
   }
 
   void write_frame() {
@@ -301,6 +302,7 @@ class Run {
   PreparedRun& run_;
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
+  Meter meter_;
   RunProgress progress_;
   CheckpointKeeper checkpoints_;
   FileLock folder_lock_;  // one run at a time writes into the folder

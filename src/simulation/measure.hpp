@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/thread_pool.hpp"
 #include "model/model.hpp"
@@ -19,9 +20,32 @@ struct Measurement {
   [[nodiscard]] double energy() const { return kinetic + elastic + gravitational; }
 };
 
-/// Visits every spring: N^2 / 2 for a body of N vertices. The result has the same bits on any number of threads.
-/// Several threads call `stopped` at once. When it returns true, the remaining springs are left out and the elastic energy is
-/// NaN. If `stopped` is null, nothing stops the measurement.
+/// Measures states of one model, one after another, in memory that it keeps.
+class Meter {
+ public:
+  /// `model` must outlive the meter.
+  explicit Meter(const Model& model);
+
+  /// Visits every spring: N^2 / 2 for a body of N vertices. The result has the same bits on any number of threads.
+  /// Several threads call `stopped` at once. When it returns true, the remaining springs are left out and the elastic energy is
+  /// NaN. If `stopped` is null, nothing stops the measurement.
+  [[nodiscard]] Measurement measure(const State& state, const glm::dvec3& gravity, ThreadPool& pool,
+                                    const std::function<bool()>& stopped = nullptr);
+
+ private:
+  // What each vertex adds to the sums. Vertices of static bodies add zero.
+  struct Terms {
+    std::vector<double> kinetic, gravitational;
+    std::vector<glm::dvec3> momentum, angular_momentum;
+  };
+
+  void set_terms(const State& state, const glm::dvec3& gravity, ThreadPool& pool);
+
+  const Model& model_;
+  Terms terms_;
+};
+
+/// Measures one state by a meter of its own.
 [[nodiscard]] Measurement measure(const Model& model, const State& state, const glm::dvec3& gravity, ThreadPool& pool,
                                   const std::function<bool()>& stopped = nullptr);
 
