@@ -50,9 +50,11 @@ Measurement Meter::measure(const State& state, const glm::dvec3& gravity, Thread
                                         [&] { sum.momentum = sum_in_order(terms_.momentum); },
                                         [&] { sum.angular_momentum = sum_in_order(terms_.angular_momentum); }};
   pool.for_ranges(std::size(sums), 1, [&](std::uint32_t k, std::uint32_t) { sums[k](); });
-  for (const Force& force : forces()) {
+  kept_.resize(forces().size());
+  for (std::size_t k = 0; k < forces().size(); ++k) {
+    const Force& force = forces()[k];
     if (!any_feels(model_, force)) continue;
-    const double energy = force.energy({model_, state, pool, stopped});
+    const double energy = force.energy({model_, state, pool, stopped, kept_[k]});
     sum.elastic += energy;
     sum.elastic_size += std::abs(energy);
   }

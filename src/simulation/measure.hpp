@@ -1,5 +1,6 @@
 // Measures energy and momentum of a state in fp64 on the host. Reports use it; stepping does not.
 #pragma once
+#include <any>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -20,13 +21,14 @@ struct Measurement {
   [[nodiscard]] double energy() const { return kinetic + elastic + gravitational; }
 };
 
-/// Measures states of one model, one after another, in memory that it keeps.
+/// Measures states of one model, one after another.
 class Meter {
  public:
   /// `model` must outlive the meter.
   explicit Meter(const Model& model);
 
-  /// Visits every spring: N^2 / 2 for a body of N vertices. The result has the same bits on any number of threads.
+  /// Visits every spring of bodies that have moved in their frames since the state before: N^2 / 2 for a body of N vertices. The
+  /// result has the same bits as that of another meter, on any number of threads.
   /// Several threads call `stopped` at once. When it returns true, the remaining springs are left out and the elastic energy is
   /// NaN. If `stopped` is null, nothing stops the measurement.
   [[nodiscard]] Measurement measure(const State& state, const glm::dvec3& gravity, ThreadPool& pool,
@@ -43,6 +45,7 @@ class Meter {
 
   const Model& model_;
   Terms terms_;
+  std::vector<std::any> kept_;  // by forces, in the order of their list
 };
 
 /// Measures one state by a meter of its own.

@@ -75,5 +75,60 @@ TEST_CASE("a measurement that is stopped knows no elastic energy, and all the re
   CHECK(whole.kinetic == Approx(0.5 * 42 * 9));
 }
 
+// A body that is deformed, one that is not, one that stands, and one that falls into several tasks.
+ModelAndState four_bodies() {
+  std::vector<BodySetup> setups{sphere(1), sphere(0), sphere(0), sphere(2)};
+  setups[0].description.stretch = {1.3, 0.7, 1.01};
+  setups[2].description.kind = BodyKind::immovable;
+  setups[3].description.stretch = {0.9, 1, 1};
+  setups[3].description.velocity = {3, 0, -1};
+  return build_model(setups, {0, -9.81, 0});
+}
+
+// Measurements are the same if their bits are. NaNs do not turn up.
+void check_same(const Measurement& a, const Measurement& b) {
+  CHECK(a.kinetic == b.kinetic);
+  CHECK(a.elastic == b.elastic);
+  CHECK(a.gravitational == b.gravitational);
+  CHECK(a.momentum == b.momentum);
+  CHECK(a.angular_momentum == b.angular_momentum);
+}
+
+TEST_CASE("a meter that has measured other states gives the bits of one that has not, on any number of threads") {
+  auto [model, state] = four_bodies();
+  const glm::dvec3 down(0, -9.81, 0);
+  ThreadPool alone(1), pool(3);
+  Meter meter(model);
+  double before = meter.measure(state, down, pool).elastic;
+  for (const ModelBody& body : model.bodies)
+    for (const std::uint32_t vertex : {0u, body.vertex_count / 2, body.vertex_count - 1})
+      for (const std::uint32_t number : {0u, 1u, 2u, 5u}) {
+        CAPTURE(body.first_vertex, vertex, number);
+        state.motion[physics::motion_size * (body.first_vertex + vertex) + number] += 1e-6;
+        const Measurement measured = meter.measure(state, down, pool);
+        check_same(measured, measure(model, state, down, alone));
+        CHECK((measured.elastic == before) == (body.is_static || number == 5));  // the last numbers are velocities
+        before = measured.elastic;
+      }
+  state.poses[0].origin[1] += 1;
+  check_same(meter.measure(state, down, pool), measure(model, state, down, alone));
+}
+
+TEST_CASE("a meter sums no springs of bodies that keep their places in their frames, and all others") {
+  auto [model, state] = four_bodies();
+  const glm::dvec3 down(0, -9.81, 0);
+  const auto stop = [] { return true; };
+  ThreadPool pool(2);
+  Meter meter(model);
+  CHECK(std::isnan(meter.measure(state, down, pool, stop).elastic));
+  const Measurement whole = meter.measure(state, down, pool);
+  check_same(meter.measure(state, down, pool, stop), whole);  // though it may sum none
+  state.motion.back() += 1;
+  CHECK(meter.measure(state, down, pool, stop).elastic == whole.elastic);
+  state.motion.front() = std::nextafter(state.motion.front(), 1.0);
+  CHECK(std::isnan(meter.measure(state, down, pool, stop).elastic));
+  check_same(meter.measure(state, down, pool), measure(model, state, down, pool));
+}
+
 }  // namespace
 }  // namespace pliant

@@ -1,5 +1,6 @@
 // The list of forces that act within a body. Energies, bounds on steps, reports and passes read its rows.
 #pragma once
+#include <any>
 #include <functional>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@ struct EnergyQuestion {
   const State& state;
   ThreadPool& pool;
   const std::function<bool()>& stopped;
+  std::any& kept;  // what the force keeps until its next question about the same model. Empty before the first
 };
 
 /// A force within a body. The forces on a body's vertices add up to no force and no torque. Internal damping counts on that.

@@ -1,56 +1,105 @@
 // Energies are summed per vertex, then over vertices in order.
 #include "dynamics/forces/springs.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dynamics/forces/elongations.hpp"
+#include "physics/layout.glsl"
 
 namespace pliant {
 namespace {
 
-struct Coordinates {
-  std::vector<double> rest[3], moved[3];  // as SpringEnds has them
+constexpr std::uint32_t springs_of_task = 8192;  // which take some 15 us
 
-  Coordinates(const Model& model, const State& state) {
+// Keeps the springs' energies from question to question. A body is summed again if a bit of its displacements has changed.
+class SpringEnergies {
+ public:
+  explicit SpringEnergies(const Model& model)
+      : sum_of_springs_(elongation_sum(cpu::available_isas().back())),
+        energies_(model.vertex_count()),
+        is_known_(model.bodies.size()) {
     for (int axis = 0; axis < 3; ++axis) {
-      rest[axis].resize(model.vertex_count() + elongation_lanes);
-      moved[axis].resize(model.vertex_count() + elongation_lanes);
-      for (std::uint32_t i = 0; i < model.vertex_count(); ++i) {
-        rest[axis][i] = static_cast<double>(model.rest_positions[i][axis]);
-        moved[axis][i] = state.displacement(i)[axis];
-      }
+      moved_[axis].resize(model.vertex_count() + elongation_lanes);
+      rest_[axis].resize(model.vertex_count() + elongation_lanes);
+      for (std::uint32_t i = 0; i < model.vertex_count(); ++i) rest_[axis][i] = model.rest_position(i)[axis];
     }
   }
 
-  [[nodiscard]] SpringEnds ends() const {
-    return {{rest[0].data(), rest[1].data(), rest[2].data()}, {moved[0].data(), moved[1].data(), moved[2].data()}};
+  // Returns the energy of all bodies [J]. It is NaN if a stop left springs out.
+  double sum(const EnergyQuestion& question) {
+    const Model& model = question.model;
+    note_changes(model, question.state, question.pool);
+    const std::vector<Rows> tasks = tasks_of(model);
+    question.pool.for_ranges(static_cast<std::uint32_t>(tasks.size()), 4, [&](std::uint32_t first, std::uint32_t end) {
+      for (; first < end; ++first) sum_rows(model, tasks[first], question.stopped && question.stopped());
+    });
+    double sum = 0;
+    for (const double energy : energies_) sum += energy;
+    std::ranges::fill(is_known_, !std::isnan(sum));
+    return sum;
   }
+
+ private:
+  // Vertices of one body.
+  struct Rows {
+    std::uint32_t first, end;
+  };
+
+  void note_changes(const Model& model, const State& state, ThreadPool& pool) {
+    pool.for_ranges(static_cast<std::uint32_t>(model.bodies.size()), 16, [&](std::uint32_t first, std::uint32_t end) {
+      for (std::uint32_t b = first; b < end; ++b)
+        if (move(model.bodies[b], state)) is_known_[b] = false;
+    });
+  }
+
+  // Returns whether a bit has changed.
+  bool move(const ModelBody& body, const State& state) {
+    std::uint64_t changes = 0;
+    for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double before = std::exchange(moved_[axis][i], state.displacement(i)[axis]);
+        changes |= std::bit_cast<std::uint64_t>(before) ^ std::bit_cast<std::uint64_t>(moved_[axis][i]);
+      }
+    return changes != 0;
+  }
+
+  // Cuts bodies whose energies are not known into tasks of about as many springs each, or fewer.
+  std::vector<Rows> tasks_of(const Model& model) const {
+    std::vector<Rows> tasks;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const ModelBody& body = model.bodies[b];
+      if (body.is_static || is_known_[b]) continue;
+      const std::uint32_t end = body.first_vertex + body.vertex_count;
+      for (std::uint32_t first = body.first_vertex; first < end; first = tasks.back().end)
+        tasks.push_back({first, first + std::min(end - first, springs_of_task / (end - first) + 1)});
+    }
+    return tasks;
+  }
+
+  // Vertices that a stop leaves out have NaN.
+  void sum_rows(const Model& model, const Rows& rows, bool is_stopped) {
+    const ModelBody& body = model.body_of(rows.first);
+    const SpringEnds ends{.rest = {rest_[0].data(), rest_[1].data(), rest_[2].data()},
+                          .moved = {moved_[0].data(), moved_[1].data(), moved_[2].data()}};
+    for (std::uint32_t i = rows.first; i < rows.end; ++i)
+      energies_[i] = is_stopped ? std::numeric_limits<double>::quiet_NaN()
+                                : 0.5 * body.stiffness * sum_of_springs_(ends, i, body.first_vertex + body.vertex_count);
+  }
+
+  ElongationSum sum_of_springs_;
+  std::vector<double> rest_[3], moved_[3];  // as SpringEnds has them
+  std::vector<double> energies_;            // of each vertex's springs to later vertices of its body [J]
+  std::vector<std::uint8_t> is_known_;      // whether a body's energies are those of `moved_`
 };
 
-// Returns for each vertex the energy of its springs to later vertices of its body [J]. Vertices that a stop leaves out have NaN.
-std::vector<double> elastic_energies(const EnergyQuestion& question) {
-  const auto& [model, state, pool, stopped] = question;
-  const Coordinates coordinates(model, state);
-  const SpringEnds ends = coordinates.ends();
-  const ElongationSum sum_of_springs = elongation_sum(cpu::available_isas().back());
-  std::vector<double> energies(model.vertex_count());
-  for (std::uint32_t i = 0; i < model.vertex_count(); ++i)
-    if (!model.body_of(i).is_static) energies[i] = std::numeric_limits<double>::quiet_NaN();
-  pool.for_ranges(model.vertex_count(), 16, [&](std::uint32_t first, std::uint32_t end) {
-    if (stopped && stopped()) return;
-    for (std::uint32_t i = first; i < end; ++i) {
-      const ModelBody& body = model.body_of(i);
-      if (body.is_static) continue;
-      energies[i] = 0.5 * body.stiffness * sum_of_springs(ends, i, body.first_vertex + body.vertex_count);
-    }
-  });
-  return energies;
-}
-
 double spring_energy(const EnergyQuestion& question) {
-  double sum = 0;
-  for (const double energy : elastic_energies(question)) sum += energy;
-  return sum;
+  auto* energies = std::any_cast<SpringEnergies>(&question.kept);
+  if (energies == nullptr) energies = &question.kept.emplace<SpringEnergies>(question.model);
+  return energies->sum(question);
 }
 
 double spring_energy_scale(const ModelBody& body) { return 0.5 * body.stiffness * body.radius * body.radius; }
