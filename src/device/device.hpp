@@ -159,9 +159,12 @@ class DeviceArray {
   void upload(std::span<const T> values, std::size_t first = 0) {
     if (!values.empty()) device_->write(id_, first * sizeof(T), std::as_bytes(values));
   }
+  void download(std::span<T> values, std::size_t first = 0) const {
+    if (!values.empty()) device_->read(id_, first * sizeof(T), std::as_writable_bytes(values));
+  }
   [[nodiscard]] std::vector<T> download(std::size_t first, std::size_t count) const {
     std::vector<T> values(count);
-    if (count > 0) device_->read(id_, first * sizeof(T), std::as_writable_bytes(std::span<T>(values)));
+    download(values, first);
     return values;
   }
   [[nodiscard]] std::vector<T> download() const { return download(0, count_); }

@@ -170,7 +170,7 @@ class Run {
 
   void record() {
     before_row_ = now();
-    state_ = run_.simulation->state();
+    run_.simulation->read_state(state_);
     Measurement& latest = progress_.latest;
     latest = progress_.times.measuring.time([&] { return measured(); });
     if (report_.time == 0) progress_.first = latest;

@@ -266,6 +266,8 @@ StepReport Simulation::report() {
 
 State Simulation::state() { return bodies_.download(half()); }
 
+void Simulation::read_state(State& into) { bodies_.download(half(), into); }
+
 std::vector<glm::vec4> Simulation::world_positions() {
   return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
 }

@@ -111,9 +111,11 @@ class Simulation {
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
-  /// The next three wait for the queued steps.
+  /// The next four wait for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
+  /// Puts the state into one whose memory is used again.
+  void read_state(State& into);
   [[nodiscard]] std::vector<glm::vec4> world_positions();
   /// Returns as bytes everything that the next steps and reports depend on. Waits for the queued steps.
   [[nodiscard]] std::string save();

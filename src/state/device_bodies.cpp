@@ -210,10 +210,17 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
 }
 
 State DeviceBodies::download(std::uint32_t half) const {
+  State state;
+  download(half, state);
+  return state;
+}
+
+void DeviceBodies::download(std::uint32_t half, State& into) const {
   arrays.device().read_ahead(std::array{poses.id(), motions.id()});
-  return {.poses = poses.download(),
-          .motion =
-              motions.download(physics::displacement_of(first_of_half(half)), std::size_t{physics::motion_size} * vertex_count)};
+  into.poses.resize(poses.size());
+  into.motion.resize(std::size_t{physics::motion_size} * vertex_count);
+  poses.download(into.poses);
+  motions.download(into.motion, physics::displacement_of(first_of_half(half)));
 }
 
 }  // namespace pliant

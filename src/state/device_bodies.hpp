@@ -44,6 +44,8 @@ struct DeviceBodies {
   [[nodiscard]] std::uint32_t first_of_half(std::uint32_t half) const { return physics::in_half(half, vertex_count, 0); }
   /// Returns the state in a half, from which another run may start.
   [[nodiscard]] State download(std::uint32_t half) const;
+  /// Puts it into a state whose memory is used again.
+  void download(std::uint32_t half, State& into) const;
   /// Makes bodies ready to be bounded and searched outside of a step. It empties their boxes, and counts no body as
   /// halted for now, at rest, or asleep.
   void prepare_search();
