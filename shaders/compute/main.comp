@@ -1,6 +1,7 @@
 // The frame around every kernel but force kernels, which have force.comp, and kernels in rounds, which have rounds.comp. It includes the
 // kernel's file by name. One thread calls the kernel's function for one item.
 #version 450
+#include "subgroups.glsl"
 #include "physics/language.glsl"
 #include "@kernel"
 layout(local_size_x = 64) in;

@@ -8,8 +8,16 @@
 // runs 198 groups of 128 threads, but not 264, and 108 of 256 threads.
 //
 // A kernel with NEAR_ROUNDS says how many threads it wants. It serves up to near_items items in one group. begin_near() may then set
-// sums_are_near. It says that threads share nothing but the group's own memory, in all rounds but the last.
+// sums_are_near. It says that threads share nothing but the group's own memory, in all rounds but the last. Its other groups have as many
+// threads as give each item one: looking at an item anew in each round takes longer.
 #version 450
+#include "subgroups.glsl"
+#extension GL_ARB_gpu_shader_int64 : enable
+#extension GL_NV_gpu_shader5 : enable
+#extension GL_NV_shader_atomic_int64 : enable
+#ifdef GL_NV_shader_atomic_int64
+#define ADDS_64_BITS
+#endif
 #include "physics/language.glsl"
 #include "physics/body.glsl"
 bool has_own_thread = false;  // whether an item has a thread to itself in all rounds
@@ -54,10 +62,16 @@ void end_round(uint groups, uint number) {
   wait_for_others(groups, number + 1u);
 }
 
+// Of a group where several share the items.
+uint threads_of_a_group(uint count) {
+  uint for_one_item = (count + item_count - 1u) / item_count;
+  return clamp((for_one_item + 31u) / 32u * 32u, far_threads, GROUP_SIZE);
+}
+
 void main() {
-  uint count = items_in_a_round(), threads = far_threads;
+  uint count = items_in_a_round();
   if (count == 0u) return;
-  uint groups = min((count + threads - 1u) / threads, item_count);
+  uint threads = threads_of_a_group(count), groups = min((count + threads - 1u) / threads, item_count);
 #ifdef NEAR_ROUNDS
   if (count <= near_items || item_count == 1u) {
     threads = GROUP_SIZE;

@@ -42,6 +42,7 @@ void expect_declared(std::string_view kernel, const KernelSignature& signature, 
 
 // The type of the numbers that an element consists of. A struct is its own.
 std::string_view number_of(std::string_view element) {
+  if (element == "WholeSum") return "uint";  // two of them, also where a kernel takes both as one (contact/exact_sum.glsl)
   constexpr std::pair<std::string_view, std::string_view> vectors[] = {
       {"vec", "float"}, {"uvec", "uint"}, {"dvec", "double"}, {"real", "real"}};
   const std::size_t last = element.size() - 1;

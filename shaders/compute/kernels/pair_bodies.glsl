@@ -19,7 +19,7 @@ Box box_to_meet(uint b) { return box_to_touch(b); }
 
 void meet(uint a, uint b) {
   if ((status[a].activity != moving && status[b].activity != moving) || (is_still(status[a]) && is_still(status[b]))) return;
-  uint at = atomicAdd(control[0].near_pair_count, 1u);
+  TAKE_PLACES(at, control[0].near_pair_count, 1u)
   if (at >= near_pair_capacity) {
     atomicAdd(control[0].near_pair_count, ~0u);  // minus one
     atomicAdd(control[0].count[body_pairs_lost], 1u);

@@ -25,7 +25,7 @@ WRITE_AS(contact, real4, contact_row)
 WRITE_AS(contact_impulse, real4, impulse_row)
 SHARED_WRITE(contact_weight)
 SHARED_WRITE(contact_list)
-SHARED_WRITE(impulse_sum)
+SHARED_WRITE_AS(impulse_sum, WholeSum, impulse_sum)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, contact_capacity)
@@ -39,20 +39,24 @@ PARAMETER(double, least_speed)
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
 
-bool has_bounced(uint kick_round) { return bounce_round() < kick_round; }
+// The notes as a thread knows them. A contact's thread looks at them once a round: on a GPU each look takes as long as a round's sums. What
+// others note in the round that runs changes no answer below.
+PRIVATE(Notes, known)
+
+bool has_bounced(uint kick_round) { return known.bounce_round < kick_round; }
 
 // Whether all contacts had settled by the last round. While a round runs of which this is true, nobody notes a contact that has not, so all
 // threads find the same answer. In any other round the note only grows, which leaves the answer no.
 bool have_settled(uint kick_round) {
-  uint fewest = has_bounced(kick_round) ? bounce_round() + fewest_rounds_from_bounce : fewest_kick_rounds;
-  return kick_round + 1u >= fewest && unsettled_round() + 2u <= kick_round;
+  uint fewest = has_bounced(kick_round) ? known.bounce_round + fewest_rounds_from_bounce : fewest_kick_rounds;
+  return kick_round + 1u >= fewest && known.unsettled_round + 2u <= kick_round;
 }
 
 // Whether impulses bounce in this round. It may have been noted meanwhile.
 bool is_bounce(uint kick_round) {
-  if (has_bounced(kick_round) || bounces_from() >= kick_round) return false;
+  if (has_bounced(kick_round) || known.bounces_from >= kick_round) return false;
   if (kick_round + fewest_rounds_from_bounce > most_kick_rounds) return false;
-  return bounce_round() == kick_round || kick_round >= forced_bounce || have_settled(kick_round);
+  return known.bounce_round == kick_round || kick_round >= forced_bounce || have_settled(kick_round);
 }
 
 bool is_last(uint kick_round) {
@@ -61,7 +65,10 @@ bool is_last(uint kick_round) {
 bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1u); }
 
 // If no contact presses in the first two rounds, none does in the others.
-bool goes_on(uint kick_round) { return kick_round == 1u ? presses() : !is_kick(kick_round); }
+bool goes_on(uint kick_round) {
+  known = all_notes();
+  return kick_round == 1u ? presses() : !is_kick(kick_round);
+}
 
 // Of a contact's vertices, or of their places.
 bool meets_ground(uvec4 who) { return who.y == no_vertex; }
@@ -163,7 +170,7 @@ void store_least_impulse(uint c) { contact_row[contact_rows * c + 5u] = real4(he
 
 void note_end(uint c, bool is_unsettled) {
   contact_row[contact_rows * c + 3u].w = is_unsettled ? real(-1) : real(0);
-  if (is_unsettled) atomicAdd(control[0].count[unsettled_contacts], 1u);
+  TALLY_UP(control[0].count[unsettled_contacts], is_unsettled ? 1u : 0u)
 }
 
 // All contacts do this in one round. Those that bounce give more from here on, and momentum of the rounds starts anew. One that has not
@@ -201,9 +208,9 @@ void answer(uint c, uint kick_round, bool ends) {
     bounce(c, kick_round, !changes || kick_round < forced_bounce);
     return;
   }
-  if (held.bounce > real(1) && held.impulse.x > real(0)) note_bouncing(kick_round);
+  if (held.bounce > real(1) && held.impulse.x > real(0) && known.bounces_from > kick_round) note_bouncing(kick_round);
   bool turns = dot(had - held.impulse, held.impulse - before) > real(0);  // the sums went too far ahead
-  uint first = has_bounced(kick_round) ? bounce_round() : 0u;
+  uint first = has_bounced(kick_round) ? known.bounce_round : 0u;
   if (!turns) held.ahead += momentum_after(kick_round - first) * (held.impulse - before);
   if (!changes) return;
   note_unsettled(kick_round);
@@ -216,7 +223,7 @@ void push(uint c, uint kick_round) {
   if (starts || !has_own_thread) fetch(c, kick_round);
   if (!starts) answer(c, kick_round, ends);
   if (ends || !has_own_thread) store(c);
-  if (ends && held.impulse.x > real(0)) atomicAdd(control[0].count[contact_pairs], 1u);
+  if (ends) TALLY_UP(control[0].count[contact_pairs], held.impulse.x > real(0) ? 1u : 0u)
   clear_sums(held.place, buffer_of(kick_round + 2u));
   if (held.ahead == real4(0)) return;
   if (kick_round <= 1u) note_pressing();
@@ -238,7 +245,7 @@ void kick(uint i, uint kick_round) {
   rouse(b);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
   for (uint k = 0u; k < 3u; ++k)
-    if (quanta[int(k)] != double(0)) ADD_EXACTLY(contact_sum[k], quanta[int(k)])
+    ADD_EXACTLY_TOGETHER(contact_sum[k], quanta[int(k)])
 }
 
 // The mean of the vertex's velocities before and after the kick [m/s].
@@ -255,8 +262,11 @@ dvec3 mean_velocity_at(uvec4 who, real4 weight, uint kick_round) {
          double(weight.w) * (mean_velocity_of(who.w, kick_round) - first);
 }
 
+double quanta_of_energy(double energy) { return nearest_whole(energy / quantum_of_energy()); }
+
+// A sum of one body.
 void add_energy(uint k, double energy) {
-  double whole = nearest_whole(energy / quantum_of_energy());
+  double whole = quanta_of_energy(energy);
   if (whole != double(0)) ADD_EXACTLY(contact_sum[k], whole)
 }
 
@@ -286,12 +296,14 @@ void add_work(uint c, uint kick_round) {
   dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u], kick_round);
   double along = double(impulse.x) * dot(dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z)), mean);
   double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
-  add_energy(along + across > double(0) ? energy_given : energy_taken, abs(along + across));
-  add_energy(friction_work, -across);
+  ADD_EXACTLY_TOGETHER(contact_sum[energy_given], quanta_of_energy(max(along + across, double(0))))
+  ADD_EXACTLY_TOGETHER(contact_sum[energy_taken], quanta_of_energy(max(-along - across, double(0))))
+  ADD_EXACTLY_TOGETHER(contact_sum[friction_work], quanta_of_energy(-across))
   if (ended_unsettled(c)) share_energy(contact_vertex[c], along + across);
 }
 
 void solve_contacts(uint c, uint kick_round) {
+  if (kick_round == 0u || !has_own_thread) known = all_notes();
   if (!is_kick(kick_round)) {
     push(c, kick_round);
     return;

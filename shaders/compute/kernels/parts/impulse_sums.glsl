@@ -4,7 +4,6 @@ uint buffer_of(uint rounds) { return rounds % sum_buffers; }
 // Clears the sums of a vertex. All of its contacts may do so.
 void clear_impulse(uint at) {
   for (uint k = 0u; k < 3u; ++k) {
-    ATOMIC_STORE(impulse_sum[at + k].x, 0u);
-    ATOMIC_STORE(impulse_sum[at + k].y, 0u);
+    CLEAR_SUM(impulse_sum[at + k])
   }
 }

@@ -49,6 +49,6 @@ void refit_tree(uint item) {
     ++refitted;
     parent = node[parent].y;
   }
-  if (item == 0u || leaf[item - 1u].y != leaf[item].y) atomicAdd(control[0].count[trees_refitted], 1u);
-  atomicAdd(control[0].count[nodes_refitted], refitted);
+  TALLY_UP(control[0].count[trees_refitted], item == 0u || leaf[item - 1u].y != leaf[item].y ? 1u : 0u)
+  TALLY_UP(control[0].count[nodes_refitted], refitted)
 }

@@ -20,8 +20,9 @@ uint sum_of_place(uint place, uint buffer_index) {
   return impulse_sum_of(buffer_index, vertex_count, place);
 }
 
+uvec2 far_sum(uint at) { return halves_of_sum(impulse_sum[at]); }
 real3 far_impulse(uint at) {
-  return real3(real_of(impulse_sum[at]), real_of(impulse_sum[at + 1u]), real_of(impulse_sum[at + 2u]));
+  return real3(real_of(far_sum(at)), real_of(far_sum(at + 1u)), real_of(far_sum(at + 2u)));
 }
 real3 impulse_at(uint at) {
   NEAR_ELSE(return near_impulse(at);)
@@ -39,7 +40,7 @@ void impulses_at(uvec4 at, OUT(real3) x, OUT(real3) y, OUT(real3) z, OUT(real3) 
 }
 dvec3 exact_impulse_at(uint at) {
   NEAR_ELSE(return near_exact_impulse(at);)
-  return dvec3(whole_of(impulse_sum[at]), whole_of(impulse_sum[at + 1u]), whole_of(impulse_sum[at + 2u]));
+  return dvec3(whole_of(far_sum(at)), whole_of(far_sum(at + 1u)), whole_of(far_sum(at + 2u)));
 }
 
 // An impulse in whole quanta, as physics/contact/exact_sum.glsl has them.
@@ -65,6 +66,15 @@ Quanta rest_of(Quanta a, Quanta b, Quanta c) {
 }
 
 // All low halves are added before the high ones. There are no loops and no arrays: compilers for GPUs would wait for each addition in turn.
+#ifdef ADDS_64_BITS
+#define ADD_LOW_HALVES(before, at, quanta)
+#define ADD_HIGH_HALVES(before, at, quanta)                      \
+  {                                                              \
+    atomicAdd(impulse_sum[at], packUint2x32((quanta).x));        \
+    atomicAdd(impulse_sum[(at) + 1u], packUint2x32((quanta).y)); \
+    atomicAdd(impulse_sum[(at) + 2u], packUint2x32((quanta).z)); \
+  }
+#else
 #define ADD_LOW_HALVES(before, at, quanta)                                                                        \
   uvec3 before = uvec3(ADD_LOW_HALF(impulse_sum[at], (quanta).x), ADD_LOW_HALF(impulse_sum[(at) + 1u], (quanta).y), \
                        ADD_LOW_HALF(impulse_sum[(at) + 2u], (quanta).z));
@@ -74,6 +84,7 @@ Quanta rest_of(Quanta a, Quanta b, Quanta c) {
     ADD_HIGH_HALF(impulse_sum[(at) + 1u], (quanta).y, (before).y) \
     ADD_HIGH_HALF(impulse_sum[(at) + 2u], (quanta).z, (before).z) \
   }
+#endif
 
 // Adds an impulse to the one vertex of a contact with a ground [quanta].
 void push_off(uint at, IN(real3) impulse) {
@@ -113,27 +124,29 @@ void note_pressing() {
   ATOMIC_STORE(contact_list[0].presses, 1u);
 }
 
-// The latest round so far in which a contact had not settled.
-uint unsettled_round() {
-  NEAR_ELSE(return near_unsettled_round;)
-  return ATOMIC_LOAD(contact_list[0].unsettled_round);
+// What contacts have noted so far.
+struct Notes {
+  uint unsettled_round;  // the latest one in which a contact had not settled
+  uint bounces_from;     // the first one in which a contact that bounces gave an impulse
+  uint bounce_round;     // the one in which impulses bounced
+};
+
+Notes all_notes() {
+  Notes notes;
+  NEAR_ELSE(notes.unsettled_round = near_unsettled_round; notes.bounces_from = near_bounces_from;
+            notes.bounce_round = near_bounce_round;)
+  {
+    notes.unsettled_round = ATOMIC_LOAD(contact_list[0].unsettled_round);
+    notes.bounces_from = ATOMIC_LOAD(contact_list[0].bounces_from);
+    notes.bounce_round = ATOMIC_LOAD(contact_list[0].bounce_round);
+  }
+  return notes;
 }
 void note_unsettled(uint kick_round) {
   NEAR_ELSE(near_unsettled_round = kick_round;)
   ATOMIC_STORE(contact_list[0].unsettled_round, kick_round);
 }
-
-// The first round so far in which a contact that bounces gave an impulse, and the one in which impulses bounced.
-uint bounces_from() {
-  NEAR_ELSE(return near_bounces_from;)
-  return ATOMIC_LOAD(contact_list[0].bounces_from);
-}
-uint bounce_round() {
-  NEAR_ELSE(return near_bounce_round;)
-  return ATOMIC_LOAD(contact_list[0].bounce_round);
-}
 void note_bouncing(uint kick_round) {
-  if (bounces_from() <= kick_round) return;
   NEAR_ELSE(near_bounces_from = kick_round;)
   ATOMIC_STORE(contact_list[0].bounces_from, kick_round);
 }

@@ -13,5 +13,5 @@ void test_leaves(uvec2 leaves, uvec2 first, uint stride) {
       ++tests;
     }
   }
-  if (tests != 0u) atomicAdd(control[0].count[triangle_tests], tests);
+  TALLY_UP(control[0].count[triangle_tests], tests)
 }

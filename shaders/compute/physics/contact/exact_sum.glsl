@@ -34,6 +34,11 @@ FN void add_halves(uvec2& sum, uvec2 halves, bool works_alone) {
   else
     std::atomic_ref(shared).fetch_add(whole, std::memory_order_relaxed);
 }
+using WholeSum = uvec2;
+FN uvec2 halves_of_sum(IN(WholeSum) sum) { return sum; }
+#define CLEAR_SUM(sum)       \
+  ATOMIC_STORE((sum).x, 0u); \
+  ATOMIC_STORE((sum).y, 0u);
 // A kernel knows whether its thread works alone: device/cpu/kernel_prelude.inc.
 #define ADD_LOW_HALF(sum, halves) (add_halves(sum, halves, works_alone), 0u)
 #define ADD_HIGH_HALF(sum, halves, before) static_cast<void>(before);
@@ -45,6 +50,16 @@ uvec2 halves_of(double whole) {
   return uvec2(uint(whole - high * double(4294967296.0)), uint(int(high)));
 }
 
+// How a kernel may view an array of sums. Some GPUs add 64 bits at once.
+#ifdef ADDS_64_BITS
+#define WholeSum uint64_t
+uvec2 halves_of_sum(uint64_t sum) { return unpackUint2x32(sum); }
+#define CLEAR_SUM(sum) (sum) = uint64_t(0);
+#else
+#define WholeSum uvec2
+uvec2 halves_of_sum(uvec2 sum) { return sum; }
+#define CLEAR_SUM(sum) (sum) = uvec2(0);
+#endif
 #define ADD_LOW_HALF(sum, halves) atomicAdd((sum).x, (halves).x)
 #define ADD_HIGH_HALF(sum, halves, before) atomicAdd((sum).y, (halves).y + ((before) + (halves).x < (before) ? 1u : 0u));
 #endif
@@ -57,6 +72,28 @@ uvec2 halves_of(double whole) {
     uint before_it = ADD_LOW_HALF(sum, halves_of_it); \
     ADD_HIGH_HALF(sum, halves_of_it, before_it)       \
   }
+
+// The same where all threads that come here together add to one sum. On a GPU one of them does it for all of its subgroup.
+#ifdef HAS_SUBGROUPS
+uvec2 sum_of_subgroup(uvec2 halves) {
+  uint first = subgroupAdd(halves.x & 0xffffu), second = subgroupAdd(halves.x >> 16u) + (first >> 16u);
+  return uvec2((first & 0xffffu) | second << 16u, subgroupAdd(halves.y) + (second >> 16u));
+}
+#define ADD_EXACTLY_TOGETHER(sum, whole)                     \
+  {                                                          \
+    uvec2 halves_of_all = sum_of_subgroup(halves_of(whole)); \
+    if (subgroupElect() && halves_of_all != uvec2(0)) {      \
+      uint before_all = ADD_LOW_HALF(sum, halves_of_all);    \
+      ADD_HIGH_HALF(sum, halves_of_all, before_all)          \
+    }                                                        \
+  }
+#else
+#define ADD_EXACTLY_TOGETHER(sum, whole)                     \
+  {                                                          \
+    double wanted = (whole);                                 \
+    if (wanted != double(0)) ADD_EXACTLY(sum, wanted)        \
+  }
+#endif
 
 SHARED_END
 
