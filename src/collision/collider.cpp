@@ -12,7 +12,7 @@ ResponseRow row_of(const CollisionDescription& description, bool has_contacts) {
 }
 
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
-  return parallel_items.value_or(bodies.arrays.device().parallel_items());
+  return parallel_items.value_or(bodies.arrays.device().parallel_items(bodies.body_count));
 }
 
 }  // namespace

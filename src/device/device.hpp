@@ -122,10 +122,10 @@ class Device {
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;
-  /// Returns how many items keep the device busy. That is how finely a search is best cut.
-  [[nodiscard]] virtual std::uint32_t parallel_items() const = 0;
+  /// Returns how many items keep the device busy in a scene of so many bodies. That is how finely a search is best cut.
+  [[nodiscard]] virtual std::uint32_t parallel_items(std::uint32_t bodies) const = 0;
   /// Returns how many items best share a list in strides, if only the device knows the list's length.
-  [[nodiscard]] virtual std::uint32_t items_of_lists() const = 0;
+  [[nodiscard]] virtual std::uint32_t items_of_lists(std::uint32_t bodies) const = 0;
   /// Waits until everything has run.
   virtual void finish() = 0;
 

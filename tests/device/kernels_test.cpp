@@ -420,10 +420,8 @@ TEST_CASE("boxes of trees are the same bits on CPU and GPU, and bound their tria
     const Forest& forest = bench->collider.forest();
     const auto boxes = bench->collider.trees().node_boxes();
     std::size_t wrong = 0, kept = 0;
-    std::vector<unsigned> depth(forest.nodes.size(), 0);
     for (std::size_t n = 0; n < forest.nodes.size(); ++n) {
-      if (forest.nodes[n].y != no_node) depth[n] = depth[forest.nodes[n].y] + 1;
-      if (depth[n] < bench->collider.trees().start_depth()) continue;
+      if (!is_kept(forest.nodes[n], bench->collider.trees().triangles_of_a_start())) continue;
       ++kept;
       glm::vec3 lower(1e30f), upper(-1e30f);
       for (std::uint32_t t = forest.nodes[n].z; t < forest.nodes[n].w; ++t)

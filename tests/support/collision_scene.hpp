@@ -23,12 +23,15 @@ inline std::vector<BodySetup> colliding_spheres() {
   return {left, right};
 }
 
+/// Returns whether a search starts from the node or from one above it.
+inline bool is_kept(const glm::uvec4& node, std::uint32_t triangles_of_a_start) {
+  return node.x == 0 || node.w - node.z <= triangles_of_a_start;
+}
+
 /// Returns how many nodes all trees have from where searches start down.
 inline std::uint64_t nodes_of_a_search(const Collider& collider) {
-  std::vector<unsigned> depths;
-  for (const glm::uvec4& node : collider.forest().nodes) depths.push_back(node.y == no_node ? 0 : depths[node.y] + 1);
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(depths, [&](unsigned depth) { return depth >= collider.trees().start_depth(); }));
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      collider.forest().nodes, [&](const glm::uvec4& node) { return is_kept(node, collider.trees().triangles_of_a_start()); }));
 }
 
 }  // namespace pliant

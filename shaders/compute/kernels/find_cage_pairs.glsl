@@ -10,13 +10,13 @@ READ(near_pair)
 READ(node_box)
 WRITE(leaf_pair)
 PARAMETER(uint, leaf_pair_capacity)
-PARAMETER(uint, first_start)
-PARAMETER(uint, start_count)  // subtrees of a body
+PARAMETER(uint, node_count)  // of all trees
+PARAMETER(uint, threads_of_a_pair)
 PARAMETER(uint, pairs_at_once)  // threads go on to later pairs in strides of this
 #include "parts/list_triangles.glsl"
 
 void found_leaves(uvec2 leaves) {
-  uint at = atomicAdd(control[0].leaf_pair_count, 1u);
+  uint at = atomicAdd(control[0].leaf_pair_count, 1u);  // alone: threads come here one by one
   if (at < leaf_pair_capacity)
     leaf_pair[at] = leaves;
   else

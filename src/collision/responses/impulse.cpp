@@ -152,7 +152,7 @@ class Impulse final : public Response {
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
-        items_at_once_(setting.bodies.arrays.device().items_of_lists()) {
+        items_at_once_(setting.bodies.arrays.device().items_of_lists(setting.bodies.body_count)) {
     const std::vector<physics::Surface> surfaces = surfaces_of(setting);
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
     smallest_gap_ = smallest_gap(surfaces);

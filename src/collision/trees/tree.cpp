@@ -146,18 +146,21 @@ void add_tree(Forest& forest, const Model& model, std::uint32_t body, std::span<
 
 }  // namespace
 
-std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, unsigned depth) {
-  std::vector<std::uint32_t> nodes{forest.roots[body]};
-  for (unsigned level = 0; level < depth; ++level) {
-    std::vector<std::uint32_t> below;
-    for (const std::uint32_t node : nodes) {
-      const std::uint32_t left = node == no_node ? 0 : forest.nodes[node].x;
-      below.push_back(left == 0 ? node : left);
-      below.push_back(left == 0 ? no_node : left + 1);
+std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, std::uint32_t most_triangles) {
+  std::vector<std::uint32_t> starts, open;
+  if (forest.roots[body] != no_node) open.push_back(forest.roots[body]);
+  while (!open.empty()) {
+    const std::uint32_t at = open.back();
+    const glm::uvec4& node = forest.nodes[at];
+    open.pop_back();
+    if (node.x == 0 || node.w - node.z <= most_triangles) {
+      starts.push_back(at);
+    } else {
+      open.push_back(node.x + 1);
+      open.push_back(node.x);
     }
-    nodes = std::move(below);
   }
-  return nodes;
+  return starts;
 }
 
 Forest build_forest(const Model& model, std::span<const glm::vec4> positions, const TreeDescription& description) {

@@ -29,9 +29,9 @@ struct Forest {
   unsigned depth = 0;                                   // of the deepest node, where a root has depth 0
 };
 
-/// Returns the nodes of a body from which a search starts: those at `depth`, and leaves above it. There are 2^depth places. Each
-/// node has one, and the others hold no_node.
-[[nodiscard]] std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, unsigned depth);
+/// Returns the nodes of a body from which a search may start. They are leaves, and the highest nodes that have `most_triangles`
+/// or fewer.
+[[nodiscard]] std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, std::uint32_t most_triangles);
 
 /// Builds all trees, top-down. A node of more than leaf_size triangles above max_depth is split. One that cannot be split is a
 /// leaf, whatever its size. `positions` are those of the model's vertices (rest or world) [m]. They must be finite, and w is

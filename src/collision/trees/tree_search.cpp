@@ -23,22 +23,43 @@ std::vector<std::uint32_t> corners_of(const Forest& forest) {
   return corners;
 }
 
-// A search starts from pairs of nodes at one depth of both trees, as many as keep the device busy if each body is near another,
-// or 16 pairs of few bodies are. It needs nothing above that depth.
-unsigned start_depth_for(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
-  const std::uint32_t pairs = std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, std::max(body_count, 16u));
-  const auto depth = static_cast<unsigned>(std::bit_width(std::max(parallel_items / pairs, 1u)) - 1) / 2;
-  return std::min(depth, forest.depth);
+std::uint32_t pairs_expected(std::uint32_t body_count) {
+  return std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, std::max(body_count, 16u));
 }
 
-// Returns the forest's nodes, cut off above the nodes that searches start from. Behind them stand those nodes' indices.
-std::vector<glm::uvec4> cut_nodes(const Forest& forest, unsigned start_depth) {
-  std::vector<glm::uvec4> nodes = forest.nodes;
-  for (std::uint32_t body = 0; body < forest.roots.size(); ++body)
-    for (const std::uint32_t start : start_nodes(forest, body, start_depth)) {
-      if (start != no_node) nodes[start].y = no_node;
-      nodes.emplace_back(start, 0, 0, 0);
+// Subtrees of about one size make threads end together, whatever the sizes of bodies. If each body met another one as large, this
+// many triangles a subtree would keep the device busy, or one subtree a body does.
+std::uint32_t fewest_triangles_of_a_start(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
+  const auto subtree_pairs = [&](std::uint32_t most_triangles) {
+    std::uint64_t pairs = 0;
+    for (std::uint32_t body = 0; body < body_count; ++body) {
+      if (forest.roots[body] == no_node) continue;
+      const glm::uvec4& root = forest.nodes[forest.roots[body]];
+      const std::uint64_t subtrees = (root.w - root.z - 1) / most_triangles + 1;
+      pairs += subtrees * subtrees;
     }
+    return pairs;
+  };
+  const std::uint64_t enough = std::max(std::uint64_t{2} * parallel_items, std::uint64_t{body_count});
+  std::uint32_t most_triangles = 1;
+  while (subtree_pairs(most_triangles) > enough) most_triangles *= 2;
+  return most_triangles;
+}
+
+// Returns the forest's nodes, cut off above the nodes that searches start from. Behind them stands for each body where its starts
+// begin and how many they are, and then the starts.
+std::vector<glm::uvec4> cut_nodes(const Forest& forest, std::uint32_t most_triangles) {
+  std::vector<glm::uvec4> nodes = forest.nodes, starts;
+  const std::size_t first_start = forest.nodes.size() + forest.roots.size();
+  for (std::uint32_t body = 0; body < forest.roots.size(); ++body) {
+    const std::vector<std::uint32_t> of_body = start_nodes(forest, body, most_triangles);
+    nodes.emplace_back(first_start + starts.size(), of_body.size(), 0, 0);
+    for (const std::uint32_t start : of_body) {
+      nodes[start].y = no_node;
+      starts.emplace_back(start, 0, 0, 0);
+    }
+  }
+  nodes.insert(nodes.end(), starts.begin(), starts.end());
   return nodes;
 }
 
@@ -54,11 +75,12 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t
       most_near_pairs_(most_near_pairs),
       leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
       node_count_(static_cast<std::uint32_t>(forest.nodes.size())),
-      start_depth_(start_depth_for(parallel_items, forest, bodies.body_count)) {
+      threads_of_a_pair_(std::max(parallel_items / pairs_expected(bodies.body_count), 1u)),
+      triangles_of_a_start_(fewest_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
   Arrays& arrays = bodies.arrays;
   arrays.make("tree", trees_of(forest));
   arrays.make("leaf", forest.leaves);
-  arrays.make("node", cut_nodes(forest, start_depth_));
+  arrays.make("node", cut_nodes(forest, triangles_of_a_start_));
   arrays.make<glm::vec4>("node_box", 2 * forest.nodes.size());
   arrays.make("triangle", corners_of(forest));
   arrays.make<std::uint32_t>("arrival", forest.nodes.size());
@@ -70,28 +92,27 @@ Pass TreeSearch::refitting_pass(std::uint32_t half) const {
 }
 
 Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const {
-  const std::uint32_t starts = start_count(), pairs = near_pairs_at_once();
+  const std::uint32_t pairs = near_pairs_at_once();
   return make_pass(bodies_.arrays, "find_pairs",
                    {{"first_position", bodies_.first_of_half(half)},
                     {"triangle_test", static_cast<std::uint32_t>(test_beyond_capacity)},
                     {"leaf_pair_capacity", leaf_pair_capacity},
-                    {"first_start", node_count_},
-                    {"start_count", starts},
+                    {"node_count", node_count_},
+                    {"threads_of_a_pair", threads_of_a_pair_},
                     {"pairs_at_once", pairs}},
-                   pairs * starts * starts);
+                   pairs * threads_of_a_pair_);
 }
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
-  const std::uint32_t starts = start_count(), pairs = near_pairs_at_once(),
-                      leaf_pairs = bodies_.arrays.device().items_of_lists() / 4;
+  const std::uint32_t pairs = near_pairs_at_once(), leaf_pairs = bodies_.arrays.device().items_of_lists(bodies_.body_count) / 4;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
           make_pass(bodies_.arrays, "find_cage_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
                      {"triangle_pair_capacity", triangle_pair_capacity},
-                     {"first_start", node_count_},
-                     {"start_count", starts},
+                     {"node_count", node_count_},
+                     {"threads_of_a_pair", threads_of_a_pair_},
                      {"pairs_at_once", pairs}},
-                    pairs * starts * starts),
+                    pairs * threads_of_a_pair_),
           make_pass(bodies_.arrays, "list_triangle_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
                      {"triangle_pair_capacity", triangle_pair_capacity},
@@ -100,7 +121,7 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
 }
 
 std::uint32_t TreeSearch::near_pairs_at_once() const {
-  return pairs_at_once(parallel_items_, start_count() * start_count(), most_near_pairs_);
+  return pairs_at_once(parallel_items_, threads_of_a_pair_, most_near_pairs_);
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {

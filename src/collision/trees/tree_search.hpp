@@ -28,22 +28,22 @@ class TreeSearch {
   /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
   [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;
 
-  /// Searches start from the nodes at this depth. Boxes of those above are not kept.
-  [[nodiscard]] unsigned start_depth() const { return start_depth_; }
+  /// Searches start from leaves, and from the highest nodes with so many triangles or fewer. Boxes of those above are not kept.
+  [[nodiscard]] std::uint32_t triangles_of_a_start() const { return triangles_of_a_start_; }
   /// Returns the latest search's pairs of leaves whose boxes overlap, in no fixed order. There are as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
   /// Returns [node][2]: lower and upper corners [m], from the latest refit of the node's body.
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
 
  private:
-  [[nodiscard]] std::uint32_t start_count() const { return 1u << start_depth_; }
   [[nodiscard]] std::uint32_t near_pairs_at_once() const;
 
   DeviceBodies& bodies_;
   std::uint32_t parallel_items_;
   std::uint32_t most_near_pairs_;
   std::uint32_t leaf_count_, node_count_;
-  unsigned start_depth_;
+  std::uint32_t threads_of_a_pair_;  // of two near bodies
+  std::uint32_t triangles_of_a_start_;
 };
 
 }  // namespace pliant

@@ -141,8 +141,8 @@ class CpuDevice final : public Device {
     pool_.for_ranges(item_count, grain_of(entry),
                      [&](std::uint32_t first, std::uint32_t end) { entry.function(arguments, first, end); });
   }
-  std::uint32_t parallel_items() const override { return 256; }
-  std::uint32_t items_of_lists() const override { return 256; }
+  std::uint32_t parallel_items(std::uint32_t) const override { return 256; }
+  std::uint32_t items_of_lists(std::uint32_t) const override { return 256; }
   void finish() override {}
   void mark_time() override {
     times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());

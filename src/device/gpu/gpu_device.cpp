@@ -164,9 +164,13 @@ class GpuDevice final : public Device {
     ahead_.clear();
     for (const Pass& pass : passes) dispatch(pass);
   }
-  std::uint32_t parallel_items() const override { return context_.adapter().is_software ? 256 : 65536; }
+  std::uint32_t parallel_items(std::uint32_t bodies) const override {
+    return context_.adapter().is_software ? 256 : threads_for(bodies);
+  }
   // tree_search.cpp says why llvmpipe needs more than keep it busy.
-  std::uint32_t items_of_lists() const override { return context_.adapter().is_software ? 4096 : 65536; }
+  std::uint32_t items_of_lists(std::uint32_t bodies) const override {
+    return context_.adapter().is_software ? 4096 : threads_for(bodies);
+  }
   void finish() override { glFinish(); }
   void mark_time() override {
     glGenQueries(1, &marks_.emplace_back());
@@ -234,6 +238,9 @@ class GpuDevice final : public Device {
     }
     return false;
   }
+
+  // Of searches and lists. Those of few bodies are short, and threads with nothing to do take time, too.
+  static std::uint32_t threads_for(std::uint32_t bodies) { return 65536 * std::clamp(bodies / 16, 1u, 4u); }
 
   const gl::Buffer& storage(BufferId buffer) const { return buffers_.at(buffer); }
 

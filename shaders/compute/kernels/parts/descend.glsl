@@ -42,13 +42,13 @@ uint descend(uvec2 roots) {
   return tests;
 }
 
+// Behind the nodes of all trees stands for each body where its subtrees begin in `node`, and how many they are.
 void descend_trees(uint item) {
   uint tests = 0u;
-  uint subtree = item % (start_count * start_count);
-  for (uint k = item / (start_count * start_count); k < control[0].near_pair_count; k += pairs_at_once) {
-    uvec2 roots = uvec2(node[first_start + near_pair[k].x * start_count + subtree % start_count].x,
-                        node[first_start + near_pair[k].y * start_count + subtree / start_count].x);
-    if (roots.x != no_node && roots.y != no_node) tests += descend(roots);
+  for (uint k = item / threads_of_a_pair; k < control[0].near_pair_count; k += pairs_at_once) {
+    uvec4 first = node[node_count + near_pair[k].x], second = node[node_count + near_pair[k].y];
+    for (uint s = item % threads_of_a_pair; s < first.y * second.y; s += threads_of_a_pair)
+      tests += descend(uvec2(node[first.x + s % first.y].x, node[second.x + s / first.y].x));
   }
-  if (tests != 0u) atomicAdd(control[0].count[node_tests], tests);
+  TALLY_UP(control[0].count[node_tests], tests)
 }
