@@ -9,7 +9,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/bench_command.hpp"
@@ -149,6 +152,14 @@ void expect_beginning(const CLI::App& run) {
     throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
 }
 
+Skipping skipping_without(std::string_view kind) {
+  Skipping skipping;
+  if (kind == "all" || kind == "forces") skipping.forces = false;
+  if (kind == "all" || kind == "rest") skipping.rest = false;
+  if (kind == "all" || kind == "quiet_steps") skipping.quiet_steps = false;
+  return skipping;
+}
+
 void add_run(CLI::App& program, RunOptions& options) {
   CLI::App* run = program.add_subcommand("run", "Simulate a scene and write pictures and numbers");
   run->add_option("scene", options.scene, "Scene file (TOML)")->check(not_empty("name a file"));
@@ -161,11 +172,17 @@ void add_run(CLI::App& program, RunOptions& options) {
   add_checkpoints(*run, options);
   run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little")
       ->excludes(run->get_option("--checkpoint"));
-  run->add_flag("!--no-skipping", options.skipping, "Also do what is known to change nothing, with the same results");
+  const auto kind = std::make_shared<std::string>();
+  run->add_flag("--no-skipping{all}", *kind,
+                "Also do what is known to change nothing, or =forces, =rest or =quiet_steps alone, with the same results")
+      ->check(CLI::IsMember({"all", "forces", "rest", "quiet_steps"}));
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
   refuse_beside_resume(*run);
-  run->callback([run] { expect_beginning(*run); });
+  run->callback([run, kind, &options] {
+    expect_beginning(*run);
+    options.skipping = skipping_without(*kind);
+  });
 }
 
 void add_view(CLI::App& program, app::ViewOptions& options) {

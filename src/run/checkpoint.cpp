@@ -18,7 +18,7 @@ namespace {
 
 // A checkpoint holds these structs as bytes of memory. If you change one, raise checkpoint_version too: the sizes here do not
 // show a changed order. It also holds a scene's text. If a default of scenes changes, raise it, too: a run must end as it began.
-static_assert(checkpoint_version == 31 && sizeof(physics::Cluster) == 304 && sizeof(physics::Pose) == 200 &&
+static_assert(checkpoint_version == 32 && sizeof(physics::Cluster) == 304 && sizeof(physics::Pose) == 200 &&
                   sizeof(physics::Status) == 48 && sizeof(physics::Tally) == 20 && sizeof(physics::Control) == 176 &&
                   sizeof(physics::Pace) == 192 && sizeof(physics::StepParts) == 40 && sizeof(physics::Debt) == 40 &&
                   sizeof(physics::Impact) == 16 && sizeof(RunProgress) == 328,
@@ -30,8 +30,9 @@ void visit_options(Archive& archive, Options& options) {
   auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
          interval, resume, scene_text, timings, skipping, check, quiet] = options;
   auto& [kind, gpu_index, precision, threads] = device;
+  auto& [skips_forces, skips_rest, skips_quiet_steps] = skipping;
   archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
-          interval, skipping);
+          interval, skips_forces, skips_rest, skips_quiet_steps);
 }
 
 // Serves writing and reading.

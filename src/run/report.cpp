@@ -69,13 +69,15 @@ std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
                      report.adaptive->largest_step, report.adaptive->rejected, report.adaptive->rejected_in_contact);
 }
 
-void show_timings(const std::map<std::string_view, double>& pass_seconds, std::uint64_t steps) {
+void show_timings(const Simulation& simulation, std::uint64_t steps) {
+  const std::map<std::string_view, double>& pass_seconds = simulation.pass_seconds();
   double all = 0;
   for (const auto& [pass, seconds] : pass_seconds) all += seconds;
   fmt::print("{:<20} {:>12} {:>8}\n", "pass", "us a step", "share");
   for (const auto& [pass, seconds] : pass_seconds)
     fmt::print("{:<20} {:>12.2f} {:>6.1f} %\n", pass, 1e6 * seconds / static_cast<double>(steps), 100 * seconds / all);
   fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(steps));
+  fmt::print("{:<20} {:>12.2f}\n", "launches a step", static_cast<double>(simulation.launches()) / static_cast<double>(steps));
 }
 
 bool meets_by_impulses(const Simulation& simulation) { return simulation.collider().response_row().gives_impulses; }
@@ -243,7 +245,7 @@ void show_end(const RunStatus& status) {
     fmt::print("contacts took {:.4g} J{}, and gave {:.4g} J\n", contacts.energy_taken,
                contacts.friction_work > 0 ? fmt::format(", of which friction {:.4g} J", contacts.friction_work) : "",
                contacts.energy_given);
-  if (options.timings && report.steps > 0) show_timings(run.simulation->pass_seconds(), report.steps);
+  if (options.timings && report.steps > 0) show_timings(*run.simulation, report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }
 

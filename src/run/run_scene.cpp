@@ -61,7 +61,7 @@ class Run {
 
   int execute() try {
     if (options_.timings) run_.simulation->time_passes();
-    if (!options_.skipping) run_.simulation->skip(false);
+    if (options_.skipping != Skipping{}) run_.simulation->skip(options_.skipping);
     report_ = run_.simulation->report();
     if (checkpoints_.is_wanted()) keep_checkpoint(now());  // replaces another run's at once
     if (!options_.resume.empty() && !options_.quiet) show_beginning(status());

@@ -8,6 +8,7 @@
 
 #include "output/frames.hpp"
 #include "run/choose_device.hpp"
+#include "simulation/simulation.hpp"
 
 namespace pliant {
 
@@ -39,7 +40,7 @@ struct RunOptions {
   std::filesystem::path resume;
   std::optional<std::string> scene_text;  // used instead of the scene file's content
   bool timings = false;                   // measure each kind of pass
-  bool skipping = true;                   // leave out what is known to change nothing
+  Skipping skipping;                      // what steps leave out
   bool check = false;                     // validate and estimate only
   bool quiet = false;
 };

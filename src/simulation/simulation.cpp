@@ -100,15 +100,15 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     known_pace_ = pacer_->pace();
   }
   device.run(stepper_.first_passes());
-  skip(true);
+  skip({});
 }
 
-void Simulation::skip(bool skips) {
-  bodies_.arrays.set_parameter("skips", skips ? 1u : 0u);
-  if (!skips) bodies_.look_at_bodies_at_rest();
+void Simulation::skip(const Skipping& what) {
+  bodies_.arrays.set_parameter("skips", (what.forces ? physics::skips_forces : 0) | (what.rest ? physics::skips_rest : 0));
+  if (!what.rest) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
   quiet_.reset();
-  if (skips && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
+  if (what.quiet_steps && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -137,6 +137,7 @@ void Simulation::queue_in_batches(std::uint64_t steps, const std::function<bool(
 }
 
 void Simulation::run(std::span<const Pass> passes) {
+  for (const Pass& pass : passes) launches_ += pass.item_count > 0 ? 1 : 0;
   if (timed_)
     run_timed(device_, passes, pass_seconds_);
   else

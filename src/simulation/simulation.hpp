@@ -80,6 +80,17 @@ struct Intersections {
   std::vector<std::uint32_t> bodies;  // bodies with a touching triangle, ascending
 };
 
+/// What steps leave out because it is known to change nothing.
+struct Skipping {
+  bool forces = true;       // of bodies that are not deformed
+  bool rest = true;         // all that is done for bodies at rest
+  bool quiet_steps = true;  // the search for contacts, and dispatches, where no contact can need an answer
+
+  bool operator==(const Skipping&) const = default;
+};
+
+inline constexpr Skipping skip_nothing{.forces = false, .rest = false, .quiet_steps = false};
+
 class Simulation {
  public:
   /// At most so many steps are queued before `stops` is asked, before parts of steps or quiet steps are counted, and with a
@@ -105,10 +116,12 @@ class Simulation {
   StepReport advance_to(double time);
   /// Turns on or off that steps measure the time of each pass. Measured steps are slower: see run_timed.
   void time_passes(bool timed = true) { timed_ = timed; }
-  /// Turns on or off that steps leave out what is known to change nothing. Results are the same.
-  void skip(bool skips);
+  /// Says what steps leave out. Results are the same. Without this call it is everything.
+  void skip(const Skipping& what);
   /// Returns the device time of all measured passes by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
+  /// Returns how many passes have been started, each as one dispatch or more.
+  [[nodiscard]] std::uint64_t launches() const { return launches_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
   /// The next four wait for the queued steps.
@@ -171,6 +184,7 @@ class Simulation {
   std::uint64_t pause_ = 1;                        // steps to queue if the next try makes none
   bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
+  std::uint64_t launches_ = 0;
 };
 
 }  // namespace pliant

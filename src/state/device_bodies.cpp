@@ -146,7 +146,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.set_parameter("vertex_count", vertex_count);
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);
-  arrays.set_parameter("skips", 1u);
+  arrays.set_parameter("skips", physics::skips_forces | physics::skips_rest);
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make("place_box", std::vector(body_count, empty_box()));

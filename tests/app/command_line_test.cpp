@@ -144,6 +144,7 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + scene + " --fly", 2, {"pliant: ", "--fly"});
   check_fails("run " + scene + " --device quantum", 2, {"--device"});
   check_fails("run " + scene + " --precision 16", 2, {"--precision"});
+  check_fails("run " + scene + " --no-skipping=much", 2, {"--no-skipping", "quiet_steps"});
   check_fails("run " + scene + " --device gpu --precision 64", 2, {"precision", "CPU"});
   check_fails("run " + scene + " --device cpu --gpu 0", 2, {"--gpu"});
   check_fails("run " + scene + " --steps 3 --duration 1", 2, {"--steps"});

@@ -37,7 +37,7 @@ struct Runs {
        const CollisionDescription& collision = by_impulses)
       : quiet(device, start.model, start.state, plan(method, sleeps), collision),
         busy(device, start.model, start.state, plan(method, sleeps), collision) {
-    busy.skip(false);
+    busy.skip(skip_nothing);
   }
   static TimePlan plan(const Method& method, bool sleeps) {
     TimePlan plan = plan_of(method);

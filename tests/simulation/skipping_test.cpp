@@ -8,8 +8,8 @@
 namespace pliant {
 namespace {
 
-// Layers of spheres at rest, a static cube beside them, and two spheres that fly into them. Some rest within the gap of each other, and
-// those of `spacing` 0.82 within an edge. In some scenes there is a floor below.
+// Layers of spheres at rest, a static cube beside them, and two spheres that fly into them. Some rest within the gap of each
+// other, and those of `spacing` 0.82 within an edge. In some scenes there is a floor below.
 ModelAndState balls_into_others(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -46,10 +46,10 @@ void check_same_results(Simulation& skips, Simulation& does_all) {
   CHECK(b.forces_skipped == 0);
 }
 
-struct Skipping {
-  Skipping(Device& device, const ModelAndState& start, const TimePlan& plan, const CollisionDescription& collision)
+struct Twins {
+  Twins(Device& device, const ModelAndState& start, const TimePlan& plan, const CollisionDescription& collision)
       : skips(device, start.model, start.state, plan, collision), does_all(device, start.model, start.state, plan, collision) {
-    does_all.skip(false);
+    does_all.skip(skip_nothing);
   }
   void advance(std::uint64_t steps) {
     for (Simulation* simulation : {&skips, &does_all}) simulation->advance(steps);
@@ -71,8 +71,8 @@ TEST_CASE("bodies fly into others at rest to the bit as if none were left alone"
       CAPTURE(response, seed);
       ModelAndState start = balls_into_others(seed);
       if (std::string_view(response) == "reflect") start.model.grounds.clear();
-      Skipping runs(*device, start, plan_of({seed % 2 == 0 ? "verlet" : "cv8", seed % 5 == 0 ? 0.005 : 0.002}),
-                    answered_by(response));
+      Twins runs(*device, start, plan_of({seed % 2 == 0 ? "verlet" : "cv8", seed % 5 == 0 ? 0.005 : 0.002}),
+                 answered_by(response));
       for (int look = 0; look < 8; ++look) {
         runs.advance(40);
         check_same_results(runs.skips, runs.does_all);
@@ -86,11 +86,32 @@ TEST_CASE("bodies at rest are left alone to the bit on every device", "[gl]") {
   const ModelAndState start = balls_into_others(5);
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
-    Skipping runs(*test.device, start, plan_of({"verlet", 0.005}), answered_by("impulse"));
+    Twins runs(*test.device, start, plan_of({"verlet", 0.005}), answered_by("impulse"));
     runs.advance(60);
     check_same_results(runs.skips, runs.does_all);
     CHECK(runs.skips.report().contact_steps > 0);
     CHECK(runs.skips.report().steps_at_rest > 2 * 60);
+  }
+}
+
+TEST_CASE("each kind of work can be done alone, with the same bits", "[gl]") {
+  const ModelAndState start = balls_into_others(5);
+  constexpr Skipping kinds[] = {{.forces = false}, {.rest = false}, {.quiet_steps = false}};
+  for (const TestDevice& test : all_devices()) {
+    Twins skips_all(*test.device, start, plan_of({"verlet", 0.005}), answered_by("impulse"));
+    skips_all.advance(60);
+    const std::uint64_t fewest_forces = skips_all.skips.report().force_evaluations;
+    for (const Skipping& kind : kinds) {
+      CAPTURE(test.name, kind.forces, kind.rest, kind.quiet_steps);
+      Twins runs(*test.device, start, plan_of({"verlet", 0.005}), answered_by("impulse"));
+      runs.skips.skip(kind);
+      runs.advance(60);
+      CHECK(runs.skips.state().motion == runs.does_all.state().motion);
+      const StepReport report = runs.skips.report();
+      CHECK((report.force_evaluations > fewest_forces) == !kind.forces);
+      CHECK((report.steps_at_rest > 0) == kind.rest);
+      CHECK((kind.quiet_steps || report.quiet_steps == 0));
+    }
   }
 }
 
@@ -99,7 +120,7 @@ TEST_CASE("with a tolerance, too, bodies at rest are left alone to the bit") {
   for (const char* response : {"impulse", "reflect"}) {
     CAPTURE(response);
     ModelAndState start = balls_into_others(2);
-    Skipping runs(*device, start, plan_of(Adaptive{.tolerance = 1e-5}, start.model), answered_by(response));
+    Twins runs(*device, start, plan_of(Adaptive{.tolerance = 1e-5}, start.model), answered_by(response));
     for (Simulation* simulation : {&runs.skips, &runs.does_all}) static_cast<void>(simulation->advance_to(0.3));
     check_same_results(runs.skips, runs.does_all);
     CHECK(runs.skips.report().steps == runs.does_all.report().steps);
@@ -114,7 +135,7 @@ TEST_CASE("a body at rest moves when it is pulled, and wakes those that it meets
     std::vector<BodySetup> setups(2, soft(generate_mesh("icosphere:1"), "ball"));
     setups[1].description.position = {2.2, 0, 0};
     const ModelAndState start = build_model(setups, glm::dvec3(0.0));
-    Skipping runs(*device, start, plan_of({"verlet", 0.005}), answered_by(response));
+    Twins runs(*device, start, plan_of({"verlet", 0.005}), answered_by(response));
     runs.advance(10);
     CHECK(runs.skips.report().steps_at_rest == 2 * 7);  // of each body three pass until it is known to be at rest
     CHECK(runs.skips.state().motion == start.state.motion);

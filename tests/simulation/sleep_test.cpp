@@ -282,7 +282,7 @@ TEST_CASE("sleep gives the same bits on any number of threads, after saving, and
       shared_out(*three, start.model, start.state, sleeping(), by_impulses),
       does_all(*one, start.model, start.state, sleeping(), by_impulses),
       resumed(*one, start.model, start.state, sleeping(), by_impulses);
-  does_all.skip(false);
+  does_all.skip(skip_nothing);
   for (Simulation* simulation : {&whole, &shared_out, &does_all}) simulation->advance(580);
   REQUIRE(whole.report().bodies_asleep == 2);
   resumed.restore(whole.save());

@@ -20,7 +20,7 @@ READ(motion)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
 PARAMETER(uint, body_count)
-PARAMETER(uint, skips)  // 1: bodies at rest are left alone
+PARAMETER(uint, skips)
 PARAMETER(uint, forces_of_a_step)
 void count_frame_change(uint b) { tally[b].frame_changes += 1u; }
 #include "parts/follow_rotation.glsl"
@@ -101,7 +101,7 @@ void count_calm_steps(uint b) {
   if (status[b].calm >= at_rest && status[b].asleep == 0u && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
   if (is_still(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
   if (status[b].activity == moving || status[b].activity == immovable) {
-    uint most = status[b].disturbed == 0u && skips != 0u ? at_rest : quiet;
+    uint most = status[b].disturbed == 0u && (skips & skips_rest) != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
   } else if (status[b].disturbed != 0u) {
     status[b].calm = min(status[b].calm, quiet);  // what a step that was undone found of it does not stand

@@ -67,6 +67,10 @@ struct Status {
 const uint quiet = 2u;
 const uint at_rest = 3u;
 const uint forgotten = 4u;  // at rest, but what a step finds of it is lost, so that the next one has to look
+// Bits of the parameter `skips`: what is left out because it changes nothing.
+const uint skips_forces = 1u;  // of bodies that are not deformed
+const uint skips_rest = 2u;    // all that is done for bodies at rest
+
 FN bool is_idle(IN(Status) s) { return s.calm == at_rest && s.disturbed == 0u; }
 FN bool is_asleep(IN(Status) s) { return s.asleep != 0u && s.disturbed == 0u; }
 // Whether the step does not move it, unless something pushes it.

@@ -4,13 +4,13 @@
 // - after_force(), which returns the coordinate it came to
 // - settle() with all three coordinates, if the kernel settles()
 PARAMETER(uint, first_share)  // of those that this variant serves
-PARAMETER(uint, skips)        // 1: what is known beforehand is left out
+PARAMETER(uint, skips)
 
 bool halted(IN(Share) s) { return status[s.body_index].activity != moving || is_still(status[s.body_index]); }
 
 // Whether springs have to be summed. If no vertex moves relative to another, every spring is at rest. Halted bodies and those at
 // rest need no sum either, and the frame around may ask before it knows that a body is halted.
-bool deformed(IN(Share) s) { return (status[s.body_index].deformed != 0u || skips == 0u) && !halted(s); }
+bool deformed(IN(Share) s) { return (status[s.body_index].deformed != 0u || (skips & skips_forces) == 0u) && !halted(s); }
 
 #ifdef QUIET
 void count_force(IN(Share) s, bool summed) {}  // end_quiet_steps counts
