@@ -7,7 +7,6 @@
 #include "../physics/contact/surface.glsl"
 WRITE(control)
 READ(near_pair)
-READ(node_box)
 WRITE(leaf_pair)
 PARAMETER(uint, leaf_pair_capacity)
 PARAMETER(uint, node_count)  // of all trees

@@ -1,4 +1,4 @@
-// One thread lists a quarter of the pairs of triangles of two leaves whose cages overlap. All threads share the list of leaf pairs in
+// One thread, or a few of them, list the pairs of triangles of two leaves whose cages overlap. All threads share the list of leaf pairs in
 // strides.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -9,9 +9,11 @@ READ(control)
 READ(leaf_pair)
 PARAMETER(uint, leaf_pair_capacity)
 PARAMETER(uint, pairs_at_once)
+PARAMETER(uint, threads_of_a_pair)
 #include "parts/list_triangles.glsl"
 
 void list_triangle_pairs(uint item) {
   uint count = min(control[0].leaf_pair_count, leaf_pair_capacity);
-  for (uint k = item / 4u; k < count; k += pairs_at_once) list_triangles(leaf_pair[k], item % 4u, 4u);
+  for (uint k = item / threads_of_a_pair; k < count; k += pairs_at_once)
+    list_triangles(leaf_pair[k], item % threads_of_a_pair, threads_of_a_pair);
 }

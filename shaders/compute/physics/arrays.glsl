@@ -79,7 +79,6 @@ ARRAY(surplus, double, vertex, carried, "[3][vertex][3] of the surplus over the 
 ARRAY(cage, vec4, vertex, step, "[vertex][4] lower, upper: where the vertex stays in the step, then the same of the way it is expected to go, and later of the way it went [m]")
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
 ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order: the third vertex of the triangle across each edge, or 0xffffffff; then bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")
-ARRAY(triangle_bounds, vec4, triangle, step, "[triangle][4] lower, upper: of its corners' cages, then of the ways that they are expected to go [m]; in leaf order")
 ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in leaf order, the second with the bit ways_meet; pairs are in no fixed order")
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
 ARRAY(contact, real, contact, step, "[contact][6][4] physics/contact/contact.glsl has the rows")

@@ -168,7 +168,7 @@ class Impulse final : public Response {
     make_step_parts();
     make_motions();
     bodies_.arrays.make("triangle_around", surroundings(setting.forest, bodies_.vertex_count));
-    make_lists(setting.forest.triangles.size());
+    make_lists();
     make_kept_impulses();
     make_debts(setting.model);
     if (std::ranges::any_of(surfaces, [](const physics::Surface& surface) { return surface.restitution >= 0; })) make_impacts();
@@ -352,9 +352,8 @@ class Impulse final : public Response {
   }
 
   // Pairs of triangles, contacts, and sums of what they give.
-  void make_lists(std::size_t triangles) {
+  void make_lists() {
     Arrays& arrays = bodies_.arrays;
-    arrays.make<glm::vec4>("triangle_bounds", 4 * triangles);
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity_);
     arrays.make<glm::uvec4>("contact_vertex", contact_capacity);

@@ -104,7 +104,10 @@ Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capac
 }
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
-  const std::uint32_t pairs = near_pairs_at_once(), leaf_pairs = bodies_.arrays.device().items_of_lists(bodies_.body_count) / 4;
+  const Device& device = bodies_.arrays.device();
+  const std::uint32_t pairs = near_pairs_at_once(),
+                      threads = device.info().kind == DeviceKind::gpu ? 4 : 1,  // of a pair of leaves: a GPU waits for its slowest
+                      leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
           make_pass(bodies_.arrays, "find_cage_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
@@ -116,8 +119,9 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
           make_pass(bodies_.arrays, "list_triangle_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
                      {"triangle_pair_capacity", triangle_pair_capacity},
-                     {"pairs_at_once", leaf_pairs}},
-                    4 * leaf_pairs)};
+                     {"pairs_at_once", leaf_pairs},
+                     {"threads_of_a_pair", threads}},
+                    threads * leaf_pairs)};
 }
 
 std::uint32_t TreeSearch::near_pairs_at_once() const {

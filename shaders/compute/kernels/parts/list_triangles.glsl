@@ -2,7 +2,8 @@
 // `first` on. Pairs are counted beyond the list's end, too, which says that it is full. An island has no flight if the cage of one of its
 // triangles overlaps that of a static one and meets its plane.
 READ(node)
-READ(triangle_bounds)
+READ(node_box)
+READ(cage)
 READ(triangle)
 READ(rest_position)
 READ(surface)
@@ -12,14 +13,14 @@ WRITE(triangle_pair)
 WRITE(cluster)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, has_static_bodies)
-#include "kept_boxes.glsl"
+#include "boxes_in_motion.glsl"
 
 dvec3 corner_at(uint t, uint k) { return LOAD3(start, start_position_of(triangle[corner_of(t, k)])); }
 
 // Whether the cage of a triangle meets the plane of another one.
 bool meets_plane(uint of_cage, uint of_plane) {
-  PaddedBox cage = kept_box(triangle_cage_of(of_cage));
-  dvec3 lower = dvec3(vec3(cage.lower)), upper = dvec3(vec3(cage.upper)), corner = corner_at(of_plane, 0u);
+  PaddedBox cages = box_of_cages(of_cage);
+  dvec3 lower = dvec3(vec3(cages.lower)), upper = dvec3(vec3(cages.upper)), corner = corner_at(of_plane, 0u);
   dvec3 normal = cross(corner_at(of_plane, 1u) - corner, corner_at(of_plane, 2u) - corner);
   return abs(dot(normal, double(0.5) * (lower + upper) - corner)) <= dot(abs(normal), double(0.5) * (upper - lower));
 }
@@ -48,19 +49,48 @@ void list_pairs(uint s, uint t, uint near, uint meeting) {
   }
 }
 
+PaddedBox box_of_leaf(uint n) {
+  PaddedBox box;
+  box.lower = node_box[lower_of(n)];
+  box.upper = node_box[upper_of(n)];
+  return box;
+}
+
+// Returns those triangles from t on that are set in `among` and whose cages overlap a box.
+uint with_cages_in(IN(PaddedBox) box, uint t, uint among) {
+  uint near = 0u;
+  for (; among != 0u; among &= among - 1u) {
+    uint k = uint(findLSB(among));
+    if (overlaps(box, box_of_cages(t + k))) near |= 1u << k;
+  }
+  return near;
+}
+
+// Returns those of them whose expected ways come near that of s.
+uint with_ways_to(uint s, uint t, uint near) {
+  PaddedBox ways = box_of_ways(s);
+  uint meeting = 0u;
+  for (; near != 0u; near &= near - 1u) {
+    uint k = uint(findLSB(near));
+    if (overlaps(ways, box_of_ways(t + k))) meeting |= 1u << k;
+  }
+  return meeting;
+}
+
+// The leaves' boxes leave out most triangles before they are compared with each other.
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
-  for (uint s = a.z + first; s < a.w; s += stride) {
-    PaddedBox cages = kept_box(triangle_cage_of(s)), ways = kept_box(triangle_way_box_of(s));
-    for (uint t = b.z; t < b.w; t += 32u) {
-      uint near = 0u, meeting = 0u;
-      for (uint k = 0u; k < min(b.w - t, 32u); ++k) {
-        if (!overlaps(cages, kept_box(triangle_cage_of(t + k)))) continue;
-        near |= 1u << k;
-        if (overlaps(ways, kept_box(triangle_way_box_of(t + k)))) meeting |= 1u << k;
-      }
-      if (near != 0u) list_pairs(s, t, near, meeting);
-      if (near != 0u && has_static_bodies != 0u) end_flight_beside_static(s, t, near);
+  PaddedBox of_first = box_of_leaf(leaves.x), of_second = box_of_leaf(leaves.y);
+  for (uint t = b.z; t < b.w; t += 32u) {
+    uint among = with_cages_in(of_first, t, 0xffffffffu >> (32u - min(b.w - t, 32u)));
+    if (among == 0u) continue;
+    for (uint s = a.z + first; s < a.w; s += stride) {
+      PaddedBox cages = box_of_cages(s);
+      if (!overlaps(cages, of_second)) continue;
+      uint near = with_cages_in(cages, t, among);
+      if (near == 0u) continue;
+      list_pairs(s, t, near, with_ways_to(s, t, near));
+      if (has_static_bodies != 0u) end_flight_beside_static(s, t, near);
     }
   }
 }
