@@ -19,6 +19,8 @@ using BufferId = std::uint32_t;  // 0: none
 using KernelId = std::uint32_t;
 using Parameter = std::variant<std::uint32_t, double>;
 
+inline constexpr std::size_t part_alignment = 256;  // of the first byte of a buffer's part [bytes]. OpenGL asks for no more
+
 enum class ArrayUse { read, write, constants };
 
 /// What a kernel declares, in its own order. A call gives buffers and parameters in the same order.
@@ -88,6 +90,10 @@ class Device {
 
   /// Returns a zero-filled buffer.
   [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label) = 0;
+  /// Gives a buffer more bytes. What it held is lost, and it is zero-filled again.
+  virtual void enlarge(BufferId buffer, std::size_t bytes) = 0;
+  /// Returns some bytes of a buffer as a buffer of its own, which the other must outlive.
+  [[nodiscard]] virtual BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) = 0;
   virtual void release(BufferId buffer) = 0;
   /// Returns at least what was asked for [bytes].
   [[nodiscard]] virtual std::size_t size_of(BufferId buffer) const = 0;
@@ -144,6 +150,8 @@ class DeviceArray {
   DeviceArray() = default;
   DeviceArray(Device& device, std::size_t count, std::string_view label)
       : device_(&device), count_(count), id_(device.allocate(std::max<std::size_t>(count, 1) * sizeof(T), label)) {}
+  /// Takes over a buffer that has room for the elements.
+  DeviceArray(Device& device, BufferId buffer, std::size_t count) : device_(&device), count_(count), id_(buffer) {}
   DeviceArray(Device& device, std::span<const T> values, std::string_view label) : DeviceArray(device, values.size(), label) {
     upload(values);
   }

@@ -64,7 +64,7 @@ void expect_view(const KernelSignature::Array& declared) {
 
 DeviceArray<std::uint32_t>& Arrays::make_reals(std::string_view name, std::size_t count) {
   const std::size_t words = count * static_cast<std::size_t>(device_.precision()) / 32;
-  return hold(name, "real", std::make_shared<DeviceArray<std::uint32_t>>(device_, words, name));
+  return hold(name, "real", allocate<std::uint32_t>(name, words));
 }
 
 void Arrays::expect_element(std::string_view name, std::string_view element) {
@@ -118,6 +118,7 @@ Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, con
   expect_declared(name, signature, parameters);
   Pass pass{.name = name, .call = {.kernel = kernel, .buffers = {}, .parameters = {}}, .item_count = item_count};
   try {
+    expect_apart(signature.arrays);
     for (const auto& array : signature.arrays) {
       pass.call.buffers.push_back(arrays.buffer(array.array));
       expect_view(array);

@@ -1,5 +1,6 @@
 // Holds the simulation's arrays on a device, by the names of physics/arrays.glsl. Passes find them there.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -28,6 +29,7 @@
 #include "physics/pull.glsl"
 #include "physics/quiet.glsl"
 #include "physics/rigid_motion.glsl"
+#include "state/shared_memory.hpp"
 
 namespace pliant {
 
@@ -93,14 +95,15 @@ consteval std::string_view expected_element() {
 class Arrays {
  public:
   /// `device` must outlive the arrays.
-  explicit Arrays(Device& device) : device_(device) {}
+  explicit Arrays(Device& device) : device_(device), shared_(device) {}
   Arrays(const Arrays&) = delete;
   Arrays& operator=(const Arrays&) = delete;
 
   /// Makes a zero-filled array of `count` elements. It replaces an earlier one of that name and makes references to it invalid.
+  /// Arrays that share memory (state/shared_memory.hpp) are to be made before anything is written to one of them.
   template <class T>
   DeviceArray<T>& make(std::string_view name, std::size_t count) {
-    return hold(name, expected_element<T>(), std::make_shared<DeviceArray<T>>(device_, count, name));
+    return hold(name, expected_element<T>(), allocate<T>(name, count));
   }
   template <class T>
   DeviceArray<T>& make(std::string_view name, const std::vector<T>& values) {
@@ -136,6 +139,12 @@ class Arrays {
   };
 
   template <class T>
+  std::shared_ptr<DeviceArray<T>> allocate(std::string_view name, std::size_t count) {
+    if (!shares_memory(name)) return std::make_shared<DeviceArray<T>>(device_, count, name);
+    const BufferId part = shared_.place(name, std::max<std::size_t>(count, 1) * sizeof(T));
+    return std::make_shared<DeviceArray<T>>(device_, part, count);
+  }
+  template <class T>
   DeviceArray<T>& hold(std::string_view name, std::string_view element, std::shared_ptr<DeviceArray<T>> array) {
     expect_element(name, element);
     DeviceArray<T>& made = *array;
@@ -147,6 +156,7 @@ class Arrays {
   const Held& find(std::string_view name, std::string_view element) const;
 
   Device& device_;
+  SharedMemory shared_;
   std::map<std::string, Held, std::less<>> held_;
   std::map<std::string, Parameter, std::less<>> parameters_;
 };
@@ -156,7 +166,8 @@ using Parameters = std::vector<std::pair<std::string_view, Parameter>>;  // by n
 /// Returns a dispatch of a kernel, with the arrays that it names. The kernel's parameters are found by name: in `parameters`,
 /// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error if an array or a parameter
 /// is missing or of another type, or if the kernel does not declare a parameter. A view (READ_AS) is of another type if its
-/// numbers are of another type than the array's. The error names the kernel and the array or parameter.
+/// numbers are of another type than the array's. So it does if the kernel names two arrays that may stand in the same memory. The
+/// error names the kernel and the array or parameter.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters, std::uint32_t item_count);
 /// Does the same for a kernel in a variant. `name` is for reports.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, const Parameters& parameters,

@@ -135,6 +135,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     CHECK(cpu_arrays == gpu_arrays);
     CHECK(cpu_numbers == gpu_numbers);
     CHECK(on_gpu.arrays.size() <= max_arrays);
+    CHECK_NOTHROW(expect_apart(on_gpu.arrays));
   }
 }
 

@@ -1,6 +1,5 @@
 // One thread serves one vertex after the integrator. It finds the way that the vertex went, its box, and the part of it that stays in the
-// cage. If a step was undone, it takes the kick back. It empties the sums of the kick, and finds what bodies owe for contacts that ended
-// unsettled.
+// cage. If a step was undone, it takes the kick back. It finds what bodies owe for contacts that ended unsettled.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -18,7 +17,6 @@ WRITE(cage)
 READ(cluster)
 READ(ground)
 WRITE(contact_list)
-WRITE(impulse_sum)
 WRITE(contact_sum)
 WRITE(contact_total)
 WRITE(way)
@@ -31,7 +29,6 @@ PARAMETER(double, least_speed)
 PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/flight.glsl"
 #include "parts/quantum.glsl"
-#include "parts/impulse_sums.glsl"
 #include "parts/is_left_alone.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
@@ -85,7 +82,6 @@ void expect_cuts(uint i) {
     cut[flight_stop_of(vertex_count, b)] = cut[flight_stop_of(vertex_count, body_count + b)] = at_no_cut;
   }
   if (is_left_alone(b)) return;
-  for (uint k = 0u; k < sum_buffers; ++k) clear_impulse(impulse_sum_of(k, vertex_count, i));
   uint before = displacement_of(in_half(from_half, vertex_count, i));
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);

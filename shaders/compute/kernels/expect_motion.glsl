@@ -109,7 +109,7 @@ void expect_motion(uint i) {
   cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
   cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
   contact_weight[i] = 0u;
-  if (is_at_rest) return;  // all else still stands, but the way that it went has been in the place of this box
   STORE3(expected, force_of(i), mean)
+  if (is_at_rest) return;  // all else still stands, but the way that it went has been in the place of this box
   keep_cage(i, b, lower - slack, upper + slack);
 }

@@ -19,7 +19,7 @@ PARAMETER(uint, stage_index)
 // If no vertex moves relative to another, all have the first one's velocity, bit for bit. Damping is then exactly zero.
 void find_rigid_motion(uint b) {
   uvec2 range = moment_range[b];
-  if (range.y == 0u) return;
+  if (range.y == 0u || is_still(status[b])) return;
   uint first = body[b].first_vertex;
   dvec3 first_place = place_at_stage(first), first_velocity = velocity_at_stage(first);
   if (status[b].deformed == 0u) {

@@ -48,6 +48,7 @@ uint moments_half() { return other_half(from_half); }
 #include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
 #include "parts/rouse.glsl"
+#include "parts/is_left_alone.glsl"
 
 dvec3 flight_of_vertex(uint i, uint b) {
   dvec3 displacement = LOAD3(motion, displacement_of(in_half(from_half, vertex_count, i)));
@@ -85,7 +86,7 @@ bool is_cut_short(uint i) { return uintBitsToFloat(cut[i]) < 1.0f; }
 
 void note_cuts(uvec4 part, uint item) {
   uint cuts = 0u;
-  for (uint i = part.y; i < part.z; ++i) {
+  for (uint i = part.y; i < part.z && !is_left_alone(part.x); ++i) {
     if (cut[stop_of(vertex_count, i)] != at_no_cut) cuts |= at_a_cut_bit;
     if (!is_cut_short(i)) continue;
     cuts |= cut_short_bit | at_a_cut_bit;
@@ -173,7 +174,7 @@ void sum_energies_of(uvec4 part, uint item) {
     deformation += dot(beside, beside);
     all_rigid += dot(along_restored, along_restored);
     if (was_cut) gained += double(0.5) * (dot(along_restored, along_restored) - dot(along, along)) / body[b].inverse_mass;
-    if (!is_cut_short(i)) continue;
+    if (!was_cut || !is_cut_short(i)) continue;
     gained += energy_of_cut(i, b);
     missed += dot(rotate(pose[b], along_restored), missing_alone(i, b) + missing_together(i, b)) / control[0].time_step;
   }
@@ -207,8 +208,9 @@ Means means_of(uint b) {
 
 // Whether motions of the body were cut short in this step, or before and it still owes for them.
 bool was_caught(uint b) { return was_cut_short(b) || (debt[b].is_for_cuts != 0u && debt[b].energy > double(0)); }
-bool owes_for_cuts(uint b) { return status[b].activity == moving && was_caught(b) && own_means_of(b).due > double(0); }
+bool owes_for_cuts(uint b) { return was_caught(b) && own_means_of(b).due > double(0); }
 uint find_involvement(uint b) {
+  if (status[b].activity != moving) return not_involved;
   if (owes_for_cuts(b)) return owing;
   return was_at_a_cut(b) ? involved : not_involved;
 }

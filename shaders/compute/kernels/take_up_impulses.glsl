@@ -1,7 +1,10 @@
-// One thread gives a contact at rest the impulse that it had in the last step. All threads share the list of contacts in strides.
+// One thread gives a contact at rest the impulse that it had in the last step. It empties the sums that the first round of the kick adds
+// to. All threads share the list of contacts in strides.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
+#include "../physics/layout.glsl"
 #include "../physics/contact/contact.glsl"
+#include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/parts.glsl"
 READ(control)
 READ(contact_list)
@@ -11,9 +14,12 @@ WRITE_AS(contact_impulse, real4, impulse_row)
 READ(kept_slot)
 READ(kept_vertex)
 READ_AS(kept_impulse, real4, kept_row)
+WRITE(impulse_sum)
+PARAMETER(uint, vertex_count)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, contacts_at_once)
 #include "parts/kept_slots.glsl"
+#include "parts/impulse_sums.glsl"
 
 // The last impulse of the contact, scaled to this step's length, or nothing [Ns].
 real4 kept_impulse_of(uvec4 key) {
@@ -27,6 +33,10 @@ real4 kept_impulse_of(uvec4 key) {
 
 void take_up_impulses(uint item) {
   uint count = min(contact_list[0].contact_count, contact_capacity);
-  for (uint c = item; c < count; c += contacts_at_once)
-    if (impulse_row[c].x != real(0)) impulse_row[c] = kept_impulse_of(key_of(contact_vertex[c], contact_row[contact_rows * c + 1u]));
+  for (uint c = item; c < count; c += contacts_at_once) {
+    uvec4 who = contact_vertex[c];
+    for (int k = 0; k < 4; ++k)
+      if (who[k] != no_vertex) clear_impulse(impulse_sum_of(buffer_of(1u), vertex_count, who[k]));
+    if (impulse_row[c].x != real(0)) impulse_row[c] = kept_impulse_of(key_of(who, contact_row[contact_rows * c + 1u]));
+  }
 }

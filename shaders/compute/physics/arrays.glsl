@@ -87,7 +87,7 @@ ARRAY(kept_slot, uint, slot, step, "contacts of the last step by their vertices:
 ARRAY(kept_vertex, uvec4, contact, step, "four vertices of a contact of the last step, or a vertex and a ground")
 ARRAY(kept_impulse, real, contact, step, "[contact][4] its impulse along the normal, then across it [Ns]")
 ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-13; 0 once it is kicked")
-ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses in quanta, as 64 bits in two halves; 0 between steps")
+ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses of a kick in quanta, as 64 bits in two halves")
 ARRAY(way, double, vertex, step, "[vertex][3] how far the integrator moved the vertex beyond its flight [m]")
 ARRAY(cut, uint, vertex, step, "[row][vertex] part of its way that a vertex may go, as bits of a float; the least counts. The next row says in which round it was stopped, if at all; then of each flight when it was stopped (contact/surface.glsl)")
 ARRAY(vertex_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread serves of a body that moves")

@@ -206,11 +206,10 @@ class Impulse final : public Response {
       passes.push_back(make_pass(arrays, "meet_grounds",
                                  {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
-    if (keeps_impulses())
-      passes.push_back(make_pass(
-          arrays, "take_up_impulses",
-          {{"contact_capacity", contact_capacity}, {"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}},
-          items_at_once_));
+    passes.push_back(make_pass(
+        arrays, "take_up_impulses",
+        {{"contact_capacity", contact_capacity}, {"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}},
+        items_at_once_));
     passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
                                                    {"contact_capacity", contact_capacity},
                                                    {"triangle_pair_capacity", triangle_pair_capacity_},
@@ -368,10 +367,10 @@ class Impulse final : public Response {
   void make_kept_impulses() {
     Arrays& arrays = bodies_.arrays;
     arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
-    if (!keeps_impulses()) return;
-    arrays.make<std::uint32_t>("kept_slot", kept_slot_count);
-    arrays.make<glm::uvec4>("kept_vertex", contact_capacity);
-    arrays.make_reals("kept_impulse", std::size_t{4} * contact_capacity);
+    const std::size_t contacts = keeps_impulses() ? contact_capacity : 0;
+    arrays.make<std::uint32_t>("kept_slot", keeps_impulses() ? kept_slot_count : 0);
+    arrays.make<glm::uvec4>("kept_vertex", contacts);
+    arrays.make_reals("kept_impulse", 4 * contacts);
   }
 
   void make_debts(const Model& model) {

@@ -86,8 +86,19 @@ class CpuDevice final : public Device {
     buffers_.emplace(next_buffer_, Storage(bytes));
     return next_buffer_++;
   }
-  void release(BufferId buffer) override { buffers_.erase(buffer); }
-  std::size_t size_of(BufferId buffer) const override { return buffers_.at(buffer).size(); }
+  void enlarge(BufferId buffer, std::size_t bytes) override { buffers_.at(buffer) = Storage(bytes); }
+  BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
+    parts_.emplace(next_buffer_, Part{buffer, first_byte, bytes});
+    return next_buffer_++;
+  }
+  void release(BufferId buffer) override {
+    buffers_.erase(buffer);
+    parts_.erase(buffer);
+  }
+  std::size_t size_of(BufferId buffer) const override {
+    const auto part = parts_.find(buffer);
+    return part != parts_.end() ? part->second.size : buffers_.at(buffer).size();
+  }
   std::size_t allocated_bytes() const override {
     std::size_t bytes = 0;
     for (const auto& [id, buffer] : buffers_) bytes += buffer.size();
@@ -153,6 +164,12 @@ class CpuDevice final : public Device {
   // Vertices `first` to `end` - 1 of a share.
   struct Range {
     std::uint32_t share, first, end;
+  };
+
+  // Some bytes of a buffer.
+  struct Part {
+    BufferId whole;
+    std::size_t first_byte, size;
   };
 
   // One thread takes all items at once.
@@ -232,6 +249,8 @@ class CpuDevice final : public Device {
   }
 
   std::byte* bytes_of(BufferId buffer) {
+    if (const auto part = parts_.find(buffer); part != parts_.end())
+      return bytes_of(part->second.whole) + part->second.first_byte;
     const auto found = buffers_.find(buffer);
     PLIANT_EXPECT(found != buffers_.end());
     return found->second.data();
@@ -251,6 +270,7 @@ class CpuDevice final : public Device {
   std::vector<Range> ranges_;
   std::vector<double> times_;
   std::unordered_map<BufferId, Storage> buffers_;
+  std::unordered_map<BufferId, Part> parts_;
   BufferId next_buffer_ = 1;
 };
 

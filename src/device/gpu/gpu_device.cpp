@@ -81,11 +81,21 @@ class GpuDevice final : public Device {
     buffers_.emplace(next_buffer_, gl::Buffer(bytes, label));
     return next_buffer_++;
   }
+  void enlarge(BufferId buffer, std::size_t bytes) override {
+    ahead_.clear();
+    buffers_.at(buffer) = gl::Buffer();  // so that there is never room needed for both
+    buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
+  }
+  BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
+    parts_.emplace(next_buffer_, Part{buffer, first_byte, bytes});
+    return next_buffer_++;
+  }
   void release(BufferId buffer) override {
     ahead_.clear();
     buffers_.erase(buffer);
+    parts_.erase(buffer);
   }
-  std::size_t size_of(BufferId buffer) const override { return storage(buffer).size(); }
+  std::size_t size_of(BufferId buffer) const override { return part(buffer).size; }
   std::size_t allocated_bytes() const override {
     std::size_t bytes = 0;
     for (const auto& [id, buffer] : buffers_) bytes += buffer.size();
@@ -93,11 +103,13 @@ class GpuDevice final : public Device {
   }
   void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) override {
     ahead_.clear();
-    buffers_.at(buffer).write(first_byte, data);
+    const Part at = part(buffer);
+    buffers_.at(at.whole).write(at.first_byte + first_byte, data);
   }
   void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) override {
     const auto found = ahead_.find(buffer);
-    if (found == ahead_.end()) return storage(buffer).read(first_byte, data);
+    const Part at = part(buffer);
+    if (found == ahead_.end()) return storage(at.whole).read(at.first_byte + first_byte, data);
     PLIANT_EXPECT(first_byte <= found->second.size() && data.size() <= found->second.size() - first_byte);
     std::ranges::copy(found->second.subspan(first_byte, data.size()), data.begin());
   }
@@ -204,6 +216,11 @@ class GpuDevice final : public Device {
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
   };
+  // Some bytes of a buffer, or all.
+  struct Part {
+    BufferId whole;
+    std::size_t first_byte, size;
+  };
   // By slot. OpenGL counts uniform blocks and storage blocks apart.
   struct Bindings {
     std::array<BufferId, max_arrays> storage{}, constants{};
@@ -243,6 +260,10 @@ class GpuDevice final : public Device {
   static std::uint32_t threads_for(std::uint32_t bodies) { return 65536 * std::clamp(bodies / 16, 1u, 4u); }
 
   const gl::Buffer& storage(BufferId buffer) const { return buffers_.at(buffer); }
+  Part part(BufferId buffer) const {
+    const auto found = parts_.find(buffer);
+    return found != parts_.end() ? found->second : Part{buffer, 0, storage(buffer).size()};
+  }
 
   void dispatch(const Pass& pass) {
     if (pass.item_count == 0) return;
@@ -259,7 +280,9 @@ class GpuDevice final : public Device {
     BufferId& bound = (is_constant ? bound_.constants : bound_.storage)[slot];
     if (bound == buffer) return;
     bound = buffer;
-    glBindBufferBase(is_constant ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(buffer));
+    const Part at = part(buffer);
+    glBindBufferRange(is_constant ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(at.whole),
+                      static_cast<GLintptr>(at.first_byte), static_cast<GLsizeiptr>(at.size));
   }
 
   void prepare(const KernelCall& call) {
@@ -289,6 +312,7 @@ class GpuDevice final : public Device {
   std::optional<double> strain_bias_;
   Bindings bound_;
   std::unordered_map<BufferId, gl::Buffer> buffers_;
+  std::unordered_map<BufferId, Part> parts_;
   gl::Landing landing_;
   std::unordered_map<BufferId, std::span<const std::byte>> ahead_;  // what landed, of buffers that nothing has written since
   std::vector<Kernel> kernels_;

@@ -1,0 +1,87 @@
+#include "state/shared_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
+
+namespace pliant {
+namespace {
+
+// Phases of a step, as bits. In each of them some passes run, one after another.
+using Phases = std::uint32_t;
+constexpr Phases restoring = 1,  // restore_impacts
+    searching = 2,               // from expect_motion or refit to find_contacts, meet_grounds and test_pairs
+    kicking = 4,                 // take_up_impulses and solve_contacts
+    at_stages = 8,               // the passes of forces before a stage, and the stage
+    cutting = 16;                // from expect_cuts to pay_dues
+
+struct Sharing {
+  std::string_view array;
+  Phases phases;  // in which it is needed: from where it is written up to where it is read
+};
+
+// An array must be written in a phase before it is read there, for all bodies whose numbers are read. So an array cannot share of
+// which a body at rest needs what an earlier step wrote.
+constexpr Sharing sharing[] = {
+    {"expected", searching},     // expect_motion writes it for all bodies
+    {"node_box", searching},     // refit and refit_cages fit the boxes of all bodies with a partner, and no others are read
+    {"leaf_pair", searching},    // its length stands elsewhere
+    {"impulse_sum", kicking},    // take_up_impulses empties what rounds read
+    {"added_force", at_stages},  // the first force sets it
+    {"moment", at_stages},       // sum_moments writes it for all bodies that find_rigid_motion looks at
+    {"way", cutting},            // expect_cuts writes it for all bodies that have a partner or move
+    {"cut", cutting},            // as above
+    {"part_sum", restoring | cutting},  // the first round of restore_impacts and of pay_dues
+};
+
+Phases phases_of(std::string_view array) {
+  const auto* const found = std::ranges::find(sharing, array, &Sharing::array);
+  return found == std::end(sharing) ? 0 : found->phases;
+}
+
+}  // namespace
+
+bool shares_memory(std::string_view array) { return phases_of(array) != 0; }
+
+bool may_overlap(std::string_view a, std::string_view b) {
+  return shares_memory(a) && shares_memory(b) && (phases_of(a) & phases_of(b)) == 0;
+}
+
+void expect_apart(std::span<const KernelSignature::Array> arrays) {
+  for (const auto& a : arrays)
+    for (const auto& b : arrays)
+      if (may_overlap(a.array, b.array))
+        throw std::logic_error(fmt::format("the arrays \"{}\" and \"{}\" share memory", a.array, b.array));
+}
+
+std::vector<std::string_view> sharing_arrays() {
+  std::vector<std::string_view> names;
+  for (const Sharing& row : sharing) names.push_back(row.array);
+  return names;
+}
+
+SharedMemory::~SharedMemory() {
+  if (buffer_ != 0) device_.release(buffer_);
+}
+
+// Goes through the places that the array must not overlap, in their order, up to the first gap that is large enough.
+BufferId SharedMemory::place(std::string_view array, std::size_t bytes) {
+  std::erase_if(places_, [&](const Place& place) { return place.array == array; });
+  const std::size_t size = (bytes + part_alignment - 1) / part_alignment * part_alignment;
+  std::size_t first_byte = 0;
+  for (const Place& other : places_) {
+    if (may_overlap(array, other.array) || other.end <= first_byte) continue;
+    if (first_byte + size <= other.first_byte) break;
+    first_byte = other.end;
+  }
+  const Place place{std::string(array), first_byte, first_byte + size};
+  places_.insert(std::ranges::upper_bound(places_, first_byte, {}, &Place::first_byte), place);
+  if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases");
+  if (device_.size_of(buffer_) < place.end) device_.enlarge(buffer_, place.end);
+  return device_.part_of(buffer_, first_byte, bytes);
+}
+
+}  // namespace pliant
