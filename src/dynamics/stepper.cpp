@@ -12,6 +12,7 @@
 #include "core/expect.hpp"
 #include "physics/damping.glsl"
 #include "physics/layout.glsl"
+#include "physics/quiet.glsl"
 
 namespace pliant {
 namespace {
@@ -102,10 +103,11 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
     bodies.make_placements(physics::slots_of_splitting(stage_count_));
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
-    bodies.arrays.make<double>("kept_force", 2 * coordinates);
+    bodies.arrays.make<double>("kept_force", (may_take_back_steps() ? 2 : 1) * coordinates);
   }
   bodies.arrays.set_parameter("keeps_force", staged_method(integrator) == nullptr ? 1u : 0u);
   bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
+  bodies.arrays.set_parameter("force_half_size", may_take_back_steps() ? bodies.vertex_count : 0);
 }
 
 void Stepper::use_tableaus(Stages stages) {
@@ -193,10 +195,11 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   return passes;
 }
 
+bool Stepper::may_take_back_steps() const { return adds_force() == 0 && bodies_.body_count <= physics::most_quiet_bodies; }
+
 bool Stepper::makes_quiet_steps() const {
-  const Device& device = bodies_.arrays.device();
-  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
-         device.force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
+  return may_take_back_steps() && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
+         bodies_.arrays.device().force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
 }
 
 Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {

@@ -54,6 +54,8 @@ class Stepper {
                                                const StateOfStage& state_of_stage) const;
   /// Returns passes that set the forces beside the springs, for one stage.
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
+  /// Whether some device makes quiet steps for these bodies, and so may take one back. Checkpoints go from one device to another.
+  [[nodiscard]] bool may_take_back_steps() const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 

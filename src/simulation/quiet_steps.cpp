@@ -28,7 +28,6 @@ ForceSpan span_of(const Collider& collider) {
 
 std::vector<Pass> passes_before(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
   if (!looks_at_ends(collider)) return collider.response()->before_quiet_steps(half);
-  if (bodies.body_count > most_compared_bodies) return {};
   const bool may_touch = collider.response() != nullptr && collider.searches();
   std::vector<Pass> passes;
   if (may_touch) passes.push_back(collider.bounding_pass(half));

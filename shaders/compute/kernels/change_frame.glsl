@@ -16,6 +16,7 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, keeps_force)  // 1: the method keeps spring forces for the next step
 #include "parts/place.glsl"
 #include "parts/restate.glsl"
+#include "parts/kept_force.glsl"
 #include "parts/restate_force.glsl"
 
 void fall_asleep(uint i) {
@@ -26,8 +27,8 @@ void fall_asleep(uint i) {
   STORE3(motion, velocity_of(after), dvec3(0))
   world_position[before] = world_position[after];
   if (keeps_force == 0u) return;
-  dvec3 kept = LOAD3(kept_force, force_of(after));
-  STORE3(kept_force, force_of(before), kept)
+  dvec3 kept = LOAD3(kept_force, kept_force_of(other_half(from_half), i));
+  STORE3(kept_force, kept_force_of(from_half, i), kept)
 }
 
 void change_frame(uint i) {

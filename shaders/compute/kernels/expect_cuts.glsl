@@ -13,6 +13,7 @@ READ(surface)
 READ(rest_position)
 WRITE(motion)
 READ(start)
+READ(unkicked_velocity)
 WRITE(cage)
 READ(cluster)
 READ(ground)
@@ -24,6 +25,7 @@ WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
+PARAMETER(uint, may_undo_steps)  // 1: a tolerance may
 PARAMETER(uint, ground_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, largest_body)  // radius at rest [m]
@@ -74,6 +76,10 @@ void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
   cage[way_box_of(i) + 1u] = vec4(vec3(upper + slack), 0);
 }
 
+void take_kick_back(uint i) {
+  STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(unkicked_velocity, force_of(i)))
+}
+
 void expect_cuts(uint i) {
   if (i == 0u) add_contact_sums();
   uint b = uint(rest_position[i].w);
@@ -86,7 +92,7 @@ void expect_cuts(uint i) {
   uint after = displacement_of(in_half(other_half(from_half), vertex_count, i));
   bool is_movable = surface[b].inverse_mass != double(0);
   dvec3 gone = dvec3(0);
-  if (!was_made()) STORE3(motion, velocity_of(in_half(other_half(from_half), vertex_count, i)), LOAD3(start, unkicked_velocity_of(i)))
+  if (may_undo_steps != 0u && !was_made()) take_kick_back(i);
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
   dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? flight_in_step(b, from) : dvec3(0), own = gone - together;
   STORE3(way, force_of(i), own)

@@ -17,6 +17,7 @@ PARAMETER(uint, damping_law)
 PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if they can fall into parts; else 0
 #include "parts/frame.glsl"
 #include "parts/part_of_step.glsl"
+#include "parts/kept_force.glsl"
 #include "parts/kick.glsl"
 #include "parts/place.glsl"
 #include "parts/all_force.glsl"

@@ -14,6 +14,7 @@ READ(rest_position)
 READ(motion)
 WRITE(surplus)
 WRITE(start)
+WRITE(unkicked_velocity)
 WRITE(body_motion)
 WRITE_AS(place_box, BoxBits, body_box)
 WRITE(status)
@@ -21,6 +22,8 @@ WRITE(cluster)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, from_half)
+PARAMETER(uint, may_undo_steps)  // 1: a tolerance may
+PARAMETER(double, share_of_lead)
 #include "parts/bound.glsl"
 
 void leave_island(uint b) {
@@ -37,7 +40,7 @@ void leave_island(uint b) {
 void forget_surplus(uint i) {
   STORE3(surplus, expected_surplus_of(i), dvec3(0))
   STORE3(surplus, end_surplus_of(vertex_count, i), dvec3(0))
-  STORE3(surplus, surplus_lead_of(vertex_count, i), dvec3(0))
+  if (share_of_lead != double(0)) STORE3(surplus, surplus_lead_of(vertex_count, i), dvec3(0))
 }
 
 // All else that a step finds of a body at rest still stands.
@@ -59,7 +62,7 @@ void measure_motion(uint i) {
   dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
-  STORE3(start, unkicked_velocity_of(i), in_frame)
+  if (may_undo_steps != 0u) STORE3(unkicked_velocity, force_of(i), in_frame)
   dvec3 mean = velocity + step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // limit_step has yet to find this one's length
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));

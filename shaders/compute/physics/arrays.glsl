@@ -28,7 +28,7 @@ ARRAY(quiet_body, QuietBody, body, step, "bounds within which steps are quiet, a
 ARRAY(quiet_steps, QuietSteps, run, step, "how many quiet steps are made at once")
 
 // integrators
-ARRAY(kept_force, double, vertex, carried, "[half][vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]")
+ARRAY(kept_force, double, vertex, carried, "[half][vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]; one half where no steps are quiet")
 ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting")
 ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
 ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")
@@ -73,9 +73,10 @@ ARRAY(pressed, uint, body, carried, "number of the latest part of a step in whic
 ARRAY(ground, Ground, ground, fixed, "half-spaces that bodies stay out of; one that nothing reaches where there are none")
 ARRAY(contact_sum, uvec2, run, step, "[6 + body] sums in quanta, as 64 bits in two halves: impulse on bodies, which is what static bodies and grounds gave, then energy that contacts gave, that they took, and what friction took of both; then what contacts that ended unsettled gave each body; 0 between steps")
 ARRAY(contact_total, double, run, carried, "[6 + body] the same of all steps so far [Ns], [J]; but of each body only what it owes for the latest step")
-ARRAY(start, double, vertex, step, "[vertex][9] where the vertex is at the step's start [m] and its velocity before the kick, in the world, then that velocity in the body's frame [m/s]")
+ARRAY(start, double, vertex, step, "[vertex][6] where the vertex is at the step's start [m] and its velocity before the kick [m/s], in the world")
+ARRAY(unkicked_velocity, double, vertex, step, "[vertex][3] the same velocity in the body's frame, for steps that are undone [m/s]; one number without a tolerance")
 ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex is expected to have in the step, without a kick [m/s]")
-ARRAY(surplus, double, vertex, carried, "[3][vertex][3] of the surplus over the step's length: what is expected in the coming step, then what the last step's end had, then the lead (contact/surplus.glsl) [m/s^2]")
+ARRAY(surplus, double, vertex, carried, "[3][vertex][3] of the surplus over the step's length: what is expected in the coming step, then what the last step's end had, then the lead, if it counts (contact/surplus.glsl) [m/s^2]")
 ARRAY(cage, vec4, vertex, step, "[vertex][4] lower, upper: where the vertex stays in the step, then the same of the way it is expected to go, and later of the way it went [m]")
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
 ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order: the third vertex of the triangle across each edge, or 0xffffffff; then bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")

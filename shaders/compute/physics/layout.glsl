@@ -13,16 +13,15 @@ const uint motion_size = 6u;  // numbers of a vertex
 FN uint displacement_of(uint place) { return motion_size * place; }
 FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 
-// The first of the three numbers of vertex i: in `added_force` and the like, and in `acceleration`. In `kept_force` it is that of the place
-// from in_half().
+// The first of the three numbers of vertex i: in `added_force` and the like, and in `acceleration`. `kept_force` has halves, too
+// (kernels/parts/kept_force.glsl).
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 
-// `start` has nine numbers a vertex: where it is in the world, its velocity there, and in the body's frame. `surplus` holds
-// three numbers a vertex of each of what contact/surplus.glsl lists. `impulse_sum` has three sums a vertex in each of its buffers.
-FN uint start_position_of(uint i) { return 9u * i; }
-FN uint start_velocity_of(uint i) { return 9u * i + 3u; }
-FN uint unkicked_velocity_of(uint i) { return 9u * i + 6u; }
+// `start` has six numbers a vertex: where it is in the world, and its velocity there. `surplus` holds three numbers a vertex of each of
+// what contact/surplus.glsl lists. `impulse_sum` has three sums a vertex in each of its buffers.
+FN uint start_position_of(uint i) { return 6u * i; }
+FN uint start_velocity_of(uint i) { return 6u * i + 3u; }
 FN uint expected_surplus_of(uint i) { return 3u * i; }
 FN uint end_surplus_of(uint vertex_count, uint i) { return 3u * (vertex_count + i); }
 FN uint surplus_lead_of(uint vertex_count, uint i) { return 3u * (2u * vertex_count + i); }

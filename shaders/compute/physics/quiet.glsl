@@ -36,6 +36,7 @@ FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.und
 // A dispatch makes so many steps at most. Bounds are tried for as many first, then for half as many, and so on.
 const uint most_quiet_steps = 64u;
 const uint fewest_quiet_steps = 2u;
+const uint most_quiet_bodies = 1024u;  // each is compared with each other. With more that takes too long
 
 SHARED_END
 #endif

@@ -162,6 +162,8 @@ class Impulse final : public Response {
     const Foresight& foresight = setting.steps.have_forces_at_ends ? foresight_with_forces_at_ends : foresight_of_most_methods;
     bodies_.arrays.set_parameter("share_of_end", foresight.share_of_end);
     bodies_.arrays.set_parameter("share_of_lead", foresight.share_of_lead);
+    keeps_leads_ = foresight.share_of_lead != 0;
+    bodies_.arrays.set_parameter("may_undo_steps", divides_steps_ ? 0u : 1u);
     bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_speed(setting.model, gravity_size()) : 0.0);
     if (sleeps_) make_slow_places(setting.model);
     make_grounds(setting);
@@ -269,9 +271,9 @@ class Impulse final : public Response {
   }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
-  // Two bodies of which each has a thread are compared. With many bodies that is too much.
+  // Two bodies of which each has a thread are compared.
   std::vector<Pass> before_quiet_steps(std::uint32_t from_half) const override {
-    if (restores_ || !divides_steps_ || bodies_.body_count > most_compared_bodies) return {};
+    if (restores_ || !divides_steps_) return {};
     const Arrays& arrays = bodies_.arrays;
     return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
             make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}}, bodies_.body_count * bodies_.body_count),
@@ -341,9 +343,10 @@ class Impulse final : public Response {
                                                                       .least_push = {none, none, none},
                                                                       .most_push = {none, none, none}}));
     arrays.make<std::uint32_t>("pressed", bodies_.body_count);
-    arrays.make<double>("start", 9 * vertices);
+    arrays.make<double>("start", 6 * vertices);
+    arrays.make<double>("unkicked_velocity", divides_steps_ ? 1 : 3 * vertices);
     arrays.make<double>("expected", 3 * vertices);
-    arrays.make<double>("surplus", 9 * vertices);
+    arrays.make<double>("surplus", (keeps_leads_ ? 9 : 6) * vertices);
     arrays.make<glm::vec4>("cage", 4 * vertices);
     arrays.make<double>("way", 3 * vertices);
     arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, 2 * bodies_.body_count));
@@ -461,7 +464,7 @@ class Impulse final : public Response {
   DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
-  bool has_pairs_, divides_steps_, sleeps_, restores_ = false;
+  bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
   std::uint32_t triangle_pair_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;

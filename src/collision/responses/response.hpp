@@ -67,8 +67,6 @@ struct StepTraits {
   DampingLaw damping_law = DampingLaw::none;  // its rate bounds steps of bodies in contact
 };
 
-constexpr std::uint32_t most_compared_bodies = 1024;  // each with each other, before quiet steps
-
 /// What a response is made for. All but the description must outlive it.
 struct ResponseSetting {
   DeviceBodies& bodies;

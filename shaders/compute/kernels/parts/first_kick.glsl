@@ -3,7 +3,7 @@ PARAMETER(double, first_kick_time)   // [s]
 PARAMETER(double, first_drift_time)  // [s]
 void kick_first(uint i, uint k, uint b, IN(Body) material) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
-  dvec3 spring_force = LOAD3(kept_force, force_of(before));
+  dvec3 spring_force = LOAD3(kept_force, kept_force_of(from_half, i));
   double displacement = motion[displacement_of(before) + k];
   double velocity = kicked(material, gravity_of(b, k), all_force(i, k, spring_force[int(k)]), ordered_dot(spring_force, spring_force),
                            motion[velocity_of(before) + k], part_of_step() * first_kick_time);

@@ -2,20 +2,21 @@
 #include "../../physics/contact/surplus.glsl"
 WRITE(surplus)
 PARAMETER(double, share_of_end)
-PARAMETER(double, share_of_lead)
+PARAMETER(double, share_of_lead)  // 0: leads are not kept
 
 Surplus kept_surplus(uint i, uint k) {
   Surplus kept;
   kept.expected = surplus[expected_surplus_of(i) + k];
   kept.of_end = surplus[end_surplus_of(vertex_count, i) + k];
-  kept.lead = surplus[surplus_lead_of(vertex_count, i) + k];
+  kept.lead = double(0);
+  if (share_of_lead != double(0)) kept.lead = surplus[surplus_lead_of(vertex_count, i) + k];
   return kept;
 }
 
 void store_surplus(uint i, uint k, IN(Surplus) known) {
   surplus[expected_surplus_of(i) + k] = known.expected;
   surplus[end_surplus_of(vertex_count, i) + k] = known.of_end;
-  surplus[surplus_lead_of(vertex_count, i) + k] = known.lead;
+  if (share_of_lead != double(0)) surplus[surplus_lead_of(vertex_count, i) + k] = known.lead;
 }
 
 // Returns what is known after a step in which velocities grew so from its start to its mean, and from that to its end [m/s].
