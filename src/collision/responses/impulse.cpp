@@ -22,11 +22,11 @@ namespace pliant {
 namespace {
 
 constexpr double unbounded = 1e30;  // [s]
-constexpr std::uint64_t most_triangle_pairs = 1u << 22;
-constexpr std::uint32_t contact_capacity = 1u << physics::kept_index_bits;
+// Heaps of small bodies had up to 7 pairs of triangles whose cages overlap for each triangle, and 0.16 contacts.
+constexpr std::uint64_t pairs_of_triangle = 16, fewest_triangle_pairs = 1u << 20, most_triangle_pairs = 1u << 22;
+constexpr std::uint64_t fewest_contacts = 1u << 16, most_contacts = 1u << physics::kept_index_bits;
+constexpr std::uint64_t features_of_pair = 15;  // of two triangles, each of which may have a contact
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
-constexpr std::uint32_t kept_slot_count =
-    4 * contact_capacity;  // entries of a step that had the same number may still stand there
 // A body may sleep that moves by less than so many diameters of the smallest one a second.
 constexpr double sleep_diameters = 0.05;
 
@@ -139,7 +139,14 @@ std::uint32_t room_for_triangle_pairs(const Model& model) {
     triangles += body.triangle_count;
     if (!body.is_static) moving += body.triangle_count;
   }
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, most_triangle_pairs));
+  const std::uint64_t room = std::clamp(pairs_of_triangle * triangles, fewest_triangle_pairs, most_triangle_pairs);
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, room));
+}
+
+// All that may be found, if they are not too many.
+std::uint32_t room_for_contacts(const Model& model, std::size_t triangles) {
+  const std::uint64_t all = features_of_pair * room_for_triangle_pairs(model) + model.grounds.size() * model.vertex_count();
+  return static_cast<std::uint32_t>(std::min(all, std::clamp<std::uint64_t>(triangles / 2, fewest_contacts, most_contacts)));
 }
 
 class Impulse final : public Response {
@@ -152,6 +159,7 @@ class Impulse final : public Response {
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
+        contact_capacity_(room_for_contacts(setting.model, setting.forest.triangles.size())),
         items_at_once_(setting.bodies.arrays.device().items_of_lists(setting.bodies.body_count)) {
     const std::vector<physics::Surface> surfaces = surfaces_of(setting);
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
@@ -188,7 +196,7 @@ class Impulse final : public Response {
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
-                                 {{"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}}, items_at_once_));
+                                 {{"kept_slot_count", kept_slot_count()}, {"contacts_at_once", items_at_once_}}, items_at_once_));
       passes.back().beside_next = has_pairs_;  // pairs of bodies know no contacts, and only count in `control`
     }
     if (has_pairs_) {
@@ -198,7 +206,7 @@ class Impulse final : public Response {
       std::ranges::move(trees_.cage_passes(triangle_pair_capacity_), std::back_inserter(passes));
       passes.push_back(make_pass(arrays, "find_contacts",
                                  {{"triangle_pair_capacity", triangle_pair_capacity_},
-                                  {"contact_capacity", contact_capacity},
+                                  {"contact_capacity", contact_capacity_},
                                   {"threads_at_once", items_at_once_},
                                   {"most_threads_of_a_pair", is_gpu ? 16u : 1u}},
                                  items_at_once_));
@@ -206,14 +214,14 @@ class Impulse final : public Response {
     }
     if (ground_count_ > 0)
       passes.push_back(make_pass(arrays, "meet_grounds",
-                                 {{"contact_capacity", contact_capacity}, {"ground_count", ground_count_}},
+                                 {{"contact_capacity", contact_capacity_}, {"ground_count", ground_count_}},
                                  bodies_.vertex_count));
     passes.push_back(make_pass(
         arrays, "take_up_impulses",
-        {{"contact_capacity", contact_capacity}, {"kept_slot_count", kept_slot_count}, {"contacts_at_once", items_at_once_}},
+        {{"contact_capacity", contact_capacity_}, {"kept_slot_count", kept_slot_count()}, {"contacts_at_once", items_at_once_}},
         items_at_once_));
     passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
-                                                   {"contact_capacity", contact_capacity},
+                                                   {"contact_capacity", contact_capacity_},
                                                    {"triangle_pair_capacity", triangle_pair_capacity_},
                                                    {"least_speed", least_speed()}}));
     return passes;
@@ -257,7 +265,7 @@ class Impulse final : public Response {
       std::ranges::copy(std::span(&c.weight.x, 4), rows.end() - (contact_numbers - 4));
       impulses.insert(impulses.end(), &c.impulse.x, &c.impulse.x + 4);
     }
-    if (vertices.size() > contact_capacity)
+    if (vertices.size() > contact_capacity_)
       throw Error(ErrorKind::input, "", "its state has more contacts than there is room for", "");
     Arrays& arrays = bodies_.arrays;
     arrays.get<glm::uvec4>("contact_vertex").upload(vertices);
@@ -267,7 +275,7 @@ class Impulse final : public Response {
     physics::ContactList lengths = list.download().front();
     lengths.latest_count = static_cast<std::uint32_t>(vertices.size());
     list.upload(std::span(&lengths, 1));
-    if (keeps_impulses()) arrays.get<std::uint32_t>("kept_slot").upload(std::vector<std::uint32_t>(kept_slot_count));
+    if (keeps_impulses()) arrays.get<std::uint32_t>("kept_slot").upload(std::vector<std::uint32_t>(kept_slot_count()));
   }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
@@ -293,7 +301,7 @@ class Impulse final : public Response {
                                           bodies_.vertex_count)};
     if (restores_)
       passes.push_back(make_pass(arrays, "sum_impacts",
-                                 {{"contact_capacity", contact_capacity},
+                                 {{"contact_capacity", contact_capacity_},
                                   {"triangle_pair_capacity", triangle_pair_capacity_},
                                   {"contacts_at_once", items_at_once_},
                                   {"least_speed", least_speed()}},
@@ -303,12 +311,12 @@ class Impulse final : public Response {
           round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity_}, {"largest_body", largest_body_}}));
     passes.push_back(make_pass(
         arrays, "settle",
-        {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity}},
+        {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}},
         bodies_.vertex_count));
     passes.push_back(round_pass("pay_dues", {{"from_half", from_half},
                                              {"part_count", part_count_},
                                              {"triangle_pair_capacity", triangle_pair_capacity_},
-                                             {"contact_capacity", contact_capacity}}));
+                                             {"contact_capacity", contact_capacity_}}));
     if (sleeps_) passes.push_back(round_pass("find_sleepers", {{"from_half", from_half}}));
     return passes;
   }
@@ -358,9 +366,9 @@ class Impulse final : public Response {
     Arrays& arrays = bodies_.arrays;
     arrays.make<physics::ContactList>("contact_list", 1);
     arrays.make<glm::uvec2>("triangle_pair", triangle_pair_capacity_);
-    arrays.make<glm::uvec4>("contact_vertex", contact_capacity);
-    contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity);
-    impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity);
+    arrays.make<glm::uvec4>("contact_vertex", contact_capacity_);
+    contacts_ = &arrays.make_reals("contact", contact_numbers * contact_capacity_);
+    impulses_ = &arrays.make_reals("contact_impulse", std::size_t{4} * contact_capacity_);
     arrays.make<std::uint32_t>("contact_weight", bodies_.vertex_count);
     arrays.make<glm::uvec2>("impulse_sum", physics::sum_buffers * std::size_t{3} * bodies_.vertex_count);
     arrays.make<glm::uvec2>("contact_sum", physics::contact_sum_count(bodies_.body_count));
@@ -370,8 +378,8 @@ class Impulse final : public Response {
   void make_kept_impulses() {
     Arrays& arrays = bodies_.arrays;
     arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
-    const std::size_t contacts = keeps_impulses() ? contact_capacity : 0;
-    arrays.make<std::uint32_t>("kept_slot", keeps_impulses() ? kept_slot_count : 0);
+    const std::size_t contacts = keeps_impulses() ? contact_capacity_ : 0;
+    arrays.make<std::uint32_t>("kept_slot", kept_slot_count());
     arrays.make<glm::uvec4>("kept_vertex", contacts);
     arrays.make_reals("kept_impulse", 4 * contacts);
   }
@@ -424,6 +432,9 @@ class Impulse final : public Response {
   // A vertex that only one ground touches gets its impulse in a round.
   bool keeps_impulses() const { return has_pairs_ || ground_count_ > 1; }
 
+  // A power of two. Entries of a step that had the same number may still stand beside those of this one.
+  std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(2 * contact_capacity_ + 1) : 1; }
+
   Pass round_pass(std::string_view name, const Parameters& parameters) const {
     Device& device = bodies_.arrays.device();
     return make_pass(bodies_.arrays, name, device.round_kernel(name), parameters, std::max(device.shares_at_once(), 1u));
@@ -465,7 +476,7 @@ class Impulse final : public Response {
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
   bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
-  std::uint32_t triangle_pair_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
+  std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
