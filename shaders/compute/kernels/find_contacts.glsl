@@ -24,6 +24,8 @@ PARAMETER(uint, most_threads_of_a_pair)
 #include "parts/add_contact.glsl"
 #include "parts/boxes_in_motion.glsl"
 
+uint body_of(uint i) { return uint(rest_position[i].w); }
+
 // What is the same for all contacts of a pair of triangles.
 struct Pair {
   uint first;   // triangles, in leaf order
@@ -96,10 +98,17 @@ bool leans_over(real3 third, IN(real3) along, IN(real3) away, real slope) {
   return dot(away, third) > slope * length(away) * length(third);
 }
 
-// Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is. `face` is 0 for the first triangle.
+// The third vertex of the triangle across an edge of one of the pair's, or no_vertex. `face` is 0 for the first triangle.
+uint vertex_across(IN(Pair) p, uint face, uint edge) {
+  uint b = body_of(p.vertex[3u * face]), t = face == 0u ? p.first : p.second;
+  uint beyond = triangle_around[across_edge_of(t + surface[b].to_mesh, edge)];
+  return beyond == no_vertex ? no_vertex : surface[b].first_vertex + beyond;
+}
+
+// Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is.
 bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part,
                       real slope) {
-  uint beyond = triangle_around[across_edge_of(face == 0u ? p.first : p.second, edge)];
+  uint beyond = vertex_across(p, face, edge);
   if (beyond == no_vertex) return false;
   uint from = 3u * face + edge, to = 3u * face + (edge == 2u ? 0u : edge + 1u);
   return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away, slope);
@@ -115,8 +124,7 @@ bool is_nearer_to_its_faces(IN(Pair) p, uint corner, IN_ARRAY(real3, places, 6),
   uint face = corner / 3u, k = corner % 3u, before = k == 0u ? 2u : k - 1u, after = k == 2u ? 0u : k + 1u;
   if (leads_to(places[3u * face + before] - places[corner], away)) return true;
   if (leads_to(places[3u * face + after] - places[corner], away)) return true;
-  uint t = face == 0u ? p.first : p.second;
-  uint across_next = triangle_around[across_edge_of(t, k)], across_last = triangle_around[across_edge_of(t, before)];
+  uint across_next = vertex_across(p, face, k), across_last = vertex_across(p, face, before);
   if (across_next != no_vertex && leads_to(place_of(p, across_next, part) - places[corner], away)) return true;
   return across_last != no_vertex && leads_to(place_of(p, across_last, part) - places[corner], away);
 }
@@ -248,9 +256,12 @@ void meet_edges(IN(Pair) p, uint j, uint k) {
   if (crosses && !is_nearer_to_faces(p, j, k, f, later, part)) consider_later(p, f, later);
 }
 
+// Returns the vertices and edges that belong to a triangle, as bits.
+uint owned_by(uint t) { return triangle_around[owned_features_of(t + surface[body_of(triangle[corner_of(t, 0u)])].to_mesh)]; }
+
 // Features 0 to 5 are the corners of both, and 6 to 14 pairs of their edges. Returns those that both triangles own, as bits.
 uint owned_features(uvec2 triangles) {
-  uint first = triangle_around[owned_features_of(triangles.x)], second = triangle_around[owned_features_of(triangles.y)];
+  uint first = owned_by(triangles.x), second = owned_by(triangles.y);
   uint owned = (first & 7u) | (second & 7u) << 3u;
   for (uint j = 0u; j < 3u; ++j)
     if ((first >> (3u + j) & 1u) != 0u) owned |= second >> 3u << (6u + 3u * j);

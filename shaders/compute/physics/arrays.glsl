@@ -28,7 +28,7 @@ ARRAY(quiet_body, QuietBody, body, step, "bounds within which steps are quiet, a
 ARRAY(quiet_steps, QuietSteps, run, step, "how many quiet steps are made at once")
 
 // integrators
-ARRAY(kept_force, double, vertex, carried, "[half][vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]; one half where no steps are quiet")
+ARRAY(kept_force, double, vertex, carried, "[half][vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]; one half where no steps may be quiet")
 ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting")
 ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
 ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")
@@ -79,7 +79,7 @@ ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex
 ARRAY(surplus, double, vertex, carried, "[3][vertex][3] of the surplus over the step's length: what is expected in the coming step, then what the last step's end had, then the lead, if it counts (contact/surplus.glsl) [m/s^2]")
 ARRAY(cage, vec4, vertex, step, "[vertex][4] lower, upper: where the vertex stays in the step, then the same of the way it is expected to go, and later of the way it went [m]")
 ARRAY(contact_list, ContactList, run, step, "lengths of the lists of triangle pairs and contacts")
-ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order: the third vertex of the triangle across each edge, or 0xffffffff; then bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")
+ARRAY(triangle_around, uint, triangle, fixed, "[triangle][4] in leaf order, once for all bodies of a mesh: the third vertex of the triangle across each edge, from the body's first vertex on, or 0xffffffff; then bits 0 to 2 for vertices that belong to the triangle, bits 3 to 5 for edges")
 ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in leaf order, the second with the bit ways_meet; pairs are in no fixed order")
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
 ARRAY(contact, real, contact, step, "[contact][6][4] physics/contact/contact.glsl has the rows")

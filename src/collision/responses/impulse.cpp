@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -95,29 +96,31 @@ double smallest_gap(std::span<const physics::Surface> surfaces) {
   return std::isinf(smallest) ? 0 : smallest;
 }
 
-// Returns [triangle][4], in leaf order.
+using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+
+// Returns [triangle][4] of one body's triangles. Vertices count from the body's first.
 // - Of each edge, from corner k to the next, the third vertex of the triangle across it. Edges of more than two triangles have
 // none.
 // - As bits, the vertices and edges that belong to the triangle: those that no triangle before it has. So a contact is found
 // once.
-std::vector<std::uint32_t> surroundings(const Forest& forest, std::uint32_t vertex_count) {
+std::vector<std::uint32_t> surroundings(Triangles triangles, std::uint32_t first_vertex, std::uint32_t vertex_count) {
   struct Side {
     std::pair<std::uint32_t, std::uint32_t> edge;
     std::size_t place;  // 3 * triangle + corner
   };
   std::vector<Side> sides;
-  std::vector<std::uint32_t> around(4 * forest.triangles.size(), physics::no_vertex);
+  std::vector<std::uint32_t> around(4 * triangles.size(), physics::no_vertex);
   std::vector<bool> is_owned(vertex_count);
-  for (std::size_t t = 0; t < forest.triangles.size(); ++t) {
-    const std::array<std::uint32_t, 3>& corners = forest.triangles[t];
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::array<std::uint32_t, 3>& corners = triangles[t];
     std::uint32_t& owned = around[4 * t + 3] = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       sides.push_back({std::minmax(corners[k], corners[(k + 1) % 3]), 3 * t + k});
-      if (!is_owned[corners[k]]) owned |= 1u << k;
-      is_owned[corners[k]] = true;
+      if (!is_owned[corners[k] - first_vertex]) owned |= 1u << k;
+      is_owned[corners[k] - first_vertex] = true;
     }
   }
-  const auto third = [&](const Side& side) { return forest.triangles[side.place / 3][(side.place + 2) % 3]; };
+  const auto third = [&](const Side& side) { return triangles[side.place / 3][(side.place + 2) % 3] - first_vertex; };
   std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.place); });
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return side.edge != first->edge; });
@@ -129,6 +132,22 @@ std::vector<std::uint32_t> surroundings(const Forest& forest, std::uint32_t vert
     first = end;
   }
   return around;
+}
+
+// Finds what surrounds the triangles of all bodies. Bodies whose triangles have the same surroundings share them, as those of one
+// mesh do.
+std::vector<std::uint32_t> surroundings_of(const Model& model, const Forest& forest, std::span<physics::Surface> surfaces) {
+  std::vector<std::uint32_t> all;
+  std::map<std::vector<std::uint32_t>, std::uint32_t> known;  // and where each begins, in triangles
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    const Triangles triangles = Triangles(forest.triangles).subspan(body.first_triangle, body.triangle_count);
+    const auto [place, is_new] = known.try_emplace(surroundings(triangles, body.first_vertex, body.vertex_count),
+                                                   static_cast<std::uint32_t>(all.size() / 4));
+    if (is_new) all.insert(all.end(), place->first.begin(), place->first.end());
+    surfaces[b].to_mesh = place->second - body.first_triangle;
+  }
+  return all;
 }
 
 // All pairs of triangles of different bodies of which one moves, if they are not too many.
@@ -161,9 +180,10 @@ class Impulse final : public Response {
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
         contact_capacity_(room_for_contacts(setting.model, setting.forest.triangles.size())),
         items_at_once_(setting.bodies.arrays.device().items_of_lists(setting.bodies.body_count)) {
-    const std::vector<physics::Surface> surfaces = surfaces_of(setting);
+    std::vector<physics::Surface> surfaces = surfaces_of(setting);
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
     smallest_gap_ = smallest_gap(surfaces);
+    bodies_.arrays.make("triangle_around", surroundings_of(setting.model, setting.forest, surfaces));
     bodies_.arrays.make("surface", surfaces);
     bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
@@ -177,7 +197,6 @@ class Impulse final : public Response {
     make_grounds(setting);
     make_step_parts();
     make_motions();
-    bodies_.arrays.make("triangle_around", surroundings(setting.forest, bodies_.vertex_count));
     make_lists();
     make_kept_impulses();
     make_debts(setting.model);
@@ -496,7 +515,9 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .longest_pressed = unbounded,
           .frequency = body.is_static ? 0 : stiffest_frequency(body),
           .diameter = 2 * body.radius,
-          .nearness = 0};
+          .nearness = 0,
+          .first_vertex = body.first_vertex,
+          .to_mesh = 0};
 }
 
 physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {

@@ -7,8 +7,8 @@
 
 namespace pliant {
 
-/// Returns what contacts know of a body. Its steps have no bound yet, which takes the law of damping, and its nearness is 0,
-/// which takes all bodies.
+/// Returns what contacts know of a body. Its steps have no bound yet, which takes the law of damping. Its nearness and `to_mesh`
+/// are 0, which take all bodies.
 [[nodiscard]] physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description);
 /// Returns what they know of a ground.
 [[nodiscard]] physics::Ground ground_of(const Ground& ground, const CollisionDescription& description);

@@ -20,6 +20,8 @@ struct Surface {
   double frequency;        // the stiffest of the body's vibrations, omega [1/s], 0 if it is immovable
   double diameter;         // at rest, at most [m]
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
+  uint first_vertex;
+  uint to_mesh;  // from a triangle of the body, in leaf order, to its place in `triangle_around`, modulo 2^32
 };
 
 // How much further than expected the vertices of a body may go.
