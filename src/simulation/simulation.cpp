@@ -108,7 +108,7 @@ void Simulation::skip(const Skipping& what) {
   if (!what.rest) bodies_.look_at_bodies_at_rest();
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
   quiet_.reset();
-  if (what.quiet_steps && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
+  if (what == Skipping{} && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {

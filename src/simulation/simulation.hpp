@@ -82,9 +82,11 @@ struct Intersections {
 
 /// What steps leave out because it is known to change nothing.
 struct Skipping {
-  bool forces = true;       // of bodies that are not deformed
-  bool rest = true;         // all that is done for bodies at rest
-  bool quiet_steps = true;  // the search for contacts, and dispatches, where no contact can need an answer
+  bool forces = true;  // of bodies that are not deformed
+  bool rest = true;    // all that is done for bodies at rest
+  // The search for contacts, and dispatches, where no contact can need an answer. No step is quiet in which one of the others is
+  // done.
+  bool quiet_steps = true;
 
   bool operator==(const Skipping&) const = default;
 };
@@ -120,7 +122,7 @@ class Simulation {
   void skip(const Skipping& what);
   /// Returns the device time of all measured passes by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
-  /// Returns how many passes have been started, each as one dispatch or more.
+  /// Returns how many passes steps have started.
   [[nodiscard]] std::uint64_t launches() const { return launches_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);

@@ -1,5 +1,5 @@
-// One thread takes one subtree of either tree of two near bodies, and lists the pairs of leaves whose boxes of cages overlap. If the list
-// is full, it lists the pairs of their triangles itself.
+// One thread takes some pairs of subtrees, one of either tree of two near bodies. It lists pairs of leaves whose boxes of cages overlap.
+// If the list is full, it lists the pairs of their triangles itself.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

@@ -1,5 +1,5 @@
-// One thread takes one subtree of either tree of two near bodies. It descends both together, down to pairs of leaves whose boxes
-// overlap. It lists these pairs for test_pairs. If the list is full, it tests them itself. Many threads serve one pair of bodies.
+// One thread takes some pairs of subtrees, one of either tree of two near bodies. It descends both together, down to pairs of leaves whose
+// boxes overlap. It lists these pairs for test_pairs. If the list is full, it tests them itself. Many threads serve one pair of bodies.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

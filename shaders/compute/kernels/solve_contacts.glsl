@@ -244,8 +244,9 @@ void kick(uint i, uint kick_round) {
   STORE3(motion, at, velocity)
   rouse(b);
   ATOMIC_STORE(pressed[b], step_parts[0].parts + 1u);
-  for (uint k = 0u; k < 3u; ++k)
-    ADD_EXACTLY_TOGETHER(contact_sum[k], quanta[int(k)])
+  ADD_EXACTLY_TOGETHER(contact_sum[0], quanta.x)
+  ADD_EXACTLY_TOGETHER(contact_sum[1], quanta.y)
+  ADD_EXACTLY_TOGETHER(contact_sum[2], quanta.z)
 }
 
 // The mean of the vertex's velocities before and after the kick [m/s].

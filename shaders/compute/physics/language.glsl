@@ -80,8 +80,9 @@
     uint first = 0u;                                                       \
     {                                                                      \
       uint taken = (count), together = subgroupAdd(taken);                 \
+      uint before = subgroupExclusiveAdd(taken);                           \
       if (subgroupElect()) first = atomicAdd(next, together);              \
-      first = subgroupBroadcastFirst(first) + subgroupExclusiveAdd(taken); \
+      first = subgroupBroadcastFirst(first) + before;                      \
     }
   #define TALLY_UP(tally, count)                                         \
     {                                                                    \

@@ -452,7 +452,7 @@ class Impulse final : public Response {
   bool keeps_impulses() const { return has_pairs_ || ground_count_ > 1; }
 
   // A power of two. Entries of a step that had the same number may still stand beside those of this one.
-  std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(2 * contact_capacity_ + 1) : 1; }
+  std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(4 * contact_capacity_) : 1; }
 
   Pass round_pass(std::string_view name, const Parameters& parameters) const {
     Device& device = bodies_.arrays.device();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/expect.hpp"
 #include "dynamics/forces/elongations.hpp"
 #include "physics/layout.glsl"
 
@@ -31,6 +32,7 @@ class SpringEnergies {
 
   // Returns the energy of all bodies [J]. It is NaN if a stop left springs out.
   double sum(const EnergyQuestion& question) {
+    PLIANT_EXPECT(energies_.size() == question.model.vertex_count() && is_known_.size() == question.model.bodies.size());
     const Model& model = question.model;
     note_changes(model, question.state, question.pool);
     const std::vector<Rows> tasks = tasks_of(model);

@@ -5,7 +5,7 @@ WRITE_AS(contact, real4, contact_row)
 WRITE_AS(contact_impulse, real4, impulse_row)
 WRITE(contact_weight)
 PARAMETER(uint, contact_capacity)
-PARAMETER(uint, keeps_impulses)  // 1: take_up_impulses runs
+PARAMETER(uint, keeps_impulses)  // 1: contacts at rest begin with their last impulse
 
 // Contacts give impulses in quanta of what these vertices have.
 void count_vertex(uint i) {
