@@ -29,7 +29,7 @@ std::uint32_t pairs_expected(std::uint32_t body_count) {
 
 // Subtrees of about one size make threads end together, whatever the sizes of bodies. If each body met another one as large, this
 // many triangles a subtree would keep the device busy, or one subtree a body does.
-std::uint32_t fewest_triangles_of_a_start(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
+std::uint32_t most_triangles_of_a_start(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
   const auto subtree_pairs = [&](std::uint32_t most_triangles) {
     std::uint64_t pairs = 0;
     for (std::uint32_t body = 0; body < body_count; ++body) {
@@ -76,7 +76,7 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t
       leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
       node_count_(static_cast<std::uint32_t>(forest.nodes.size())),
       threads_of_a_pair_(std::max(parallel_items / pairs_expected(bodies.body_count), 1u)),
-      triangles_of_a_start_(fewest_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
+      triangles_of_a_start_(most_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
   Arrays& arrays = bodies.arrays;
   arrays.make("tree", trees_of(forest));
   arrays.make("leaf", forest.leaves);
@@ -106,8 +106,9 @@ Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capac
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
   const Device& device = bodies_.arrays.device();
   const std::uint32_t pairs = near_pairs_at_once(),
-                      threads = device.info().kind == DeviceKind::gpu ? 4 : 1,  // of a pair of leaves: a GPU waits for its slowest
-                      leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
+                      threads =
+                          device.info().kind == DeviceKind::gpu ? 4 : 1,  // of a pair of leaves: a GPU waits for its slowest
+      leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
           make_pass(bodies_.arrays, "find_cage_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
