@@ -319,7 +319,7 @@ void serve_stages(Share s) {
   if (!runs(s)) return;
   if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
   barrier();
-  for (stage_index = 0u; stage_index < stage_count; ++stage_index) {
+  for (stage_index = first_stage(s, group_sums); stage_index < stage_count; ++stage_index) {
     bool meets = group_sums && (stage_index > 0u || kicks_first);
     if (meets) arrive(s);
     prepare(s);
@@ -338,7 +338,7 @@ void serve_stages(Share s) {
 
 #ifdef QUIET
 #include "kernels/parts/quiet_steps.glsl"
-void main() { make_quiet_steps(gl_WorkGroupID.x, item_count); }
+void main() { make_quiet_steps(gl_WorkGroupID.x); }
 #else
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;

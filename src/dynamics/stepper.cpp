@@ -63,8 +63,9 @@ std::vector<glm::dvec2> splitting_rows(const Splitting& method, double time_step
   return rows;
 }
 
-// Internal damping is constant damping with forces beside it.
-std::uint32_t law_of_stages(DampingLaw law) {
+// Internal damping is constant damping with forces beside it. Where no body is damped, no law is asked.
+std::uint32_t law_of_stages(const Model& model, DampingLaw law) {
+  if (std::ranges::none_of(model.bodies, [](const ModelBody& body) { return body.damping > 0; })) return physics::damping_none;
   return static_cast<std::uint32_t>(law == DampingLaw::internal ? DampingLaw::constant : law);
 }
 
@@ -86,7 +87,7 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
       added_forces_(bodies, model),
       internal_damping_(bodies, model, law),
       integrator_(integrator),
-      law_(law_of_stages(law)),
+      law_(law_of_stages(model, law)),
       time_step_(time_step) {
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
@@ -103,11 +104,10 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
     bodies.make_placements(physics::slots_of_splitting(stage_count_));
     make_tableau(bodies.arrays, splitting_rows(splitting, time_step));
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
-    bodies.arrays.make<double>("kept_force", (may_take_back_steps() ? 2 : 1) * coordinates);
+    bodies.arrays.make<double>("kept_force", coordinates);
   }
-  bodies.arrays.set_parameter("keeps_force", staged_method(integrator) == nullptr ? 1u : 0u);
+  bodies.arrays.set_parameter("keeps_force", keeps_force() ? 1u : 0u);
   bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
-  bodies.arrays.set_parameter("force_half_size", may_take_back_steps() ? bodies.vertex_count : 0);
 }
 
 void Stepper::use_tableaus(Stages stages) {
@@ -149,12 +149,11 @@ Pass Stepper::restating_pass(std::uint32_t from_half) const {
   return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
-std::vector<Pass> Stepper::refresh_passes(std::uint32_t from_half) const {
+std::vector<Pass> Stepper::refresh_passes() const {
   std::vector<Pass> passes;
   for (const ForceGroup& group : bodies_.force_groups) {
     const KernelId kernel = bodies_.arrays.device().force_kernel("refresh_force", group.variant);
-    passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel,
-                               {{"from_half", from_half}, {"first_share", group.first_share}}, group.share_count));
+    passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel, {{"first_share", group.first_share}}, group.share_count));
   }
   run_together(passes);
   return passes;
@@ -195,10 +194,8 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   return passes;
 }
 
-bool Stepper::may_take_back_steps() const { return adds_force() == 0 && bodies_.body_count <= physics::most_quiet_bodies; }
-
 bool Stepper::makes_quiet_steps() const {
-  return may_take_back_steps() && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
+  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
          bodies_.arrays.device().force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
 }
 
@@ -207,11 +204,9 @@ Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
   const ForceGroup& group = bodies_.force_groups[0];
   const std::uint32_t work_groups =
       std::min(bodies_.arrays.device().force_variants()[group.variant].quiet_groups, group.share_count);
-  Parameters parameters = {{"first_half", first_half},
-                           {"damping_law", law_},
-                           {"stage_count", stage_count_},
-                           {"first_share", group.first_share},
-                           {"share_count", group.share_count}};
+  Parameters parameters = {{"first_half", first_half},         {"damping_law", law_},
+                           {"stage_count", stage_count_},      {"first_share", group.first_share},
+                           {"share_count", group.share_count}, {"lists_shares", group.has_whole_bodies ? 1u : 0u}};
   const auto* splitting = std::get_if<Splitting>(&integrator_.method);
   if (splitting != nullptr) {
     parameters.emplace_back("first_kick_time", seconds(splitting->kick[0], time_step_));
@@ -224,7 +219,7 @@ Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
   const double first_kick = seconds(method.kick[0], time_step_);
-  std::vector<Pass> result = refresh_passes(from_half);
+  std::vector<Pass> result = refresh_passes();
   std::ranges::move(force_passes({physics::start_slot, from_half, 0, first_kick}), std::back_inserter(result));
   result.push_back(make_pass(bodies_.arrays, "first_kick",
                              {{"from_half", from_half},

@@ -35,7 +35,7 @@ class Stepper {
   [[nodiscard]] Pass following_pass(std::uint32_t from_half) const;
   [[nodiscard]] Pass restating_pass(std::uint32_t from_half) const;
   /// Sums the spring forces at the step's start, for bodies whose kept ones are stale. It is part of a splitting's step.
-  [[nodiscard]] std::vector<Pass> refresh_passes(std::uint32_t from_half) const;
+  [[nodiscard]] std::vector<Pass> refresh_passes() const;
 
   /// Whether it can make quiet steps (physics/quiet.glsl).
   [[nodiscard]] bool makes_quiet_steps() const;
@@ -43,6 +43,8 @@ class Stepper {
   /// which kind.
   [[nodiscard]] Pass quiet_pass(std::uint32_t first_half, ForceSpan span) const;
 
+  /// Whether the method keeps spring forces for the next step.
+  [[nodiscard]] bool keeps_force() const { return staged_method(integrator_) == nullptr; }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
 
  private:
@@ -54,8 +56,6 @@ class Stepper {
                                                const StateOfStage& state_of_stage) const;
   /// Returns passes that set the forces beside the springs, for one stage.
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
-  /// Whether some device makes quiet steps for these bodies, and so may take one back. Checkpoints go from one device to another.
-  [[nodiscard]] bool may_take_back_steps() const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
 

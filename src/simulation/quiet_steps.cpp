@@ -22,23 +22,29 @@ bool looks_at_ends(const Collider& collider) {
   return collider.response() == nullptr || (collider.response_row().answers_touching && collider.uses_trees());
 }
 
+bool may_meet(const Collider& collider) { return collider.response() != nullptr && collider.searches(); }
+
 ForceSpan span_of(const Collider& collider) {
   return looks_at_ends(collider) ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses;
 }
 
-std::vector<Pass> passes_before(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
+// Those that set bounds, after moving bodies have been listed. There are none if the response knows no quiet steps.
+std::vector<Pass> bounding_passes(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
   if (!looks_at_ends(collider)) return collider.response()->before_quiet_steps(half);
-  const bool may_touch = collider.response() != nullptr && collider.searches();
   std::vector<Pass> passes;
-  if (may_touch) passes.push_back(collider.bounding_pass(half));
-  passes.push_back(
-      make_pass(bodies.arrays, "give_room", {{"from_half", half}, {"searches", may_touch ? 1u : 0u}}, bodies.body_count));
+  if (may_meet(collider)) passes.push_back(collider.bounding_pass(half));
+  passes.push_back(make_pass(bodies.arrays, "give_room", {{"from_half", half}, {"searches", may_meet(collider) ? 1u : 0u}},
+                             bodies.body_count));
   return passes;
 }
 
 std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
-  std::vector<Pass> passes = passes_before(half, bodies, collider);
-  if (passes.empty()) return {};
+  const std::vector<Pass> bounding = bounding_passes(half, bodies, collider);
+  if (bounding.empty()) return {};
+  std::vector<Pass> passes = {
+      beside_next(make_pass(bodies.arrays, "list_moving_bodies", {{"may_meet", may_meet(collider) ? 1u : 0u}},
+                            static_cast<std::uint32_t>(bodies.shares.size())))};
+  std::ranges::copy(bounding, std::back_inserter(passes));
   passes.push_back(stepper.quiet_pass(half, span_of(collider)));
   const std::uint32_t pairs = collider.response() != nullptr ? collider.pair_count() : 0;
   passes.push_back(make_pass(bodies.arrays, "end_quiet_steps", {{"pair_count", pairs}}, bodies.body_count));
@@ -54,6 +60,7 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Colli
   if (most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
+  bodies.arrays.make<double>("kept_before", stepper.keeps_force() ? std::size_t{3} * bodies.vertex_count : 1);
   for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, bodies, stepper, collider);
   if (!are_known()) return;
   aim_at(0);
@@ -62,8 +69,11 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Colli
 }
 
 void QuietSteps::aim_at(std::uint64_t most) const {
-  const physics::QuietSteps asked{
-      .end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)), .undone = ~0u, .arrivals = 0, .begun = 0};
+  const physics::QuietSteps asked{.end = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, most_at_once_)),
+                                  .undone = ~0u,
+                                  .arrivals = 0,
+                                  .begun = 0,
+                                  .moving_bodies = 0};
   steps_->upload(std::span(&asked, 1));
 }
 

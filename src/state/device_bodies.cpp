@@ -35,7 +35,7 @@ std::vector<ForceGroup> groups_of(const Device& device, const Model& model, cons
       count += (model.bodies[b].vertex_count - 1) / lanes.share_size + 1;
       ++bodies;
     }
-    if (count > 0) groups.push_back({variant, first_share, count, lanes.all_stages && count == bodies});
+    if (count > 0) groups.push_back({variant, first_share, count, lanes.all_stages && count == bodies, count == bodies});
     first_share += count;
   }
   if (groups.size() == 1 && groups[0].share_count <= device.shares_at_once())

@@ -16,7 +16,8 @@ namespace pliant {
 struct ForceGroup {
   std::size_t variant;
   std::uint32_t first_share, share_count;
-  bool all_stages;  // whether one dispatch can run all stages of a step
+  bool all_stages;        // whether one dispatch can run all stages of a step
+  bool has_whole_bodies;  // whether each body is one share
 };
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.

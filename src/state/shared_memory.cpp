@@ -16,7 +16,8 @@ constexpr Phases restoring = 1,  // restore_impacts
     searching = 2,               // from expect_motion or refit to find_contacts, meet_grounds and test_pairs
     kicking = 4,                 // take_up_impulses and solve_contacts
     at_stages = 8,               // the passes of forces before a stage, and the stage
-    cutting = 16;                // from expect_cuts to pay_dues
+    cutting = 16,                // from expect_cuts to pay_dues
+    at_quiet_steps = 32;         // from list_moving_bodies to end_quiet_steps
 
 struct Sharing {
   std::string_view array;
@@ -34,6 +35,8 @@ constexpr Sharing sharing[] = {
     {"moment", at_stages},       // sum_moments writes it for all bodies that find_rigid_motion looks at
     {"way", cutting},            // expect_cuts writes it for all bodies that have a partner or move
     {"cut", cutting},            // as above
+    {"quiet_body", at_quiet_steps},     // passes before quiet_steps write it for all bodies
+    {"kept_before", at_quiet_steps},    // quiet_steps writes it for all bodies that move
     {"part_sum", restoring | cutting},  // the first round of restore_impacts and of pay_dues
 };
 

@@ -308,7 +308,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   const CollisionDescription impulses{.response = {"impulse"}};
   Bench cpu(make_cpu_device(2, 32), start, {"verlet", 0.01}, impulses),
       gpu(make_gpu_device(0), start, {"verlet", 0.01}, impulses);
-  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0, .begun = 1};
+  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0, .begun = 1, .moving_bodies = 0};
   for (Bench* bench : {&cpu, &gpu}) {
     bench->bodies.arrays.make("quiet_steps", std::vector{asked});
     bench->bodies.arrays.make<physics::QuietBody>("quiet_body", 2);
@@ -316,7 +316,9 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
     bench->device->run(bench->step(0));
   }
   const auto passes_of = [](const Bench& bench) {
-    std::vector<Pass> passes = bench.collider.response()->before_quiet_steps(1);
+    std::vector<Pass> passes = {make_pass(bench.bodies.arrays, "list_moving_bodies", {{"may_meet", 1u}},
+                                          static_cast<std::uint32_t>(bench.bodies.shares.size()))};
+    std::ranges::copy(bench.collider.response()->before_quiet_steps(1), std::back_inserter(passes));
     passes.push_back(make_pass(bench.bodies.arrays, "end_quiet_steps", {{"pair_count", 1u}}, 2));
     passes.push_back(bench.collider.bounding_pass(1));
     passes.push_back(make_pass(bench.bodies.arrays, "give_room", {{"from_half", 1u}, {"searches", 1u}}, 2));

@@ -332,7 +332,7 @@ std::vector<double> spring_forces(Device& device, const ModelAndState& start, st
   DeviceBodies bodies(device, start.model, start.state, variant);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 0.01);
   device.run(stepper.first_passes());
-  const Pass pass = stepper.refresh_passes(0).front();
+  const Pass pass = stepper.refresh_passes().front();
   device.run({&pass, 1});
   return bodies.arrays.get<double>("kept_force").download(0, std::size_t{3} * start.model.vertex_count());
 }

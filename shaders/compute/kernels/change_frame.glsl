@@ -16,7 +16,6 @@ PARAMETER(uint, from_half)
 PARAMETER(uint, keeps_force)  // 1: the method keeps spring forces for the next step
 #include "parts/place.glsl"
 #include "parts/restate.glsl"
-#include "parts/kept_force.glsl"
 #include "parts/restate_force.glsl"
 
 void fall_asleep(uint i) {
@@ -26,9 +25,6 @@ void fall_asleep(uint i) {
   STORE3(motion, velocity_of(before), dvec3(0))
   STORE3(motion, velocity_of(after), dvec3(0))
   world_position[before] = world_position[after];
-  if (keeps_force == 0u) return;
-  dvec3 kept = LOAD3(kept_force, kept_force_of(other_half(from_half), i));
-  STORE3(kept_force, kept_force_of(from_half, i), kept)
 }
 
 void change_frame(uint i) {

@@ -17,7 +17,6 @@ PARAMETER(uint, damping_law)
 PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if they can fall into parts; else 0
 #include "parts/frame.glsl"
 #include "parts/part_of_step.glsl"
-#include "parts/kept_force.glsl"
 #include "parts/kick.glsl"
 #include "parts/place.glsl"
 #include "parts/all_force.glsl"
@@ -26,6 +25,10 @@ PARAMETER(double, parts_of)  // [s] these times are for steps of this length, if
 void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
   if (status[b].activity != moving || is_still(status[b])) return;
+  // all axes are loaded before one is stored, so that loads overlap
+  Kicked x = first_kick_of(i, 0u, b, body[b]), y = first_kick_of(i, 1u, b, body[b]), z = first_kick_of(i, 2u, b, body[b]);
+  store_first_kick(i, 0u, body[b], x);
+  store_first_kick(i, 1u, body[b], y);
+  store_first_kick(i, 2u, body[b], z);
   if (i == body[b].first_vertex) status[b].force_stale = 0u;  // refresh_force has summed the springs again
-  for (uint k = 0u; k < 3u; ++k) kick_first(i, k, b, body[b]);
 }

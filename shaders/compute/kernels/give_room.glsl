@@ -36,8 +36,11 @@ float room_around(uint b) {
   return room - 1e-5f * max(farthest.x, max(farthest.y, farthest.z));
 }
 
+bool moves(uint b) { return status[b].activity == moving && !is_still(status[b]); }
+
 void give_room(uint b) {
-  float room = searches != 0u ? room_around(b) : endless;
+  if (ATOMIC_LOAD(quiet_steps[0].end) == 0u) return;
+  float room = searches != 0u && moves(b) ? room_around(b) : endless;
   bool is_quiet = is_steady(status[b]) && room > 0.0f && control[0].non_finite_vertex == no_vertex;
   if (!is_quiet) atomicMin(quiet_steps[0].end, 0u);
   Box box = box_of_body(b);

@@ -1,5 +1,5 @@
-// One thread compares two bodies, or looks at one. It finds for how many steps they surely stay apart, and the body apart from grounds. If
-// something acts that lasts from earlier contacts, no step is quiet.
+// Several threads compare one body with all that move. They find for how many steps these surely stay apart, and the first one the same of
+// the body and grounds. If something acts that lasts from earlier contacts, no step is quiet.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/collision/box.glsl"
@@ -9,6 +9,7 @@
 #include "../physics/contact/surface.glsl"
 #include "../physics/quiet.glsl"
 READ(control)
+READ(share)
 READ(surface)
 READ(ground)
 READ_AS(place_box, BoxBits, body_box)
@@ -20,7 +21,9 @@ READ(contact_list)
 READ(debt)
 READ(cluster)
 WRITE(quiet_steps)
+READ(quiet_body)
 PARAMETER(uint, body_count)
+PARAMETER(uint, threads_of_a_body)
 PARAMETER(uint, ground_count)
 #include "parts/quiet_region.glsl"
 #include "parts/dues.glsl"
@@ -66,11 +69,18 @@ void look_at(uint b) {
   allow(steps >= fewest_quiet_steps ? steps : 0u);
 }
 
-void limit_quiet_steps(uint item) {
-  uint a = item / body_count, b = item % body_count;
-  if (a == b) look_at(b);
-  if (a >= b || (!moves(a) && !moves(b))) return;
+void compare(uint a, uint b) {
   uint steps = most_quiet_steps;
   while (steps >= fewest_quiet_steps && overlaps(quiet_region(a, steps), quiet_region(b, steps))) steps /= 2u;
   allow(steps >= fewest_quiet_steps ? steps : 0u);
+}
+
+void limit_quiet_steps(uint item) {
+  uint b = item / threads_of_a_body, thread = item % threads_of_a_body;
+  if (ATOMIC_LOAD(quiet_steps[0].end) == 0u) return;
+  if (thread == 0u) look_at(b);
+  for (uint n = thread; n < quiet_steps[0].moving_bodies; n += threads_of_a_body) {
+    uint other = share[quiet_body[n].moving_share].body_index;
+    if (other < b || (other > b && !moves(b))) compare(other, b);
+  }
 }

@@ -8,9 +8,7 @@ WRITE(tally)
 READ_AS(placement, real4, placed)
 WRITE(kept_force)
 PARAMETER(uint, vertex_count)
-PARAMETER(uint, from_half)
 #include "parts/force_kernel.glsl"
-#include "parts/kept_force.glsl"
 
 bool runs(IN(Share) s) { return !halted(s) && status[s.body_index].force_stale != 0u; }
 uint placement_slot() { return start_slot; }
@@ -26,7 +24,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[kept_force_of(from_half, i) + k] = spring_force;
+  kept_force[force_of(i) + k] = spring_force;
   return double(0);
 }
 

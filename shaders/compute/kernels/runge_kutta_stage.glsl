@@ -23,6 +23,21 @@ PARAMETER(uint, damping_law)
 #include "parts/end_step.glsl"
 
 bool runs(IN(Share) s) { return !halted(s); }
+
+// Where a body is not deformed all stages have one acceleration, because the adaptive law does not damp it, either. In quiet steps nobody
+// asks for those of earlier stages, so the last one is enough.
+#ifdef QUIET
+bool has_one_acceleration = false;
+uint first_stage(IN(Share) s, bool sums) {
+  has_one_acceleration = !sums && (damping_law != damping_constant || s.body.damping == double(0));
+  return has_one_acceleration ? stage_count - 1u : 0u;
+}
+#else
+const bool has_one_acceleration = false;
+#ifdef TILE
+uint first_stage(IN(Share) s, bool sums) { return 0u; }
+#endif
+#endif
 uint placement_slot() { return slot_of_stage(stage_index); }
 
 // What a body's vertices have in common on one axis.
@@ -60,16 +75,18 @@ uint next_row(IN(Share) s) { return s.tableau_row + stage_index * tableau_row_si
 uint accelerations_of(uint stage, uint i) { return acceleration_of(stage, vertex_count, i); }
 
 // Earlier stages are summed four at a time, so that their loads overlap. Beyond the last one weights are zero.
-double earlier(uint i, uint k, uint j) { return acceleration[accelerations_of(min(j, stage_index - 1u), i) + k]; }
+double earlier(uint i, uint k, uint j, double gravity) {
+  return has_one_acceleration ? gravity : acceleration[accelerations_of(min(j, stage_index - 1u), i) + k];
+}
 dvec2 weigh_four(uint first, double a, double b, double c, double d) {
   EXACT dvec2 sum = (a * tableau[first] + b * tableau[first + 1u]) + (c * tableau[first + 2u] + d * tableau[first + 3u]);
   return sum;
 }
-dvec2 sum_earlier(uint i, uint k, uint row) {  // for position and velocity
+dvec2 sum_earlier(uint i, uint k, uint row, double gravity) {  // for position and velocity
   dvec2 sums = dvec2(0);
   for (uint j = 0u; j < stage_index; j += 4u)
-    sums += weigh_four(row + first_earlier_weight + j, earlier(i, k, j), earlier(i, k, j + 1u), earlier(i, k, j + 2u),
-                       earlier(i, k, j + 3u));
+    sums += weigh_four(row + first_earlier_weight + j, earlier(i, k, j, gravity), earlier(i, k, j + 1u, gravity),
+                       earlier(i, k, j + 2u, gravity), earlier(i, k, j + 3u, gravity));
   return sums;
 }
 
@@ -122,7 +139,8 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
   p.rounding = rounding_so_far(i, k);
   p.rest = double(rest_position[i][int(k)]);
   p.stage_velocity = motion[w];
-  if (damping_law != damping_none && stage_index > 0u) p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
+  if (damping_law != damping_none && stage_index > 0u && !has_one_acceleration)
+    p.stage_velocity = acceleration[accelerations_of(stage_index, i) + k];
   EXACT double displacement = motion[u] + c.elapsed * motion[w] + (c.time_step * c.time_step) * sums.x;
   EXACT double velocity = c.keep * motion[w] + c.time_step * sums.y;
   p.displacement = displacement;
@@ -131,7 +149,8 @@ Pending before_force_with(uint i, uint k, IN(Course) c, dvec2 sums) {
 }
 
 Pending before_force(uint i, uint k, IN(Share) s) {
-  return before_force_with(i, k, course_on_axis(k, s), sum_earlier(i, k, next_row(s)));
+  Course c = course_on_axis(k, s);
+  return before_force_with(i, k, c, sum_earlier(i, k, next_row(s), c.gravity));
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {

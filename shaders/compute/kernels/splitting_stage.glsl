@@ -21,15 +21,18 @@ PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if 
 #include "parts/place.glsl"
 #include "parts/all_force.glsl"
 #include "parts/end_step.glsl"
-#include "parts/kept_force.glsl"
 #include "parts/kick.glsl"
 #include "parts/part_of_step.glsl"
 #ifdef QUIET
 #define KICKS_FIRST
 #include "parts/first_kick.glsl"
+#include "parts/kept_before.glsl"
 #endif
 
 bool runs(IN(Share) s) { return !halted(s); }
+#ifdef TILE
+uint first_stage(IN(Share) s, bool sums) { return 0u; }
+#endif
 uint placement_slot() { return slot_of_force(stage_index); }
 
 // These read the tableau's two rows for this stage.
@@ -58,7 +61,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 }
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  kept_force[kept_force_of(other_half(from_half), i) + k] = spring_force;
+  kept_force[force_of(i) + k] = spring_force;
   double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), force_squared, p.velocity, kick_time());
   EXACT double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);

@@ -25,10 +25,11 @@ ARRAY(slept, double, body, carried, "[body][4] energy that sleep has taken from 
 ARRAY(meeting, uint, body, step, "arrivals of work groups that wait for each other within a step, 0 between steps")
 ARRAY(control, Control, run, carried, "the step's length, clock and counters")
 ARRAY(quiet_body, QuietBody, body, step, "bounds within which steps are quiet, and what work groups tell each other of the body in them")
+ARRAY(kept_before, double, vertex, step, "[vertex][3] spring forces that a splitting method kept when a quiet step began [N]; one number where no step is quiet")
 ARRAY(quiet_steps, QuietSteps, run, step, "how many quiet steps are made at once")
 
 // integrators
-ARRAY(kept_force, double, vertex, carried, "[half][vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]; one half where no steps may be quiet")
+ARRAY(kept_force, double, vertex, carried, "[vertex][3] spring forces of a splitting method at the step's start, and at its end for the next step [N]")
 ARRAY(acceleration, double, vertex, step, "[stage][vertex][3] of a method with stages [m/s^2]; until then the stage's velocity; one number for a splitting")
 ARRAY(tableau, dvec2, run, fixed, "rows as runge_kutta_stage and splitting_stage read them, one tableau after another")
 ARRAY(error_weight, double, stage, fixed, "[stage][4] of the step's distance to the embedded method's, in position and velocity; then the second one's")

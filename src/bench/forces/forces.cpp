@@ -101,7 +101,7 @@ class ForcesAt {
     DeviceBodies bodies(*device_, body.model, body.state, variant);
     const Stepper stepper(bodies, body.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
     device_->run(stepper.first_passes());
-    const std::vector<Pass> passes = stepper.refresh_passes(0);  // kept forces stay marked as stale, so they sum them every time
+    const std::vector<Pass> passes = stepper.refresh_passes();  // kept forces stay marked as stale, so they sum them every time
     return seconds_each(*device_, effort_, [&] { device_->run(passes); });
   }
 

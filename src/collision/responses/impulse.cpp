@@ -298,12 +298,14 @@ class Impulse final : public Response {
   }
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
-  // Two bodies of which each has a thread are compared.
   std::vector<Pass> before_quiet_steps(std::uint32_t from_half) const override {
     if (restores_ || !divides_steps_) return {};
     const Arrays& arrays = bodies_.arrays;
+    const std::uint32_t threads =
+        std::clamp(arrays.device().parallel_items(bodies_.body_count) / bodies_.body_count, 1u, bodies_.body_count);
     return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
-            make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}}, bodies_.body_count * bodies_.body_count),
+            make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}, {"threads_of_a_body", threads}},
+                      threads * bodies_.body_count),
             make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}}, bodies_.body_count)};
   }
   std::vector<Pass> after_quiet_steps() const override {

@@ -1,4 +1,5 @@
 // Turns a body's frame after the body. The kernel has count_frame_change(b).
+#include "frame_change.glsl"
 
 // Of the vertices that stand for the body, because any rotation near its own is good enough: their rest positions, and where they are in
 // the frame, relative to a point that moves with the body.
@@ -48,7 +49,7 @@ void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, d
   dvec3 origin = LOAD3(pose[b].origin, 0u) + rotate_by(next, shift);
   dvec3 gravity = rotate_by(back, LOAD3(pose[b].gravity, 0u));
   STORE3(pose[b].origin, 0u, origin)
-  STORE3(frame_change[b].shift, 0u, shift)
+  STORE3(CHANGE_OF(b).shift, 0u, shift)
   STORE3(pose[b].gravity, 0u, gravity)
   pose[b].quaternion[0] = next.x;
   pose[b].quaternion[1] = next.y;
@@ -61,14 +62,14 @@ void change_frame_of(uint b, uint first_vertex, Quaternion q, dvec3 rest_mean, d
     pose[b].rotation[column] = r.x;
     pose[b].rotation[3u + column] = r.y;
     pose[b].rotation[6u + column] = r.z;
-    frame_change[b].turn[column] = t.x;
-    frame_change[b].turn[3u + column] = t.y;
-    frame_change[b].turn[6u + column] = t.z;
+    CHANGE_OF(b).turn[column] = t.x;
+    CHANGE_OF(b).turn[3u + column] = t.y;
+    CHANGE_OF(b).turn[6u + column] = t.z;
   }
   dvec3 first = dvec3(vec3(rest_position[first_vertex]));
   dvec3 reference = rotate_by(back, first + LOAD3(pose[b].reference, 0u)) - first - shift;
   STORE3(pose[b].reference, 0u, reference)
-  frame_change[b].turned = 1u;
+  CHANGE_OF(b).turned = 1u;
   count_frame_change(b);
 }
 

@@ -1,7 +1,7 @@
 // Runs quiet steps. All groups make a step, each for its shares, and meet. Then they know whether it stands, and whether it was the last
-// one. A group has several shares if each body has one.
-SHARED_WRITE(frame_change)
+// one. If each body has one share, a group takes shares in turn, of bodies that move. Else it has one.
 PARAMETER(uint, share_count)
+PARAMETER(uint, lists_shares)  // 1: each body has one share
 PARAMETER(uint, first_half)
 void count_frame_change(uint b) { quiet_body[b].frame_changes += 1u; }
 #include "follow_rotation.glsl"
@@ -39,6 +39,7 @@ Samples summed_samples() {
 #include "restate_force.glsl"
 #else
 void restate_force(uint i, uint b) {}
+void take_back_force(uint i, uint k) {}
 #endif
 
 #define EACH_THREAD(n, count) for (uint n = gl_LocalInvocationID.x; n < (count); n += gl_WorkGroupSize.x)
@@ -110,7 +111,10 @@ void make_step(uint number, Share s) {
   }
   if (serves_first(s)) EACH_THREAD(k, 3u) quiet_body[b].reference_before[k] = frame.reference[k];
 #ifdef KICKS_FIRST
-  EACH_COORDINATE(n) kick_first(VERTEX_OF(n), AXIS_OF(n), b, s.body);
+  EACH_COORDINATE(n) {
+    note_force(VERTEX_OF(n), AXIS_OF(n));
+    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), b, s.body));
+  }
 #endif
   memoryBarrierBuffer();
   barrier();
@@ -119,23 +123,28 @@ void make_step(uint number, Share s) {
   barrier();
   EACH_COORDINATE(n) look_at_vertex(VERTEX_OF(n), AXIS_OF(n), b);
   tell_first(s);
-  tell_samples(s);
+  if (group_sums) tell_samples(s);
   if (group_sums || !leads(s) || !is_left_where_it_was(s, b)) return;
   status[b].calm = 1u;
-  atomicMin(quiet_steps[0].end, step_index + 1u);
+  end_with_step();
 }
 
 shared bool frame_turns;
 
-// The step stands. Each group of the body finds whether its frame turns.
+// The step stands. Each group of the body finds whether its frame turns. It does not while all vertices move alike.
 void end_step_of(uint number, Share s) {
   uint b = s.body_index;
   if (!runs(s)) return;
+  bool may_turn = deformed(s);
   barrier();  // shared memory changes from here on
   fetch_body(b, other_half(from_half));
   share_at_hand = number;
-  fetch_samples(s.body, b);
+  if (may_turn) fetch_samples(s.body, b);
   barrier();
+  if (!may_turn) {
+    EACH_COORDINATE(n) keep_surplus(VERTEX_OF(n), AXIS_OF(n), b);
+    return;
+  }
   sum_samples();
   barrier();
   if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) frame_turns = has_turned(summed_samples());
@@ -156,7 +165,7 @@ void end_step_of(uint number, Share s) {
   meet_others(s);
 }
 
-// Motions have a half for the step's start. The placement there and what it is relative to have not, so they are found again.
+// Motions have a half for the step's start, and kept forces were noted. The placement there and what it is relative to are found again.
 void undo_step(Share s) {
   uint b = s.body_index;
   if (!runs(s)) return;
@@ -164,6 +173,7 @@ void undo_step(Share s) {
     uint i = VERTEX_OF(n), k = AXIS_OF(n);
     double relative = motion[displacement_of(before_step(i)) + k] - quiet_body[b].reference_before[k];
     place(start_slot, i, k, s.body.inverse_unit, double(rest_position[i][int(k)]), relative);
+    take_back_force(i, k);
   }
   if (serves_first(s)) EACH_THREAD(k, 3u) pose[b].reference[k] = quiet_body[b].reference_before[k];
   if (leads(s)) status[b].calm = 0u;
@@ -172,43 +182,54 @@ void undo_step(Share s) {
 shared uint end_seen, undone_seen;
 uint meetings_of_all = 0u;
 
-// Others may be a step ahead by the time that these are read, and may have changed them, but only to later steps.
+// Others may be a step ahead by the time that news are read, and may have more of them, but only of later steps.
 void meet_all(uint groups) {
   ++meetings_of_all;
   memoryBarrierBuffer();
   barrier();
   if (gl_LocalInvocationID.x == 0u) {
-    uint polls = 0u;
-    atomicAdd(quiet_steps[0].arrivals, 1u);
-    while (atomicAdd(quiet_steps[0].arrivals, 0u) < groups * meetings_of_all && polls < most_polls) ++polls;
+    uint polls = 0u, seen = atomicAdd(quiet_steps[0].arrivals, 1u) + 1u;
+    while ((seen & ~has_news) < groups * meetings_of_all && polls < most_polls) {
+      seen = atomicAdd(quiet_steps[0].arrivals, 0u);
+      ++polls;
+    }
     if (polls == most_polls) atomicOr(quiet_steps[0].arrivals, waited_in_vain);  // the others need not wait, either
     memoryBarrierBuffer();
-    bool failed = (atomicAdd(quiet_steps[0].arrivals, 0u) & waited_in_vain) != 0u;
-    end_seen = failed ? 0u : atomicAdd(quiet_steps[0].end, 0u);
-    undone_seen = atomicAdd(quiet_steps[0].undone, 0u);
+    if ((seen & has_news) != 0u) {
+      end_seen = atomicAdd(quiet_steps[0].end, 0u);
+      undone_seen = atomicAdd(quiet_steps[0].undone, 0u);
+    }
+    if (polls == most_polls || (seen & waited_in_vain) != 0u) end_seen = 0u;
   }
   barrier();
 }
 
 // Groups meet before they change anything. If they do not all run at once, they make no step.
 #include "was_stopped.glsl"
-#define EACH_SHARE(k) for (uint k = group; k < share_count; k += groups)
-void make_quiet_steps(uint group, uint groups) {
-  if (gl_LocalInvocationID.x == 0u) end_seen = atomicAdd(quiet_steps[0].end, 0u);
+#define EACH_SHARE(k) for (uint k = group; k < count; k += groups)
+#define SHARE(k) share[k == group ? own : quiet_body[k].moving_share]
+void make_quiet_steps(uint group) {
+  uint count = lists_shares != 0u ? quiet_steps[0].moving_bodies : share_count, groups = min(count, item_count);
+  if (group >= groups) return;
+  if (gl_LocalInvocationID.x == 0u) {
+    end_seen = atomicAdd(quiet_steps[0].end, 0u);
+    undone_seen = ~0u;
+  }
   barrier();
   if (end_seen == 0u) return;
+  uint own = lists_shares != 0u ? quiet_body[group].moving_share : first_share + group;
   barrier();
   meet_all(groups);
   bool goes_on = end_seen > 0u;
   if (goes_on && gl_LocalInvocationID.x == 0u) atomicOr(quiet_steps[0].begun, 1u);
   for (step_index = 0u; goes_on; ++step_index) {
     from_half = (first_half + step_index) & 1u;
-    EACH_SHARE(k) make_step(k, share[first_share + k]);
+    EACH_SHARE(k) make_step(k, SHARE(k));
     meet_all(groups);
     if (undone_seen <= step_index) {
-      EACH_SHARE(k) undo_step(share[first_share + k]);
+      EACH_SHARE(k) undo_step(SHARE(k));
     } else {
-      EACH_SHARE(k) end_step_of(k, share[first_share + k]);
+      EACH_SHARE(k) end_step_of(k, SHARE(k));
     }
     goes_on = undone_seen > step_index && end_seen > step_index + 1u;
   }

@@ -15,8 +15,8 @@ void look_at_vertex(uint i, uint k, uint b) {
   double speed = in_world(b, k, velocity_in(after_step(i))) + h * surplus_after_step(i, k, b).expected;
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
-  if (!stays) atomicMin(quiet_steps[0].undone, step_index);
-  if (!goes_on) atomicMin(quiet_steps[0].end, step_index + 1u);
+  if (!stays) take_back_step();
+  if (!goes_on) end_with_step();
 }
 
 void keep_surplus(uint i, uint k, uint b) { store_surplus(i, k, surplus_after_step(i, k, b)); }
