@@ -13,7 +13,7 @@ const uint damping_adaptive = 2u;  // the paper's equation 3
 // Returns the rate g [1/s]: 0, c/m, or min(|F_s| / 10, 10) c/m. `damping` is c [kg/s], `inverse_mass` is 1/m [1/kg], and
 // `force_squared` is the square of the net spring force F_s [N^2].
 FN double damping_rate(uint law, double damping, double inverse_mass, double force_squared) {
-  if (law == damping_none) return double(0);
+  if (law == damping_none || damping == double(0)) return double(0);
   EXACT double constant = damping * inverse_mass;
   if (law == damping_constant) return constant;
   // GLSL reads literals as fp32. Square roots and divisions are slow on GPUs, but compilers fold these two constants.
@@ -46,11 +46,11 @@ FN Decay decay(double z) {
     result.gain = double(1) / z;
     return result;
   }
+  // Divisions are slow on GPUs, but compilers fold these constants.
+#define TERM(n) EXACT double term##n = double(1) - (double(1) / double(n)) * y * result.gain; result.gain = term##n;
   result.gain = double(1);
-  for (int n = 13; n > 1; --n) {
-    EXACT double term = double(1) - y / double(n) * result.gain;
-    result.gain = term;
-  }
+  TERM(13) TERM(12) TERM(11) TERM(10) TERM(9) TERM(8) TERM(7) TERM(6) TERM(5) TERM(4) TERM(3) TERM(2)
+#undef TERM
   EXACT double left = double(1) - y * result.gain;
   result.keep = left;
   for (uint k = 0u; k < doublings; ++k) {
