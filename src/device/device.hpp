@@ -92,13 +92,14 @@ class Device {
   [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label) = 0;
   /// Gives a buffer more bytes. What it held is lost, and it is zero-filled again.
   virtual void enlarge(BufferId buffer, std::size_t bytes) = 0;
-  /// Returns some bytes of a buffer as a buffer of its own, which the other must outlive.
+  /// Returns some bytes of a buffer, or of such a part, as a buffer of its own. The whole buffer must outlive it.
   [[nodiscard]] virtual BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) = 0;
   virtual void release(BufferId buffer) = 0;
   /// Returns at least what was asked for [bytes].
   [[nodiscard]] virtual std::size_t size_of(BufferId buffer) const = 0;
   /// Returns the size of all buffers and of the device's own scratch memory [bytes].
   [[nodiscard]] virtual std::size_t allocated_bytes() const = 0;
+  /// The program ends if what is written or read lies beyond the buffer or part.
   virtual void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) = 0;
   /// Waits for the kernels before it.
   virtual void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) = 0;

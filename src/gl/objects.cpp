@@ -179,15 +179,16 @@ void Landing::make_room(std::size_t bytes) {
   size_ = bytes;
 }
 
-std::span<const std::byte> Landing::copy(std::span<const Buffer* const> buffers) {
+std::span<const std::byte> Landing::copy(std::span<const Source> sources) {
   std::size_t bytes = 0;
-  for (const Buffer* buffer : buffers) bytes += buffer->size();
+  for (const Source& from : sources) bytes += from.size;
   make_room(bytes);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::size_t place = 0;
-  for (const Buffer* buffer : buffers) {
-    glCopyNamedBufferSubData(buffer->id(), id_, 0, static_cast<GLintptr>(place), static_cast<GLsizeiptr>(buffer->size()));
-    place += buffer->size();
+  for (const Source& from : sources) {
+    glCopyNamedBufferSubData(from.buffer->id(), id_, static_cast<GLintptr>(from.first_byte), static_cast<GLintptr>(place),
+                             static_cast<GLsizeiptr>(from.size));
+    place += from.size;
   }
   glFinish();
   return {mapped_, bytes};

@@ -41,9 +41,15 @@ class Landing {
   Landing(const Landing&) = delete;
   Landing& operator=(const Landing&) = delete;
 
-  /// Waits for the GPU, and returns whole buffers, each behind the one before. The bytes stand until the next call. Throws Error
-  /// (device) when there is no room for them.
-  [[nodiscard]] std::span<const std::byte> copy(std::span<const Buffer* const> buffers);
+  /// Bytes of a buffer, which must lie within it.
+  struct Source {
+    const Buffer* buffer;
+    std::size_t first_byte, size;
+  };
+
+  /// Waits for the GPU, and returns these bytes, each source's behind those of the one before. They stand until the next call.
+  /// Throws Error (device) when there is no room for them.
+  [[nodiscard]] std::span<const std::byte> copy(std::span<const Source> sources);
 
  private:
   void make_room(std::size_t bytes);

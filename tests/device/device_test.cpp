@@ -1,8 +1,11 @@
 // Arrays on a device, and what is read from them.
 #include <array>
 #include <catch2/catch.hpp>
+#include <numeric>
+#include <span>
 #include <vector>
 
+#include "support/contract.hpp"
 #include "support/evolve.hpp"
 
 namespace pliant {
@@ -35,6 +38,71 @@ TEST_CASE("what is read ahead is never outdated", "[gl]") {
     device.read_ahead(std::array{pace.id()});
     device.run(std::array{make_pass(arrays, "judge_step", {}, 1)});
     CHECK(pace.download().front().verdict == physics::step_empty);
+  }
+}
+
+// The second quarter of a buffer, as a part. The whole buffer holds 0, 1, 2, ...
+struct Quarter {
+  explicit Quarter(Device& device)
+      : whole(device, 4 * count, "whole"), part(device, device.part_of(whole.id(), part_alignment, part_alignment), count) {
+    std::vector<std::uint32_t> values(4 * count);
+    std::iota(values.begin(), values.end(), 0u);
+    whole.upload(values);
+  }
+  static constexpr std::uint32_t count = part_alignment / sizeof(std::uint32_t);
+  DeviceArray<std::uint32_t> whole, part;
+};
+
+TEST_CASE("a part of a buffer is read and written where it lies, and read ahead", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Quarter quarter(*test.device);
+    CHECK(test.device->size_of(quarter.part.id()) == part_alignment);
+    CHECK(quarter.part.download(0, 2) == std::vector{Quarter::count, Quarter::count + 1});
+    quarter.part.upload(std::vector<std::uint32_t>{7, 8}, Quarter::count - 2);
+    CHECK(quarter.whole.download(2 * Quarter::count - 3, 4) ==
+          std::vector<std::uint32_t>{2 * Quarter::count - 3, 7, 8, 2 * Quarter::count});
+    const DeviceArray<std::uint32_t> other(*test.device, std::vector<std::uint32_t>{5, 6}, "other");
+    test.device->read_ahead(std::array{other.id(), quarter.part.id(), quarter.whole.id()});
+    CHECK(quarter.part.download(Quarter::count - 2, 2) == std::vector<std::uint32_t>{7, 8});
+    CHECK(quarter.whole.download(Quarter::count - 1, 2) == std::vector{Quarter::count - 1, Quarter::count});
+    CHECK(other.download() == std::vector<std::uint32_t>{5, 6});
+  }
+}
+
+TEST_CASE("nobody reads, writes or divides what lies beyond a buffer or a part of one", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Quarter quarter(*test.device);
+    for (const DeviceArray<std::uint32_t>* array : {&quarter.part, &quarter.whole}) {
+      const BufferId buffer = array->id();
+      const std::size_t size = test.device->size_of(buffer);
+      const std::vector<std::byte> all(size);
+      std::vector<std::byte> some(2);
+      const auto writes = [&](std::size_t first, std::span<const std::byte> data) {
+        return [&device = *test.device, buffer, first, data] { device.write(buffer, first, data); };
+      };
+      const auto reads = [&](std::size_t first) {
+        return [&device = *test.device, buffer, first, &some] { device.read(buffer, first, some); };
+      };
+      const auto divides = [&](std::size_t first, std::size_t bytes) {
+        return [&device = *test.device, buffer, first, bytes] { static_cast<void>(device.part_of(buffer, first, bytes)); };
+      };
+      for (const std::size_t first : {size - 1, size, size + 1, ~std::size_t{0}}) {
+        CAPTURE(size, first);
+        CHECK(test::breaks_contract(writes(first, some)));
+        CHECK(test::breaks_contract(reads(first)));
+        CHECK(test::breaks_contract(divides(first, 2)));
+      }
+      CHECK(test::breaks_contract(writes(1, all)));
+      CHECK(test::breaks_contract(divides(size, ~std::size_t{0})));
+      CHECK_NOTHROW(writes(0, all)());
+      CHECK_NOTHROW(reads(size - 2)());
+      CHECK_NOTHROW(divides(0, size)());
+    }
+    test.device->read_ahead(std::array{quarter.part.id()});
+    std::vector<std::byte> some(2);
+    CHECK(test::breaks_contract([&] { test.device->read(quarter.part.id(), part_alignment - 1, some); }));
   }
 }
 

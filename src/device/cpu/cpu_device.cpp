@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/thread_pool.hpp"
+#include "device/buffer_part.hpp"
 #include "device/cpu/kernel_arguments.hpp"
 #include "device/cpu/spring_sums.hpp"
 #include "device/device.hpp"
@@ -88,17 +89,14 @@ class CpuDevice final : public Device {
   }
   void enlarge(BufferId buffer, std::size_t bytes) override { buffers_.at(buffer) = Storage(bytes); }
   BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
-    parts_.emplace(next_buffer_, Part{buffer, first_byte, bytes});
+    parts_.emplace(next_buffer_, part(buffer).part(first_byte, bytes));
     return next_buffer_++;
   }
   void release(BufferId buffer) override {
     buffers_.erase(buffer);
     parts_.erase(buffer);
   }
-  std::size_t size_of(BufferId buffer) const override {
-    const auto part = parts_.find(buffer);
-    return part != parts_.end() ? part->second.size : buffers_.at(buffer).size();
-  }
+  std::size_t size_of(BufferId buffer) const override { return part(buffer).size; }
   std::size_t allocated_bytes() const override {
     std::size_t bytes = 0;
     for (const auto& [id, buffer] : buffers_) bytes += buffer.size();
@@ -107,10 +105,12 @@ class CpuDevice final : public Device {
     return bytes;
   }
   void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) override {
-    std::memcpy(bytes_of(buffer) + first_byte, data.data(), data.size());
+    const BufferPart to = part(buffer);
+    std::memcpy(storage(to.whole).data() + to.place_of(first_byte, data.size()), data.data(), data.size());
   }
   void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) override {
-    std::memcpy(data.data(), bytes_of(buffer) + first_byte, data.size());
+    const BufferPart from = part(buffer);
+    std::memcpy(data.data(), storage(from.whole).data() + from.place_of(first_byte, data.size()), data.size());
   }
 
   KernelId kernel(std::string_view name) override {
@@ -164,12 +164,6 @@ class CpuDevice final : public Device {
   // Vertices `first` to `end` - 1 of a share.
   struct Range {
     std::uint32_t share, first, end;
-  };
-
-  // Some bytes of a buffer.
-  struct Part {
-    BufferId whole;
-    std::size_t first_byte, size;
   };
 
   // One thread takes all items at once.
@@ -248,12 +242,18 @@ class CpuDevice final : public Device {
     });
   }
 
-  std::byte* bytes_of(BufferId buffer) {
-    if (const auto part = parts_.find(buffer); part != parts_.end())
-      return bytes_of(part->second.whole) + part->second.first_byte;
+  const Storage& storage(BufferId buffer) const {
     const auto found = buffers_.find(buffer);
     PLIANT_EXPECT(found != buffers_.end());
-    return found->second.data();
+    return found->second;
+  }
+  BufferPart part(BufferId buffer) const {
+    const auto found = parts_.find(buffer);
+    return found != parts_.end() ? found->second : BufferPart{buffer, 0, storage(buffer).size()};
+  }
+  std::byte* bytes_of(BufferId buffer) const {
+    const BufferPart at = part(buffer);
+    return storage(at.whole).data() + at.first_byte;
   }
 
   ThreadPool pool_;
@@ -270,7 +270,7 @@ class CpuDevice final : public Device {
   std::vector<Range> ranges_;
   std::vector<double> times_;
   std::unordered_map<BufferId, Storage> buffers_;
-  std::unordered_map<BufferId, Part> parts_;
+  std::unordered_map<BufferId, BufferPart> parts_;
   BufferId next_buffer_ = 1;
 };
 

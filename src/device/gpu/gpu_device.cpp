@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "device/buffer_part.hpp"
 #include "device/gpu/kernel_source.hpp"
 #include "device/gpu/strain_bias.hpp"
 #include "device/kernel_pack.hpp"
@@ -87,7 +88,7 @@ class GpuDevice final : public Device {
     buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
   }
   BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
-    parts_.emplace(next_buffer_, Part{buffer, first_byte, bytes});
+    parts_.emplace(next_buffer_, part(buffer).part(first_byte, bytes));
     return next_buffer_++;
   }
   void release(BufferId buffer) override {
@@ -103,23 +104,28 @@ class GpuDevice final : public Device {
   }
   void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) override {
     ahead_.clear();
-    const Part at = part(buffer);
-    buffers_.at(at.whole).write(at.first_byte + first_byte, data);
+    const BufferPart to = part(buffer);
+    buffers_.at(to.whole).write(to.place_of(first_byte, data.size()), data);
   }
   void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) override {
-    const auto found = ahead_.find(buffer);
-    const Part at = part(buffer);
-    if (found == ahead_.end()) return storage(at.whole).read(at.first_byte + first_byte, data);
-    PLIANT_EXPECT(first_byte <= found->second.size() && data.size() <= found->second.size() - first_byte);
-    std::ranges::copy(found->second.subspan(first_byte, data.size()), data.begin());
+    const BufferPart from = part(buffer);
+    const std::size_t place = from.place_of(first_byte, data.size());
+    if (const auto found = ahead_.find(buffer); found != ahead_.end())
+      std::ranges::copy(found->second.subspan(first_byte, data.size()), data.begin());
+    else
+      storage(from.whole).read(place, data);
   }
   // An H200 takes 30 us to answer, whatever the size.
   void read_ahead(std::span<const BufferId> buffers) override {
     constexpr std::size_t most_bytes = 1 << 20;
     ahead_.clear();
-    std::vector<const gl::Buffer*> sources;
+    std::vector<gl::Landing::Source> sources;
     std::size_t bytes = 0;
-    for (const BufferId buffer : buffers) bytes += sources.emplace_back(&storage(buffer))->size();
+    for (const BufferId buffer : buffers) {
+      const BufferPart from = part(buffer);
+      sources.push_back({&storage(from.whole), from.first_byte, from.size});
+      bytes += from.size;
+    }
     if (bytes > most_bytes) return;
     std::span<const std::byte> copied = landing_.copy(sources);
     for (const BufferId buffer : buffers) {
@@ -216,11 +222,6 @@ class GpuDevice final : public Device {
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
   };
-  // Some bytes of a buffer, or all.
-  struct Part {
-    BufferId whole;
-    std::size_t first_byte, size;
-  };
   // By slot. OpenGL counts uniform blocks and storage blocks apart.
   struct Bindings {
     std::array<BufferId, max_arrays> storage{}, constants{};
@@ -260,9 +261,9 @@ class GpuDevice final : public Device {
   static std::uint32_t threads_for(std::uint32_t bodies) { return 65536 * std::clamp(bodies / 16, 1u, 4u); }
 
   const gl::Buffer& storage(BufferId buffer) const { return buffers_.at(buffer); }
-  Part part(BufferId buffer) const {
+  BufferPart part(BufferId buffer) const {
     const auto found = parts_.find(buffer);
-    return found != parts_.end() ? found->second : Part{buffer, 0, storage(buffer).size()};
+    return found != parts_.end() ? found->second : BufferPart{buffer, 0, storage(buffer).size()};
   }
 
   void dispatch(const Pass& pass) {
@@ -280,7 +281,7 @@ class GpuDevice final : public Device {
     BufferId& bound = (is_constant ? bound_.constants : bound_.storage)[slot];
     if (bound == buffer) return;
     bound = buffer;
-    const Part at = part(buffer);
+    const BufferPart at = part(buffer);
     glBindBufferRange(is_constant ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(at.whole),
                       static_cast<GLintptr>(at.first_byte), static_cast<GLsizeiptr>(at.size));
   }
@@ -312,7 +313,7 @@ class GpuDevice final : public Device {
   std::optional<double> strain_bias_;
   Bindings bound_;
   std::unordered_map<BufferId, gl::Buffer> buffers_;
-  std::unordered_map<BufferId, Part> parts_;
+  std::unordered_map<BufferId, BufferPart> parts_;
   gl::Landing landing_;
   std::unordered_map<BufferId, std::span<const std::byte>> ahead_;  // what landed, of buffers that nothing has written since
   std::vector<Kernel> kernels_;
