@@ -99,8 +99,9 @@ class Arrays {
   Arrays(const Arrays&) = delete;
   Arrays& operator=(const Arrays&) = delete;
 
-  /// Makes a zero-filled array of `count` elements. It replaces an earlier one of that name and makes references to it invalid.
-  /// Arrays that share memory (state/shared_memory.hpp) are to be made before anything is written to one of them.
+  /// Makes an array of `count` elements. It replaces an earlier one of that name and makes references to it invalid. It is filled
+  /// with zeros, but an array that shares memory (state/shared_memory.hpp) may hold anything. Those are to be made before
+  /// anything is written to one of them.
   template <class T>
   DeviceArray<T>& make(std::string_view name, std::size_t count) {
     return hold(name, expected_element<T>(), allocate<T>(name, count));
@@ -111,7 +112,7 @@ class Arrays {
     array.upload(values);
     return array;
   }
-  /// Makes `count` zeros of the device's precision, as words of 32 bits.
+  /// Makes an array of `count` numbers of the device's precision, as words of 32 bits.
   DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count);
 
   template <class T>
@@ -164,10 +165,11 @@ class Arrays {
 using Parameters = std::vector<std::pair<std::string_view, Parameter>>;  // by name
 
 /// Returns a dispatch of a kernel, with the arrays that it names. The kernel's parameters are found by name: in `parameters`,
-/// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error if an array or a parameter
-/// is missing or of another type, or if the kernel does not declare a parameter. A view (READ_AS) is of another type if its
-/// numbers are of another type than the array's. So it does if the kernel names two arrays that may stand in the same memory. The
-/// error names the kernel and the array or parameter.
+/// then among those that all kernels share. `item_count` is a parameter, too. Throws std::logic_error, which names the kernel and
+/// the array or parameter, in these cases:
+/// - An array or a parameter is missing, or of another type. A view (READ_AS) has the right type if its numbers have the array's.
+/// - The kernel does not declare one of `parameters`.
+/// - The kernel names two arrays that may stand in the same memory.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters, std::uint32_t item_count);
 /// Does the same for a kernel in a variant. `name` is for reports.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, const Parameters& parameters,

@@ -21,23 +21,23 @@ constexpr Phases restoring = 1,  // restore_impacts
 
 struct Sharing {
   std::string_view array;
-  Phases phases;  // in which it is needed: from where it is written up to where it is read
+  Phases phases;  // in which it is needed. A phase reaches from where the array is written to where it is last read
 };
 
-// An array must be written in a phase before it is read there, for all bodies whose numbers are read. So an array cannot share of
-// which a body at rest needs what an earlier step wrote.
+// In each phase the array is written before it is read, for every body whose numbers are read. So an array can't share memory if
+// bodies at rest need what an earlier step wrote there.
 constexpr Sharing sharing[] = {
     {"expected", searching},     // expect_motion writes it for all bodies
     {"node_box", searching},     // refit and refit_cages fit the boxes of all bodies with a partner, and no others are read
-    {"leaf_pair", searching},    // its length stands elsewhere
-    {"impulse_sum", kicking},    // take_up_impulses empties what rounds read
-    {"added_force", at_stages},  // the first force sets it
+    {"leaf_pair", searching},    // the list's length stands in `control`, and nothing beyond it is read
+    {"impulse_sum", kicking},    // take_up_impulses empties what the first round adds to. Each round empties for the next
+    {"added_force", at_stages},  // the first force sets it, and others add to it
     {"moment", at_stages},       // sum_moments writes it for all bodies that find_rigid_motion looks at
     {"way", cutting},            // expect_cuts writes it for all bodies that have a partner or move
     {"cut", cutting},            // as above
     {"quiet_body", at_quiet_steps},     // passes before quiet_steps write it for all bodies
     {"kept_before", at_quiet_steps},    // quiet_steps writes it for all bodies that move
-    {"part_sum", restoring | cutting},  // the first round of restore_impacts and of pay_dues
+    {"part_sum", restoring | cutting},  // the first round of restore_impacts or pay_dues writes it
 };
 
 Phases phases_of(std::string_view array) {

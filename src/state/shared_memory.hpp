@@ -19,7 +19,7 @@ void expect_apart(std::span<const KernelSignature::Array> arrays);
 /// The names of all arrays that share memory.
 [[nodiscard]] std::vector<std::string_view> sharing_arrays();
 
-/// One buffer that is as large as the phase that needs the most.
+/// One buffer. If each array is placed once, it is as large as the phase that needs the most.
 class SharedMemory {
  public:
   /// `device` must outlive it.

@@ -17,6 +17,7 @@
 #include "support/device_bench.hpp"
 #include "support/has.hpp"
 #include "support/own_rows.hpp"
+#include "support/shared_phases.hpp"
 #include "support/struct_numbers.hpp"
 
 namespace pliant {
@@ -248,27 +249,11 @@ void copy_state(Bench& from, Bench& to, const Pass& from_pass, const Pass& to_pa
   }
 }
 
-// Arrays that share memory may hold anything when a phase begins that needs them. Here they are emptied then, because what a pass
-// leaves as it is gets compared, too.
-class PhasesOfArrays {
- public:
-  void go_on_with(const Pass& pass, Bench& cpu, Bench& gpu) {
-    for (const auto& array : cpu.device->signature(pass.call.kernel).arrays) {
-      if (!shares_memory(array.array) || !needed_.insert(array.array).second) continue;
-      std::erase_if(needed_, [&](const std::string& other) { return may_overlap(array.array, other); });
-      for (Bench* bench : {&cpu, &gpu}) {
-        const BufferId buffer = bench->bodies.arrays.buffer(array.array);
-        bench->device->write(buffer, 0, std::vector<std::byte>(bench->device->size_of(buffer)));
-      }
-    }
-  }
-
- private:
-  std::set<std::string> needed_;
-};
-
-void compare_pass(Bench& cpu, Bench& gpu, PhasesOfArrays& phases, const Pass& cpu_pass, const Pass& gpu_pass) {
-  phases.go_on_with(cpu_pass, cpu, gpu);
+// Arrays that share memory may hold anything when a phase begins. They are emptied then, because what a pass leaves as it is gets
+// compared, too.
+void compare_pass(Bench& cpu, Bench& gpu, SharedPhases& phases, const Pass& cpu_pass, const Pass& gpu_pass) {
+  if (phases.begins_with(cpu.device->signature(cpu_pass.call.kernel)))
+    for (Bench* bench : {&cpu, &gpu}) fill_shared_memory(bench->bodies.arrays, std::byte{0});
   cpu.device->run({&cpu_pass, 1});
   gpu.device->run({&gpu_pass, 1});
   check_same(cpu, gpu, cpu_pass, gpu_pass);
@@ -276,7 +261,7 @@ void compare_pass(Bench& cpu, Bench& gpu, PhasesOfArrays& phases, const Pass& cp
 }
 
 void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::string_view>& seen) {
-  PhasesOfArrays phases;
+  SharedPhases phases;
   for (const auto& [on_cpu, on_gpu] :
        {std::pair{cpu.stepper.first_passes(), gpu.stepper.first_passes()},
         {std::vector{cpu.collider.bounding_pass(0)}, std::vector{gpu.collider.bounding_pass(0)}}}) {
@@ -326,7 +311,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
     return passes;
   };
   const std::vector<Pass> cpu_passes = passes_of(cpu), gpu_passes = passes_of(gpu);
-  PhasesOfArrays phases;
+  SharedPhases phases;
   for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
     compare_pass(cpu, gpu, phases, cpu_passes[k], gpu_passes[k]);
     seen.insert(cpu_passes[k].name);
