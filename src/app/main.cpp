@@ -1,5 +1,6 @@
 // Parses the command line and runs a command. Returns its exit code.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -24,6 +25,7 @@
 #include "mesh/report.hpp"
 #include "run/checkpoint.hpp"
 #include "run/run_scene.hpp"
+#include "simulation/skipping.hpp"
 
 namespace {
 
@@ -152,12 +154,16 @@ void expect_beginning(const CLI::App& run) {
     throw CLI::RequiresError("--checkpoint-every", "--checkpoint");
 }
 
-Skipping skipping_without(std::string_view kind) {
-  Skipping skipping;
-  if (kind == "all" || kind == "forces") skipping.forces = false;
-  if (kind == "all" || kind == "rest") skipping.rest = false;
-  if (kind == "all" || kind == "quiet_steps") skipping.quiet_steps = false;
-  return skipping;
+// Returns the kinds of work that a run is told to do. The option adds one each time it is given, or all of them.
+std::shared_ptr<const std::vector<std::string>> add_skipping(CLI::App& run) {
+  std::vector<std::string> names;
+  for (const SkippingKind& kind : skipping_kinds) names.emplace_back(kind.name);
+  const std::string help = fmt::format("Also do what is known to change nothing, or only =KIND of it ({}), with the same results",
+                                       fmt::join(names, ", "));
+  names.emplace_back(all_skipping_kinds);
+  const auto given = std::make_shared<std::vector<std::string>>();
+  run.add_flag(fmt::format("--no-skipping{{{}}}", all_skipping_kinds), *given, help)->check(CLI::IsMember(names));
+  return given;
 }
 
 void add_run(CLI::App& program, RunOptions& options) {
@@ -172,16 +178,13 @@ void add_run(CLI::App& program, RunOptions& options) {
   add_checkpoints(*run, options);
   run->add_flag("--timings", options.timings, "Measure and show what each pass of a step takes; slows the run a little")
       ->excludes(run->get_option("--checkpoint"));
-  const auto kind = std::make_shared<std::string>();
-  run->add_flag("--no-skipping{all}", *kind,
-                "Also do what is known to change nothing, or =forces, =rest or =quiet_steps alone, with the same results")
-      ->check(CLI::IsMember({"all", "forces", "rest", "quiet_steps"}));
+  const auto unskipped = add_skipping(*run);
   run->add_flag("--check", options.check, "Only validate, and estimate time and memory");
   run->add_flag("--quiet", options.quiet, "Print warnings and errors only");
   refuse_beside_resume(*run);
-  run->callback([run, kind, &options] {
+  run->callback([run, unskipped, &options] {
     expect_beginning(*run);
-    options.skipping = skipping_without(*kind);
+    options.skipping = skipping_without(*unskipped);
   });
 }
 

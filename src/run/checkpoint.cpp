@@ -30,9 +30,9 @@ void visit_options(Archive& archive, Options& options) {
   auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
          interval, resume, scene_text, timings, skipping, check, quiet] = options;
   auto& [kind, gpu_index, precision, threads] = device;
-  auto& [skips_forces, skips_rest, skips_quiet_steps] = skipping;
   archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
-          interval, skips_forces, skips_rest, skips_quiet_steps);
+          interval);
+  for (const SkippingKind& row : skipping_kinds) archive(skipping.*row.is_skipped);
 }
 
 // Serves writing and reading.

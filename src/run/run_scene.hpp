@@ -8,7 +8,7 @@
 
 #include "output/frames.hpp"
 #include "run/choose_device.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/skipping.hpp"
 
 namespace pliant {
 

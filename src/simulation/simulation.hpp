@@ -17,6 +17,7 @@
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
 #include "simulation/quiet_steps.hpp"
+#include "simulation/skipping.hpp"
 #include "simulation/step_passes.hpp"
 #include "simulation/time_plan.hpp"
 #include "state/device_bodies.hpp"
@@ -79,19 +80,6 @@ struct Intersections {
   std::uint64_t pairs = 0;            // pairs of triangles of different bodies that touch
   std::vector<std::uint32_t> bodies;  // bodies with a touching triangle, ascending
 };
-
-/// What steps leave out because it is known to change nothing.
-struct Skipping {
-  bool forces = true;  // of bodies that are not deformed
-  bool rest = true;    // all that is done for bodies at rest
-  // The search for contacts, and dispatches, where no contact can need an answer. No step is quiet in which one of the others is
-  // done.
-  bool quiet_steps = true;
-
-  bool operator==(const Skipping&) const = default;
-};
-
-inline constexpr Skipping skip_nothing{.forces = false, .rest = false, .quiet_steps = false};
 
 class Simulation {
  public:

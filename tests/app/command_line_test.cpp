@@ -188,6 +188,32 @@ TEST_CASE("a bad command line exits with 2") {
   check_fails("run " + small_scene(folder).string() + " --device cpu --steps 0 --out /dev/null/x", 2, {"another place"});
 }
 
+// Undeformed bodies, of which one flies and one rests, far from it.
+TEST_CASE("each --no-skipping=KIND adds a kind of work that a run does, and without a kind it does all") {
+  const ScratchFolder folder;
+  const auto skipped_with = [&](const char* options) {
+    const ProgramResult result =
+        run_program("run " + small_scene(folder).string() + " --device cpu --set body.right.position=[9,0,0] --out " +
+                    folder.path.string() + options);
+    CAPTURE(options, result.output);
+    REQUIRE(result.exit_code == 0);
+    const auto skipped = summary_in(folder.path)["skipped"];
+    return std::pair(skipped["force_evaluations"].get<std::uint64_t>(), skipped["bodies_at_rest"].get<std::uint64_t>());
+  };
+  const auto [forces, rest] = skipped_with("");
+  CHECK((forces > 0 && rest > 0));
+  const auto with_forces = skipped_with(" --no-skipping=forces");  // which bodies at rest still leave out
+  CHECK((with_forces.first < forces && with_forces.second == rest));
+  CHECK((skipped_with(" --no-skipping=rest") == std::pair(forces, std::uint64_t{0})));
+  for (const char* options :
+       {" --no-skipping=forces --no-skipping=rest", " --no-skipping=rest --no-skipping=forces", " --no-skipping",
+        " --no-skipping=quiet_steps --no-skipping", " --no-skipping --no-skipping=quiet_steps"}) {
+    const auto [forces_left_out, rest_left_out] = skipped_with(options);
+    CAPTURE(options);
+    CHECK((forces_left_out == 0 && rest_left_out == 0));
+  }
+}
+
 TEST_CASE("a place that can't be written is told before anything is read, replaced or stepped, and by a check as well") {
   const ScratchFolder folder;
   const std::string run = "run " + small_scene(folder).string() + " --device cpu --steps 3 --out ";
