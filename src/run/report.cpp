@@ -77,7 +77,8 @@ void show_timings(const Simulation& simulation, std::uint64_t steps) {
   for (const auto& [pass, seconds] : pass_seconds)
     fmt::print("{:<20} {:>12.2f} {:>6.1f} %\n", pass, 1e6 * seconds / static_cast<double>(steps), 100 * seconds / all);
   fmt::print("{:<20} {:>12.2f}\n", "together", 1e6 * all / static_cast<double>(steps));
-  fmt::print("{:<20} {:>12.2f}\n", "launches a step", static_cast<double>(simulation.launches()) / static_cast<double>(steps));
+  fmt::print("{:<20} {:>12.2f}\n", "launches a step",
+             static_cast<double>(simulation.launches_of_steps()) / static_cast<double>(steps));
 }
 
 bool meets_by_impulses(const Simulation& simulation) { return simulation.collider().response_row().gives_impulses; }

@@ -137,7 +137,7 @@ void Simulation::queue_in_batches(std::uint64_t steps, const std::function<bool(
 }
 
 void Simulation::run(std::span<const Pass> passes) {
-  for (const Pass& pass : passes) launches_ += pass.item_count > 0 ? 1 : 0;
+  for (const Pass& pass : passes) launches_of_steps_ += pass.item_count > 0 ? 1 : 0;
   if (timed_)
     run_timed(device_, passes, pass_seconds_);
   else

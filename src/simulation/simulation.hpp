@@ -110,8 +110,9 @@ class Simulation {
   void skip(const Skipping& what);
   /// Returns the device time of all measured passes by kernel [s].
   [[nodiscard]] const std::map<std::string_view, double>& pass_seconds() const { return pass_seconds_; }
-  /// Returns how many passes steps have started.
-  [[nodiscard]] std::uint64_t launches() const { return launches_; }
+  /// Returns how many passes steps have launched: those that have items. Pulls, and what comes before the first step, do not
+  /// count.
+  [[nodiscard]] std::uint64_t launches_of_steps() const { return launches_of_steps_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
   /// The next four wait for the queued steps.
@@ -174,7 +175,7 @@ class Simulation {
   std::uint64_t pause_ = 1;                        // steps to queue if the next try makes none
   bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
-  std::uint64_t launches_ = 0;
+  std::uint64_t launches_of_steps_ = 0;
 };
 
 }  // namespace pliant
