@@ -23,12 +23,9 @@ std::vector<std::uint32_t> corners_of(const Forest& forest) {
   return corners;
 }
 
-std::uint32_t pairs_expected(std::uint32_t body_count) {
-  return std::clamp<std::uint32_t>(body_count * (body_count - 1) / 2, 1, std::max(body_count, 16u));
-}
-
-// Subtrees of about one size make threads end together, whatever the sizes of bodies. If each body met another one as large, this
-// many triangles a subtree would keep the device busy, or one subtree a body does.
+// Returns how many triangles a subtree has, at most, from which searches start. Subtrees of about one size make threads end
+// together, whatever the sizes of bodies. They are small enough to keep the device busy if each body met another one as large,
+// unless bodies are so many that whole trees do.
 std::uint32_t most_triangles_of_a_start(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
   const auto subtree_pairs = [&](std::uint32_t most_triangles) {
     std::uint64_t pairs = 0;
@@ -46,8 +43,7 @@ std::uint32_t most_triangles_of_a_start(std::uint32_t parallel_items, const Fore
   return most_triangles;
 }
 
-// Returns the forest's nodes, cut off above the nodes that searches start from. Behind them stands for each body where its starts
-// begin and how many they are, and then the starts.
+// Returns the array `node`. The nodes that searches start from have no parent, so that a refit ends there.
 std::vector<glm::uvec4> cut_nodes(const Forest& forest, std::uint32_t most_triangles) {
   std::vector<glm::uvec4> nodes = forest.nodes, starts;
   const std::size_t first_start = forest.nodes.size() + forest.roots.size();
@@ -64,6 +60,11 @@ std::vector<glm::uvec4> cut_nodes(const Forest& forest, std::uint32_t most_trian
 }
 
 }  // namespace
+
+std::uint32_t pairs_expected(std::uint32_t body_count) {
+  const std::uint64_t all = std::uint64_t{body_count} * (std::max(body_count, 1u) - 1) / 2;
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(all, 1, std::max(body_count, 16u)));
+}
 
 std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs) {
   return std::clamp<std::uint32_t>(std::max(parallel_items, least_search_threads) / threads_per_pair, 1, most_pairs);

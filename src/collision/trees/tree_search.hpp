@@ -13,6 +13,9 @@ namespace pliant {
 /// device busy, but not too few.
 [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
 
+/// Returns how many pairs of near bodies searches are cut for: all pairs of a few bodies, or as many as there are bodies.
+[[nodiscard]] std::uint32_t pairs_expected(std::uint32_t body_count);
+
 // A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
 inline constexpr std::uint32_t leaf_pair_capacity = 1u << 18;
 
@@ -30,9 +33,11 @@ class TreeSearch {
 
   /// Searches start from leaves, and from the highest nodes with so many triangles or fewer. Boxes of those above are not kept.
   [[nodiscard]] std::uint32_t triangles_of_a_start() const { return triangles_of_a_start_; }
-  /// Returns the latest search's pairs of leaves whose boxes overlap, in no fixed order. There are as many as fit the list.
+  /// The next two read memory that arrays share (state/shared_memory.hpp). They hold only from a search's passes until other
+  /// passes run.
+  /// Returns the search's pairs of leaves whose boxes overlap, in no fixed order. There are as many as fit the list.
   [[nodiscard]] std::vector<glm::uvec2> leaf_pairs() const;
-  /// Returns [node][2]: lower and upper corners [m], from the latest refit of the node's body.
+  /// Returns [node][2]: lower and upper corners [m]. Boxes of bodies without a partner are not refitted.
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
 
  private:

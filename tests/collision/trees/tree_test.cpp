@@ -203,6 +203,29 @@ TEST_CASE("by default the depth follows the triangle count, so that leaves of a 
   }
 }
 
+TEST_CASE("a search starts from the highest nodes of a body that are small enough, which share its triangles out between them") {
+  const Model model = three_bodies();
+  const Forest forest = build(model);
+  for (const std::uint32_t most : {1u, 3u, 20u, 300u, 320u, 700u, 5000u})
+    for (std::uint32_t body = 0; body < model.bodies.size(); ++body) {
+      CAPTURE(most, body);
+      const std::vector<std::uint32_t> starts = start_nodes(forest, body, most);
+      std::vector<int> seen(model.triangles.size());
+      for (const std::uint32_t start : starts) {
+        const glm::uvec4 node = forest.nodes[start];
+        CHECK((size(node) <= most || is_leaf(node)));
+        if (node.y != no_node) CHECK(size(forest.nodes[node.y]) > most);
+        for (std::uint32_t t = node.z; t < node.w; ++t) ++seen[forest.triangle_ids[t]];
+      }
+      const ModelBody& range = model.bodies[body];
+      for (std::uint32_t t = 0; t < seen.size(); ++t) {
+        const bool is_own = t >= range.first_triangle && t < range.first_triangle + range.triangle_count;
+        CHECK(seen[t] == (is_own ? 1 : 0));
+      }
+      CHECK(starts.empty() == (range.triangle_count == 0));
+    }
+}
+
 TEST_CASE("the same model gives the same trees, and a body's tree does not depend on the other bodies") {
   const Model model = three_bodies();
   const Forest first = build(model), second = build(model);
