@@ -4,14 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "collision/responses/sleep_bounds.hpp"
+#include "collision/responses/surroundings.hpp"
 #include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "dynamics/stability.hpp"
@@ -28,8 +28,6 @@ constexpr std::uint64_t pairs_of_triangle = 16, fewest_triangle_pairs = 1u << 20
 constexpr std::uint64_t fewest_contacts = 1u << 16, most_contacts = 1u << physics::kept_index_bits;
 constexpr std::uint64_t features_of_pair = 15;  // of two triangles, each of which may have a contact
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
-// A body may sleep that moves by less than so many diameters of the smallest one a second.
-constexpr double sleep_diameters = 0.05;
 
 // Static bodies take part in impacts only if they have a restitution of their own.
 std::optional<double> restitution_of(const ModelBody& body, const CollisionDescription& description) {
@@ -64,90 +62,12 @@ std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
   return surfaces;
 }
 
-// Of bodies that move [m].
-double smallest_diameter(const Model& model) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const ModelBody& body : model.bodies)
-    if (!body.is_static) smallest = std::min(smallest, 2 * body.radius);
-  return smallest;
-}
-
-// A body may sleep that moves no faster than this [m/s], but for its trembling.
-double sleep_speed(const Model& model, double gravity) {
-  const double by_size = sleep_diameters * smallest_diameter(model), gained = 0.1 * gravity * physics::sleeps_after;
-  return gravity > 0 ? std::min(by_size, gained / 2) : by_size;
-}
-
-// A body may sleep that stays so near to where it was [m]. What slides or falls with a tenth of gravity, a, can't do that for the
-// time T that it takes to fall asleep. It stays nearest if it first goes up for a time t, by a t^2 / 2, and ends as far below: a
-// T^2 / 2 - a t T = a t^2 / 2. Then t = (sqrt(2) - 1) T.
-double sleep_way(const Model& model, double gravity) {
-  const double T = physics::sleeps_after;
-  const double by_size = sleep_diameters * smallest_diameter(model) * T;
-  const double turn = (std::numbers::sqrt2 - 1) * T, by_gravity = 0.1 * gravity * turn * turn / 2;
-  return gravity > 0 ? std::min(by_size, by_gravity) : by_size;
-}
-
 // Of bodies that move [m]. 0 if none does.
 double smallest_gap(std::span<const physics::Surface> surfaces) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const physics::Surface& surface : surfaces)
     if (surface.inverse_mass != 0) smallest = std::min(smallest, surface.gap * surface.edge);
   return std::isinf(smallest) ? 0 : smallest;
-}
-
-using Triangles = std::span<const std::array<std::uint32_t, 3>>;
-
-// Returns [triangle][4] of one body's triangles. Vertices count from the body's first.
-// - Of each edge, from corner k to the next, the third vertex of the triangle across it. Edges of more than two triangles have
-// none.
-// - As bits, the vertices and edges that belong to the triangle: those that no triangle before it has. So a contact is found
-// once.
-std::vector<std::uint32_t> surroundings(Triangles triangles, std::uint32_t first_vertex, std::uint32_t vertex_count) {
-  struct Side {
-    std::pair<std::uint32_t, std::uint32_t> edge;
-    std::size_t place;  // 3 * triangle + corner
-  };
-  std::vector<Side> sides;
-  std::vector<std::uint32_t> around(4 * triangles.size(), physics::no_vertex);
-  std::vector<bool> is_owned(vertex_count);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::array<std::uint32_t, 3>& corners = triangles[t];
-    std::uint32_t& owned = around[4 * t + 3] = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      sides.push_back({std::minmax(corners[k], corners[(k + 1) % 3]), 3 * t + k});
-      if (!is_owned[corners[k] - first_vertex]) owned |= 1u << k;
-      is_owned[corners[k] - first_vertex] = true;
-    }
-  }
-  const auto third = [&](const Side& side) { return triangles[side.place / 3][(side.place + 2) % 3] - first_vertex; };
-  std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.edge, side.place); });
-  for (auto first = sides.begin(); first != sides.end();) {
-    const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return side.edge != first->edge; });
-    around[4 * (first->place / 3) + 3] |= 8u << first->place % 3;
-    if (end - first == 2) {
-      around[4 * (first[0].place / 3) + first[0].place % 3] = third(first[1]);
-      around[4 * (first[1].place / 3) + first[1].place % 3] = third(first[0]);
-    }
-    first = end;
-  }
-  return around;
-}
-
-// Finds what surrounds the triangles of all bodies. Bodies whose triangles have the same surroundings share them, as those of one
-// mesh do.
-std::vector<std::uint32_t> surroundings_of(const Model& model, const Forest& forest, std::span<physics::Surface> surfaces) {
-  std::vector<std::uint32_t> all;
-  std::map<std::vector<std::uint32_t>, std::uint32_t> known;  // and where each begins, in triangles
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const ModelBody& body = model.bodies[b];
-    const Triangles triangles = Triangles(forest.triangles).subspan(body.first_triangle, body.triangle_count);
-    const auto [place, is_new] = known.try_emplace(surroundings(triangles, body.first_vertex, body.vertex_count),
-                                                   static_cast<std::uint32_t>(all.size() / 4));
-    if (is_new) all.insert(all.end(), place->first.begin(), place->first.end());
-    surfaces[b].to_mesh = place->second - body.first_triangle;
-  }
-  return all;
 }
 
 // All pairs of triangles of different bodies of which one moves, if they are not too many.
