@@ -8,7 +8,6 @@
 // costs a third of a dispatch. If a body has several, all of them must run at once. A group's own caches do not see what others write
 // meanwhile. The group therefore fetches the body's vertices into shared memory, TILE at a time.
 #version 450
-#include "subgroups.glsl"
 #include "physics/language.glsl"
 // Threads that serve several vertices have no registers left for this. They serve large bodies best, where rounding averages out.
 #define CANCELS_ROUNDING (VERTICES == 1 || LANES == 1)

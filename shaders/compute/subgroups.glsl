@@ -1,4 +1,4 @@
-// Lets threads of a subgroup add up together, where a GPU can. A frame includes it before all else.
+// Lets threads of a subgroup add up together, where a GPU can. A frame whose kernels do so includes it before all else.
 #extension GL_KHR_shader_subgroup_basic : enable
 #extension GL_KHR_shader_subgroup_ballot : enable
 #extension GL_KHR_shader_subgroup_arithmetic : enable
