@@ -56,25 +56,14 @@ PaddedBox box_of_leaf(uint n) {
   return box;
 }
 
-// Returns those triangles from t on that are set in `among` and whose cages overlap a box.
-uint with_cages_in(IN(PaddedBox) box, uint t, uint among) {
+// Returns those triangles from t on that are set in `among` and whose cages, or expected ways, overlap a box.
+uint overlapping(IN(PaddedBox) box, uint t, uint among, bool by_ways) {
   uint near = 0u;
   for (; among != 0u; among &= among - 1u) {
     uint k = uint(findLSB(among));
-    if (overlaps(box, box_of_cages(t + k))) near |= 1u << k;
+    if (overlaps(box, by_ways ? box_of_ways(t + k) : box_of_cages(t + k))) near |= 1u << k;
   }
   return near;
-}
-
-// Returns those of them whose expected ways come near that of s.
-uint with_ways_to(uint s, uint t, uint near) {
-  PaddedBox ways = box_of_ways(s);
-  uint meeting = 0u;
-  for (; near != 0u; near &= near - 1u) {
-    uint k = uint(findLSB(near));
-    if (overlaps(ways, box_of_ways(t + k))) meeting |= 1u << k;
-  }
-  return meeting;
 }
 
 // The leaves' boxes leave out most triangles before they are compared with each other.
@@ -82,14 +71,14 @@ void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
   PaddedBox of_first = box_of_leaf(leaves.x), of_second = box_of_leaf(leaves.y);
   for (uint t = b.z; t < b.w; t += 32u) {
-    uint among = with_cages_in(of_first, t, 0xffffffffu >> (32u - min(b.w - t, 32u)));
+    uint among = overlapping(of_first, t, 0xffffffffu >> (32u - min(b.w - t, 32u)), false);
     if (among == 0u) continue;
     for (uint s = a.z + first; s < a.w; s += stride) {
       PaddedBox cages = box_of_cages(s);
       if (!overlaps(cages, of_second)) continue;
-      uint near = with_cages_in(cages, t, among);
+      uint near = overlapping(cages, t, among, false);
       if (near == 0u) continue;
-      list_pairs(s, t, near, with_ways_to(s, t, near));
+      list_pairs(s, t, near, overlapping(box_of_ways(s), t, near, true));
       if (has_static_bodies != 0u) end_flight_beside_static(s, t, near);
     }
   }
