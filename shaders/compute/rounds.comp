@@ -1,15 +1,20 @@
 // The frame around kernels that go in rounds. One thread calls the kernel's function for one item in one round. The next round begins when
 // all threads have ended theirs. Work groups wait for each other, so no more of them are started than there are multiprocessors. Only as
 // many take part as there are items for.
-// What items_in_a_round() reads must not change in the first round, and what goes_on(n) answers must not change once round n has ended:
-// else a slow group would leave alone.
+// - What items_in_a_round() reads must not change in the first round.
+// - After round n each thread asks goes_on(n) once, whether there is another round. The answer must not change once round n has ended: else
+//   a slow group would leave alone.
+// - goes_on() may look up what its thread needs in the next round. A kernel can count on that only if has_own_thread is true. On the CPU it
+//   never is.
 //
 // A group has 128 threads, because 64 took longer. An H200 does not run as many groups at once as it might: `certify` takes much memory. It
 // runs 198 groups of 128 threads, but not 264, and 108 of 256 threads.
 //
-// A kernel with NEAR_ROUNDS says how many threads it wants. It serves up to near_items items in one group. begin_near() may then set
-// sums_are_near. It says that threads share nothing but the group's own memory, in all rounds but the last. Its other groups have as many
-// threads as give each item one: looking at an item anew in each round takes longer.
+// A kernel may define NEAR_ROUNDS, and with it GROUP_SIZE and far_threads:
+// - One group serves up to near_items items. begin_near() then sets sums_are_near if threads share only the group's own memory, in all
+//   rounds but the last.
+// - Several groups share more items out. Each has as many threads as it takes to give every item its own, from far_threads to GROUP_SIZE. A
+//   thread of several items would have to load them anew in each round.
 #version 450
 #include "subgroups.glsl"
 #extension GL_ARB_gpu_shader_int64 : enable

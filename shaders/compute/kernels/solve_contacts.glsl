@@ -39,8 +39,8 @@ PARAMETER(double, least_speed)
 uint items_in_a_round() { return lists_are_full() ? 0u : contact_list[0].contact_count; }
 uint rounds_at_most() { return most_kick_rounds + 1u; }
 
-// The notes as a thread knows them. A contact's thread looks at them once a round: on a GPU each look takes as long as a round's sums. What
-// others note in the round that runs changes no answer below.
+// The notes as a thread knows them. A thread with one contact looks at them once a round, in goes_on(): on a GPU each look takes as long as
+// a round's sums. What others note in the round that runs changes no answer below.
 PRIVATE(Notes, known)
 
 bool has_bounced(uint kick_round) { return known.bounce_round < kick_round; }
@@ -64,7 +64,7 @@ bool is_last(uint kick_round) {
 }
 bool is_kick(uint kick_round) { return kick_round > 0u && is_last(kick_round - 1u); }
 
-// If no contact presses in the first two rounds, none does in the others.
+// If no contact presses in the first two rounds, none does in the others. The notes also serve the thread in the next round.
 bool goes_on(uint kick_round) {
   known = all_notes();
   return kick_round == 1u ? presses() : !is_kick(kick_round);

@@ -1,5 +1,5 @@
-// One thread gives a contact at rest the impulse that it had in the last step. It empties the sums that the first round of the kick adds
-// to. All threads share the list of contacts in strides.
+// Makes contacts and their vertices ready for the first round of the kick. One thread serves one contact. It gives a contact at rest the
+// impulse that it had in the last step, and empties the sums that this round adds to. All threads share the list of contacts in strides.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

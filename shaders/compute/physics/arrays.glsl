@@ -53,7 +53,7 @@ ARRAY(rigid_motion, RigidMotion, body, step, "what internal damping leaves alone
 
 // contacts
 ARRAY(tree, uvec2, body, fixed, "root, number of leaves")
-ARRAY(node, uvec4, node, fixed, "left child (the right one is next; 0: leaf), parent, first triangle, end of triangles; behind all trees: where each body's starts of searches begin here, how many they are, 0, 0; then x: these nodes")
+ARRAY(node, uvec4, node, fixed, "of all trees: left child (0: leaf; the right child is next), parent (none: searches start here), first triangle, end of triangles. Behind them, for each body: index in this array of its first start, number of its starts, 0, 0. Behind these, for each start: its node, 0, 0, 0")
 ARRAY(node_box, vec4, node, step, "[node][2] lower, upper [m]")
 ARRAY(leaf, uvec2, leaf, fixed, "node, body")
 ARRAY(triangle, uint, triangle, fixed, "[triangle][3] vertex indices, in leaf order")

@@ -1,5 +1,5 @@
-// descend_trees() takes one subtree of either tree of two near bodies. It descends both together, down to pairs of leaves whose boxes
-// overlap, and hands these pairs to found_leaves(). Many threads serve one pair of bodies.
+// descend_trees() takes some pairs of subtrees, one of either tree of two near bodies. It descends both of a pair together, down to pairs
+// of leaves whose boxes overlap, and hands these to found_leaves(). Many threads serve one pair of bodies.
 Box box_of_node(uint n) {
   Box box;
   box.lower = vec3(node_box[lower_of(n)]);
@@ -42,7 +42,7 @@ uint descend(uvec2 roots) {
   return tests;
 }
 
-// Behind the nodes of all trees stands for each body where its subtrees begin in `node`, and how many they are.
+// For each body `node` says, behind the nodes of all trees, where the body's subtrees begin there and how many they are.
 void descend_trees(uint item) {
   uint tests = 0u;
   for (uint k = item / threads_of_a_pair; k < control[0].near_pair_count; k += pairs_at_once) {
