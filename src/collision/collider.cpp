@@ -47,9 +47,9 @@ std::vector<Pass> Collider::refitting_passes(std::uint32_t half) const {
   return {trees_.refitting_pass(half)};
 }
 
-std::vector<Pass> Collider::finding_passes(std::uint32_t half) const {
+std::vector<Pass> Collider::finding_passes() const {
   if (!uses_trees()) return {};
-  return {trees_.finding_pass(half, description_.triangle_test)};
+  return {trees_.finding_pass()};
 }
 
 std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
@@ -59,7 +59,7 @@ std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
 
 std::vector<Pass> Collider::search_passes(std::uint32_t half) const {
   std::vector<Pass> all = pairing_passes(half);
-  for (const auto& passes : {refitting_passes(half), finding_passes(half), testing_passes(half)})
+  for (const auto& passes : {refitting_passes(half), finding_passes(), testing_passes(half)})
     all.insert(all.end(), passes.begin(), passes.end());
   return all;
 }

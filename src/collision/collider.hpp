@@ -41,7 +41,7 @@ class Collider {
   /// A pass may run beside those after pairing if it changes neither world positions nor the collider's own arrays.
   [[nodiscard]] std::vector<Pass> pairing_passes(std::uint32_t half) const;
   [[nodiscard]] std::vector<Pass> refitting_passes(std::uint32_t half) const;
-  [[nodiscard]] std::vector<Pass> finding_passes(std::uint32_t half) const;
+  [[nodiscard]] std::vector<Pass> finding_passes() const;
   [[nodiscard]] std::vector<Pass> testing_passes(std::uint32_t half) const;
   /// Returns all passes of a search.
   [[nodiscard]] std::vector<Pass> search_passes(std::uint32_t half) const;

@@ -23,7 +23,7 @@ void add_search_while_following(List& step, const Stepper& stepper, const Collid
   step.add(collider.pairing_passes(half));
   step.add(collider.refitting_passes(half));
   step.add(beside_next(stepper.following_pass(from_half)));
-  step.add(collider.finding_passes(half));
+  step.add(collider.finding_passes());
   step.add(beside_next(stepper.restating_pass(from_half)));
   step.add(collider.testing_passes(half));
 }

@@ -2,6 +2,7 @@
 #include "simulation/quiet_steps.hpp"
 
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <map>
 #include <span>
 
@@ -233,6 +234,8 @@ std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const
   bench.bodies.run_all_stages(true);
   QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
   REQUIRE(quiet.are_known());
+  std::vector<physics::QuietBody> rubbish(start.model.bodies.size());  // it shares memory with what steps use
+  std::memset(rubbish.data(), 0xff, rubbish.size() * sizeof(physics::QuietBody));
   std::vector<Turn> turns;
   bool was_undone = false;
   std::uint32_t steps = 0;
@@ -240,6 +243,7 @@ std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const
   while (count-- > 0) {
     bench.device->run(bench.step(steps++ % 2));
     quiet.aim_at(3);
+    bench.bodies.arrays.get<physics::QuietBody>("quiet_body").upload(rubbish);
     bench.device->run(quiet.passes(steps % 2));
     was_undone = was_undone || bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone != ~0u;
     steps += quiet.take_made();

@@ -32,7 +32,7 @@ void count_work(uint b, uint made) {
   for (uint k = 0u; k < made && is_asleep(s) && s.activity == moving; ++k) note_step_asleep(b);
   tally[b].frame_changes += quiet_body[b].frame_changes;
   if (s.activity != moving) return;
-  if (made > 0u && s.asleep == 0u) status[b].slow_for = 0.0f;  // nothing has pushed it
+  if (s.asleep == 0u) status[b].slow_for = 0.0f;  // nothing has pushed it
   if (is_still(s) || s.deformed == 0u)
     tally[b].forces_skipped += made * forces_of_a_step;
   else
@@ -42,7 +42,7 @@ void count_work(uint b, uint made) {
 void end_quiet_steps(uint b) {
   uint made = steps_made(quiet_steps[0]);
   if (b == 0u) move_clock(made);
-  count_work(b, made);
+  if (made > 0u) count_work(b, made);
   for (uint k = 0u; k < 3u && status[b].calm != at_rest; ++k) {
     body_box[b].lower[k] = 0xffffffffu;
     body_box[b].upper[k] = 0u;

@@ -59,12 +59,16 @@ std::vector<glm::uvec4> cut_nodes(const Forest& forest, std::uint32_t most_trian
   return nodes;
 }
 
-}  // namespace
-
-std::uint32_t pairs_expected(std::uint32_t body_count) {
-  const std::uint64_t all = std::uint64_t{body_count} * (std::max(body_count, 1u) - 1) / 2;
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(all, 1, std::max(body_count, 16u)));
+// More threads than this would have nothing to do.
+std::uint32_t most_subtree_pairs(const std::vector<glm::uvec4>& nodes, const Forest& forest, std::uint32_t most_near_pairs) {
+  std::uint64_t most_starts = 1;
+  for (std::size_t body = 0; body < forest.roots.size(); ++body)
+    most_starts = std::max<std::uint64_t>(most_starts, nodes[forest.nodes.size() + body].y);
+  constexpr std::uint64_t many = 1u << 31;
+  return static_cast<std::uint32_t>(std::min(many, std::min(many, most_starts * most_starts) * std::max(most_near_pairs, 1u)));
 }
+
+}  // namespace
 
 std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs) {
   return std::clamp<std::uint32_t>(std::max(parallel_items, least_search_threads) / threads_per_pair, 1, most_pairs);
@@ -72,16 +76,15 @@ std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_
 
 TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t parallel_items, std::uint32_t most_near_pairs)
     : bodies_(bodies),
-      parallel_items_(parallel_items),
-      most_near_pairs_(most_near_pairs),
       leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
-      node_count_(static_cast<std::uint32_t>(forest.nodes.size())),
-      threads_of_a_pair_(std::max(parallel_items / pairs_expected(bodies.body_count), 1u)),
       triangles_of_a_start_(most_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
+  const std::vector<glm::uvec4> nodes = cut_nodes(forest, triangles_of_a_start_);
+  search_threads_ = pairs_at_once(parallel_items, 1, most_subtree_pairs(nodes, forest, most_near_pairs));
   Arrays& arrays = bodies.arrays;
+  arrays.set_parameter("node_count", static_cast<std::uint32_t>(forest.nodes.size()));
   arrays.make("tree", trees_of(forest));
   arrays.make("leaf", forest.leaves);
-  arrays.make("node", cut_nodes(forest, triangles_of_a_start_));
+  arrays.make("node", nodes);
   arrays.make<glm::vec4>("node_box", 2 * forest.nodes.size());
   arrays.make("triangle", corners_of(forest));
   arrays.make<std::uint32_t>("arrival", forest.nodes.size());
@@ -92,42 +95,23 @@ Pass TreeSearch::refitting_pass(std::uint32_t half) const {
   return make_pass(bodies_.arrays, "refit", {{"first_position", bodies_.first_of_half(half)}}, leaf_count_);
 }
 
-Pass TreeSearch::finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const {
-  const std::uint32_t pairs = near_pairs_at_once();
+Pass TreeSearch::finding_pass() const {
   return make_pass(bodies_.arrays, "find_pairs",
-                   {{"first_position", bodies_.first_of_half(half)},
-                    {"triangle_test", static_cast<std::uint32_t>(test_beyond_capacity)},
-                    {"leaf_pair_capacity", leaf_pair_capacity},
-                    {"node_count", node_count_},
-                    {"threads_of_a_pair", threads_of_a_pair_},
-                    {"pairs_at_once", pairs}},
-                   pairs * threads_of_a_pair_);
+                   {{"leaf_pair_capacity", leaf_pair_capacity}, {"search_threads", search_threads_}}, search_threads_);
 }
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
   const Device& device = bodies_.arrays.device();
-  const std::uint32_t pairs = near_pairs_at_once(),
-                      threads =
-                          device.info().kind == DeviceKind::gpu ? 4 : 1,  // of a pair of leaves: a GPU waits for its slowest
-      leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
-  return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_),
-          make_pass(bodies_.arrays, "find_cage_pairs",
-                    {{"leaf_pair_capacity", leaf_pair_capacity},
-                     {"triangle_pair_capacity", triangle_pair_capacity},
-                     {"node_count", node_count_},
-                     {"threads_of_a_pair", threads_of_a_pair_},
-                     {"pairs_at_once", pairs}},
-                    pairs * threads_of_a_pair_),
+  // of a pair of leaves: a GPU waits for its slowest
+  const std::uint32_t threads = device.info().kind == DeviceKind::gpu ? 4 : 1;
+  const std::uint32_t leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
+  return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass(),
           make_pass(bodies_.arrays, "list_triangle_pairs",
                     {{"leaf_pair_capacity", leaf_pair_capacity},
                      {"triangle_pair_capacity", triangle_pair_capacity},
                      {"pairs_at_once", leaf_pairs},
                      {"threads_of_a_pair", threads}},
                     threads * leaf_pairs)};
-}
-
-std::uint32_t TreeSearch::near_pairs_at_once() const {
-  return pairs_at_once(parallel_items_, threads_of_a_pair_, most_near_pairs_);
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {

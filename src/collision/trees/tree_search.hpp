@@ -13,10 +13,7 @@ namespace pliant {
 /// device busy, but not too few.
 [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
 
-/// Returns how many pairs of near bodies searches are cut for: all pairs of a few bodies, or as many as there are bodies.
-[[nodiscard]] std::uint32_t pairs_expected(std::uint32_t body_count);
-
-// A full list costs speed, never a contact: the thread that finds a pair then tests it itself.
+// A full list costs speed, never a contact: the trees are then descended twice, and pairs tested where they are found.
 inline constexpr std::uint32_t leaf_pair_capacity = 1u << 18;
 
 class TreeSearch {
@@ -27,7 +24,7 @@ class TreeSearch {
   /// Refits the trees of bodies that are near another to the positions at `half`.
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
   /// Lists the pairs of leaves whose boxes overlap.
-  [[nodiscard]] Pass finding_pass(std::uint32_t half, TriangleTest test_beyond_capacity) const;
+  [[nodiscard]] Pass finding_pass() const;
   /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
   [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;
 
@@ -41,14 +38,10 @@ class TreeSearch {
   [[nodiscard]] std::vector<glm::vec4> node_boxes() const;
 
  private:
-  [[nodiscard]] std::uint32_t near_pairs_at_once() const;
-
   DeviceBodies& bodies_;
-  std::uint32_t parallel_items_;
-  std::uint32_t most_near_pairs_;
-  std::uint32_t leaf_count_, node_count_;
-  std::uint32_t threads_of_a_pair_;  // of two near bodies
+  std::uint32_t leaf_count_;
   std::uint32_t triangles_of_a_start_;
+  std::uint32_t search_threads_ = 0;
 };
 
 }  // namespace pliant

@@ -1,5 +1,7 @@
 // descend_trees() takes some pairs of subtrees, one of either tree of two near bodies. It descends both of a pair together, down to pairs
 // of leaves whose boxes overlap, and hands these to found_leaves(). Many threads serve one pair of bodies.
+PARAMETER(uint, node_count)  // of all trees
+
 Box box_of_node(uint n) {
   Box box;
   box.lower = vec3(node_box[lower_of(n)]);
@@ -16,7 +18,9 @@ bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
   return (size_a.x + size_a.y) + size_a.z >= (size_b.x + size_b.y) + size_b.z;
 }
 
-// Returns how many pairs of nodes it tested.
+bool nodes_overlap(uvec2 pair) { return overlaps(box_of_node(pair.x), box_of_node(pair.y)); }
+
+// Starts from two nodes that overlap. Returns how many pairs of nodes it tested, these among them.
 uint descend(uvec2 roots) {
   uvec2 stack[130];  // a descent opens one node and pushes two, so it needs at most the depths of both trees, 64 each, and one
   int top = 0;
@@ -42,13 +46,18 @@ uint descend(uvec2 roots) {
   return tests;
 }
 
-// For each body `node` says, behind the nodes of all trees, where the body's subtrees begin there and how many they are.
-void descend_trees(uint item) {
-  uint tests = 0u;
-  for (uint k = item / threads_of_a_pair; k < control[0].near_pair_count; k += pairs_at_once) {
-    uvec4 first = node[node_count + near_pair[k].x], second = node[node_count + near_pair[k].y];
-    for (uint s = item % threads_of_a_pair; s < first.y * second.y; s += threads_of_a_pair)
-      tests += descend(uvec2(node[first.x + s % first.y].x, node[second.x + s / first.y].x));
+// So many threads share the near pairs. For each body `node` says, behind the nodes of all trees, where the body's subtrees begin there and
+// how many they are. Returns how many pairs of nodes this thread tested.
+uint descend_trees(uint item, uint threads) {
+  uint count = control[0].near_pair_count, of_a_pair = max(threads / max(count, 1u), 1u), stride = threads / of_a_pair;
+  uint tests = 0u, pair = item / of_a_pair;
+  if (pair >= stride) return 0u;  // left over
+  for (; pair < count; pair += stride) {
+    uvec4 first = node[node_count + near_pair[pair].x], second = node[node_count + near_pair[pair].y];
+    for (uint s = item % of_a_pair; s < first.y * second.y; s += of_a_pair) {
+      uvec2 roots = uvec2(node[first.x + s % first.y].x, node[second.x + s / first.y].x);
+      tests += nodes_overlap(roots) ? descend(roots) : 1u;
+    }
   }
-  TALLY_UP(control[0].count[node_tests], tests)
+  return tests;
 }
