@@ -54,7 +54,9 @@ std::vector<Pass> Collider::finding_passes() const {
 
 std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
   if (!searches()) return {};
-  return {uses_trees() ? touching_.testing_pass(half) : touching_.brute_force_pass(half)};
+  if (!uses_trees()) return {touching_.brute_force_pass(half)};
+  return {beside_next(touching_.testing_pass(half)),
+          trees_.unlisted_pass("test_unlisted_pairs", touching_.test_parameters(half))};
 }
 
 std::vector<Pass> Collider::search_passes(std::uint32_t half) const {

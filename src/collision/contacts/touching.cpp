@@ -31,24 +31,22 @@ Touching::Touching(DeviceBodies& bodies, const Model& model, TriangleTest test, 
   bodies.arrays.make<std::uint32_t>("mark", bodies.vertex_count);
 }
 
+Parameters Touching::test_parameters(std::uint32_t half) const {
+  return {{"first_position", bodies_.first_of_half(half)}, {"triangle_test", triangle_test_}};
+}
+
 Pass Touching::testing_pass(std::uint32_t half) const {
   const std::uint32_t pairs = std::clamp(parallel_items_, least_test_threads, most_test_threads) / physics::threads_per_leaf_pair;
-  return make_pass(bodies_.arrays, "test_pairs",
-                   {{"first_position", bodies_.first_of_half(half)},
-                    {"triangle_test", triangle_test_},
-                    {"leaf_pair_capacity", leaf_pair_capacity},
-                    {"pairs_at_once", pairs}},
-                   pairs * physics::threads_per_leaf_pair);
+  Parameters parameters = test_parameters(half);
+  parameters.insert(parameters.end(), {{"leaf_pair_capacity", leaf_pair_capacity}, {"pairs_at_once", pairs}});
+  return make_pass(bodies_.arrays, "test_pairs", parameters, pairs * physics::threads_per_leaf_pair);
 }
 
 Pass Touching::brute_force_pass(std::uint32_t half) const {
   const std::uint32_t pairs = pairs_at_once(parallel_items_, largest_body_, most_near_pairs_);
-  return make_pass(bodies_.arrays, "test_all_pairs",
-                   {{"first_position", bodies_.first_of_half(half)},
-                    {"triangle_test", triangle_test_},
-                    {"threads_per_pair", largest_body_},
-                    {"pairs_at_once", pairs}},
-                   pairs * largest_body_);
+  Parameters parameters = test_parameters(half);
+  parameters.insert(parameters.end(), {{"threads_per_pair", largest_body_}, {"pairs_at_once", pairs}});
+  return make_pass(bodies_.arrays, "test_all_pairs", parameters, pairs * largest_body_);
 }
 
 std::vector<std::uint32_t> Touching::marks() const { return bodies_.arrays.get<std::uint32_t>("mark").download(); }

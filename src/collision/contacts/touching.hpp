@@ -16,7 +16,9 @@ class Touching {
   Touching(DeviceBodies& bodies, const Model& model, TriangleTest test, std::uint32_t parallel_items,
            std::uint32_t most_near_pairs);
 
-  /// Tests the triangles of listed pairs of leaves (TreeSearch), as they stand at `half`.
+  /// What kernels that test triangles have to know, as they stand at `half`.
+  [[nodiscard]] Parameters test_parameters(std::uint32_t half) const;
+  /// Tests the triangles of listed pairs of leaves (TreeSearch), unless the list was too short.
   [[nodiscard]] Pass testing_pass(std::uint32_t half) const;
   /// Tests every two triangles of near bodies instead.
   [[nodiscard]] Pass brute_force_pass(std::uint32_t half) const;

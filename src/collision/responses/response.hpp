@@ -62,8 +62,8 @@ class Response {
 
 /// What a response knows of the method that makes steps.
 struct StepTraits {
-  bool vary_in_length = false;       // as a tolerance demands
-  bool have_forces_at_ends = false;  // forces act at the ends of a step alone
+  bool vary_in_length = false;                // as a tolerance demands
+  bool have_forces_at_ends = false;           // forces act at the ends of a step alone
   DampingLaw damping_law = DampingLaw::none;  // its rate bounds steps of bodies in contact
 };
 

@@ -11,6 +11,9 @@ namespace {
 // Mesa's llvmpipe silently stops what has gone through loops 65,535 times.
 constexpr std::uint32_t least_search_threads = 4096;
 
+// Threads that hardly ever have anything to do should be few.
+constexpr std::uint32_t most_unlisted_threads = 16384;
+
 std::vector<glm::uvec2> trees_of(const Forest& forest) {
   std::vector<glm::uvec2> trees;
   for (std::size_t body = 0; body < forest.roots.size(); ++body) trees.emplace_back(forest.roots[body], forest.leaf_counts[body]);
@@ -37,7 +40,7 @@ std::uint32_t most_triangles_of_a_start(std::uint32_t parallel_items, const Fore
     }
     return pairs;
   };
-  const std::uint64_t enough = std::max(std::uint64_t{2} * parallel_items, std::uint64_t{body_count});
+  const std::uint64_t enough = std::max(std::uint64_t{4} * parallel_items, std::uint64_t{body_count});
   std::uint32_t most_triangles = 1;
   while (subtree_pairs(most_triangles) > enough) most_triangles *= 2;
   return most_triangles;
@@ -106,12 +109,20 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
   const std::uint32_t threads = device.info().kind == DeviceKind::gpu ? 4 : 1;
   const std::uint32_t leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass(),
-          make_pass(bodies_.arrays, "list_triangle_pairs",
-                    {{"leaf_pair_capacity", leaf_pair_capacity},
-                     {"triangle_pair_capacity", triangle_pair_capacity},
-                     {"pairs_at_once", leaf_pairs},
-                     {"threads_of_a_pair", threads}},
-                    threads * leaf_pairs)};
+          beside_next(make_pass(bodies_.arrays, "list_triangle_pairs",
+                                {{"leaf_pair_capacity", leaf_pair_capacity},
+                                 {"triangle_pair_capacity", triangle_pair_capacity},
+                                 {"pairs_at_once", leaf_pairs},
+                                 {"threads_of_a_pair", threads}},
+                                threads * leaf_pairs)),
+          unlisted_pass("list_unlisted_pairs", {{"triangle_pair_capacity", triangle_pair_capacity}})};
+}
+
+Pass TreeSearch::unlisted_pass(std::string_view kernel, Parameters parameters) const {
+  const std::uint32_t threads = std::min(search_threads_, most_unlisted_threads);
+  parameters.emplace_back("leaf_pair_capacity", leaf_pair_capacity);
+  parameters.emplace_back("search_threads", threads);
+  return make_pass(bodies_.arrays, kernel, parameters, threads);
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {

@@ -13,7 +13,7 @@ namespace pliant {
 /// device busy, but not too few.
 [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
 
-// A full list costs speed, never a contact: the trees are then descended twice, and pairs tested where they are found.
+// A full list costs speed, never a contact: the trees are then descended twice, and pairs served where they are found.
 inline constexpr std::uint32_t leaf_pair_capacity = 1u << 18;
 
 class TreeSearch {
@@ -25,6 +25,9 @@ class TreeSearch {
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
   /// Lists the pairs of leaves whose boxes overlap.
   [[nodiscard]] Pass finding_pass() const;
+  /// Returns the pass that serves all pairs of leaves if they were more than the list had room for. `kernel` takes these
+  /// parameters besides those of a search.
+  [[nodiscard]] Pass unlisted_pass(std::string_view kernel, Parameters parameters) const;
   /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
   [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;
 

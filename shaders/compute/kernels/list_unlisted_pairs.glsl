@@ -1,0 +1,18 @@
+// Where the list of leaf pairs was too short, one thread takes some pairs of subtrees, as in find_pairs, and lists the triangles of the leaves
+// that it finds.
+#include "../physics/control.glsl"
+#include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
+#include "../physics/contact/cluster.glsl"
+#include "../physics/contact/surface.glsl"
+READ(control)
+READ(near_pair)
+PARAMETER(uint, leaf_pair_capacity)
+PARAMETER(uint, search_threads)
+#include "parts/list_triangles.glsl"
+void found_leaves(uvec2 leaves) { list_triangles(leaves, 0u, 1u); }
+#include "parts/descend.glsl"
+
+void list_unlisted_pairs(uint item) {
+  if (control[0].leaf_pair_count > leaf_pair_capacity) descend_trees(item, search_threads);
+}
