@@ -1,24 +1,15 @@
 // The viewer for ten minutes.
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <fstream>
+#include <string>
 
+#include "support/resident_memory.hpp"
 #include "support/viewed.hpp"
 
 using namespace pliant;
 using namespace pliant::test;
 
 namespace {
-
-/// The resident memory of a process [MiB].
-double resident_memory(pid_t process) {
-  std::ifstream sizes("/proc/" + std::to_string(process) + "/statm");
-  long pages = 0, resident = 0;
-  REQUIRE(sizes >> pages >> resident);
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
 
 // The states that the viewer can go back to fill their room in the first minutes.
 TEST_CASE("a viewer that plays for ten minutes needs no more memory than after six", "[.soak][gl]") {
@@ -32,7 +23,7 @@ TEST_CASE("a viewer that plays for ten minutes needs no more memory than after s
   viewed.press("space");
   const auto play_until = [&, began = std::chrono::steady_clock::now()](std::chrono::minutes end) {
     viewed.await([&](const ReadJson&) { return std::chrono::steady_clock::now() - began > end; }, end + std::chrono::minutes(1));
-    return resident_memory(viewed.program().id());
+    return resident_memory(std::to_string(viewed.program().id()));
   };
   const double after_six = play_until(std::chrono::minutes(6)), after_ten = play_until(std::chrono::minutes(10));
   WARN("after 6 minutes " << after_six << " MiB, after 10 " << after_ten);
