@@ -2,7 +2,6 @@
 #include "simulation/quiet_steps.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <map>
 #include <span>
 
@@ -10,6 +9,7 @@
 #include "support/evolve.hpp"
 #include "support/has.hpp"
 #include "support/impulse_scene.hpp"
+#include "support/shared_phases.hpp"
 
 namespace pliant {
 namespace {
@@ -234,8 +234,6 @@ std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const
   bench.bodies.run_all_stages(true);
   QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
   REQUIRE(quiet.are_known());
-  std::vector<physics::QuietBody> rubbish(start.model.bodies.size());  // it shares memory with what steps use
-  std::memset(rubbish.data(), 0xff, rubbish.size() * sizeof(physics::QuietBody));
   std::vector<Turn> turns;
   bool was_undone = false;
   std::uint32_t steps = 0;
@@ -243,7 +241,7 @@ std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const
   while (count-- > 0) {
     bench.device->run(bench.step(steps++ % 2));
     quiet.aim_at(3);
-    bench.bodies.arrays.get<physics::QuietBody>("quiet_body").upload(rubbish);
+    fill_shared_memory(bench.bodies.arrays, std::byte{0xff});
     bench.device->run(quiet.passes(steps % 2));
     was_undone = was_undone || bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone != ~0u;
     steps += quiet.take_made();

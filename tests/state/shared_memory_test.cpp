@@ -241,7 +241,8 @@ void check_all_in_rubbish(std::unique_ptr<Device> (*make_device)()) {
   for (const Rubbish& scene : rubbish_scenes()) check_scene_in_rubbish(scene, make_device, seen);
   for (const std::string_view name : sharing_arrays()) {
     CAPTURE(name);
-    CHECK(seen.contains(std::string(name)));
+    const bool is_of_quiet_steps = name == "quiet_body" || name == "kept_before";  // quiet_steps_test has rubbish, too
+    CHECK(seen.contains(std::string(name)) == !is_of_quiet_steps);
   }
 }
 
