@@ -94,7 +94,8 @@ void expect_motion(uint i) {
   bool is_at_rest = is_idle(status[b]);
   double time_step = next_part(step_parts[0], control[0].time_left);
   if (i == 0u) begin_part(time_step);
-  dvec3 position = LOAD3(start, start_position_of(i)), mean = is_at_rest ? dvec3(0) : expected_velocity(i, time_step);
+  bool stays = is_at_rest || is_asleep(status[b]);
+  dvec3 position = LOAD3(start, start_position_of(i)), mean = stays ? dvec3(0) : expected_velocity(i, time_step);
   dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.

@@ -36,9 +36,8 @@ void leave_island(uint b) {
   if (!is_idle(status[b])) cluster[b].is_beside_static = 0u;
 }
 
-// What sleeps is expected to stay.
-void forget_surplus(uint i) {
-  STORE3(surplus, expected_surplus_of(i), dvec3(0))
+// What falls asleep loses its motion. The forces on it still act, so what is expected of them is kept for when it wakes.
+void forget_end(uint i) {
   STORE3(surplus, end_surplus_of(vertex_count, i), dvec3(0))
   if (share_of_lead != double(0)) STORE3(surplus, surplus_lead_of(vertex_count, i), dvec3(0))
 }
@@ -56,14 +55,15 @@ void measure_motion(uint i) {
     if (i == body[b].first_vertex) expect_rest(b);
     return;
   }
-  if (status[b].asleep != 0u) forget_surplus(i);
+  if (status[b].asleep != 0u) forget_end(i);
   uint at = in_half(from_half, vertex_count, i);
   dvec3 position = to_world(pose[b], dvec3(vec3(rest_position[i])) + LOAD3(motion, displacement_of(at)));
   dvec3 in_frame = LOAD3(motion, velocity_of(at)), velocity = rotate(pose[b], in_frame);
   STORE3(start, start_position_of(i), position)
   STORE3(start, start_velocity_of(i), velocity)
   if (may_undo_steps != 0u) STORE3(unkicked_velocity, force_of(i), in_frame)
-  dvec3 mean = velocity + step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // limit_step has yet to find this one's length
+  dvec3 mean = velocity;
+  if (!is_asleep(status[b])) mean += step_parts[0].last * LOAD3(surplus, expected_surplus_of(i));  // limit_step has yet to find this length
   for (uint k = 0u; k < 3u; ++k) {
     bound(i, b, k, float(position[int(k)]));
     uint bits = ordered_bits(float(mean[int(k)]));

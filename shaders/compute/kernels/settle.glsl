@@ -102,7 +102,7 @@ void settle(uint i) {
   double most = most_tremble_ratio * sleep_speed * control[0].time_step;
   if (sleep_speed > double(0) && length(gone) > most) ATOMIC_STORE(cluster[b].is_stirred, 1u);
   dvec3 at_start = LOAD3(motion, velocity_of(before)), at_end = LOAD3(motion, velocity_of(after));
-  keep_surplus(i, b, at_start, gone / control[0].time_step, at_end);
+  if (!is_asleep(status[b])) keep_surplus(i, b, at_start, gone / control[0].time_step, at_end);
   double part = part_left(i, b);
   last_cut[i] = part < double(1) ? 1u : 0u;
   if (part < double(1)) cut_short(i, b, part, gone);
