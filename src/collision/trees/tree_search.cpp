@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t least_search_threads = 4096;
 
 // Threads that hardly ever have anything to do should be few.
-constexpr std::uint32_t most_unlisted_threads = 65536;
+constexpr std::uint32_t most_unlisted_threads = 16384;
 
 std::vector<glm::uvec2> trees_of(const Forest& forest) {
   std::vector<glm::uvec2> trees;
