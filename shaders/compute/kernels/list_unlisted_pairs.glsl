@@ -1,5 +1,5 @@
-// Where the list of leaf pairs was too short, one thread takes some pairs of subtrees, as in find_pairs, and lists the triangles of the leaves
-// that it finds.
+// Where the list of leaf pairs was too short, one thread takes some pairs of subtrees, as in find_pairs. It lists the triangles of the
+// leaves that it finds.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

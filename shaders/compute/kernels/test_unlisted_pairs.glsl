@@ -1,4 +1,4 @@
-// Where the list of leaf pairs was too short, one thread takes some pairs of subtrees, as in find_pairs, and tests the leaves that it finds.
+// Where the list of leaf pairs was too short, one thread takes some pairs of subtrees, as in find_pairs. It tests the leaves that it finds.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"

@@ -86,8 +86,6 @@ void tell_samples(Share s) {
   }
 }
 
-// The group of the first vertex may be a step ahead, if the body is undeformed. Then it has moved the reference, and all samples are off by
-// the same way, which does not matter to a rotation.
 void fetch_samples(IN(Body) material, uint b) {
   EACH_THREAD(n, 3u * sample_count) {
     uint i = sample_vertex(material.first_vertex, material.vertex_count, n / 3u), k = n % 3u, at = 6u * (n / 3u) + k;
