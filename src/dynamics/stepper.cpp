@@ -195,8 +195,10 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
 }
 
 bool Stepper::makes_quiet_steps() const {
-  return adds_force() == 0 && bodies_.force_groups.size() == 1 && bodies_.force_groups[0].all_stages &&
-         bodies_.arrays.device().force_variants()[bodies_.force_groups[0].variant].quiet_groups > 0;
+  if (adds_force() != 0 || bodies_.force_groups.size() != 1 || !bodies_.force_groups[0].all_stages) return false;
+  const ForceGroup& group = bodies_.force_groups[0];
+  const std::uint32_t work_groups = bodies_.arrays.device().force_variants()[group.variant].quiet_groups;
+  return work_groups > 0 && (group.has_whole_bodies || group.share_count <= work_groups);
 }
 
 Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {

@@ -63,7 +63,7 @@ struct StepReport {
   std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
   std::uint64_t quiet_steps = 0;            // whole steps made many at once (quiet_steps.hpp)
-  std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs tested by the thread that found them because the list was full
+  std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs that the list had no room for, so that trees were descended twice
   std::uint64_t frame_changes = 0;          // how often a body's frame followed its rotation
   std::uint64_t forces_skipped = 0;         // force evaluations known to be zero because the body moves rigidly
   std::uint64_t steps_at_rest = 0;          // steps of one body in which it was left alone, because nothing moved it

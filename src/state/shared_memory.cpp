@@ -13,7 +13,7 @@ namespace {
 // Phases of a step, as bits. In each of them some passes run, one after another.
 using Phases = std::uint32_t;
 constexpr Phases restoring = 1,  // restore_impacts
-    searching = 2,               // from expect_motion or refit to find_contacts, meet_grounds and test_pairs
+    searching = 2,               // from expect_motion or refit to find_contacts, meet_grounds and test_unlisted_pairs
     kicking = 4,                 // take_up_impulses and solve_contacts
     at_stages = 8,               // the passes of forces before a stage, and the stage
     cutting = 16,                // from expect_cuts to pay_dues
@@ -35,7 +35,7 @@ constexpr Sharing sharing[] = {
     {"moment", at_stages},            // sum_moments writes it for all bodies that find_rigid_motion looks at
     {"way", cutting},                 // expect_cuts writes it for all bodies that have a partner or move
     {"cut", cutting},                 // as above
-    {"quiet_body", at_quiet_steps},   // passes before quiet_steps write it for all bodies
+    {"quiet_body", at_quiet_steps},   // passes before quiet_steps write what it reads first, unless no step may be quiet
     {"kept_before", at_quiet_steps},  // quiet_steps writes it for all bodies that move
     {"part_sum", restoring | cutting},  // the first round of restore_impacts or pay_dues writes it
 };

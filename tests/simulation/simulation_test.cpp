@@ -209,7 +209,7 @@ TEST_CASE("a crowd of more near pairs than one dispatch serves is searched compl
     }
 }
 
-TEST_CASE("pairs beyond the list's capacity are tested where they are found, and none is lost") {
+TEST_CASE("pairs beyond the list's capacity are found a second time, and none is lost") {
   std::vector<BodySetup> setups;
   for (int i = 0; i < 200; ++i) {  // nested shells, each a little off the centre: boxes overlap everywhere, few faces touch
     BodySetup setup = sphere(0);

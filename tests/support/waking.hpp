@@ -2,7 +2,6 @@
 // from the same bytes with every body awake.
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <glm/vec4.hpp>
 #include <string>
 #include <string_view>
@@ -47,12 +46,8 @@ struct Stillness {
 
 /// Returns a sentence for each breach of these laws:
 /// - Who is pulled is awake.
-/// - Whoever slept through the window rests without sleep, too: if all are awake, none of its vertices goes farther than what a
-/// body
-///   that falls asleep may go in half a second.
-/// - A pull does not move it: if all are awake, its vertices end where they would end without the pull, but for what kicks that
-/// end
-///   early leave open.
+/// - Whoever slept through the window rests without sleep, too. With all awake it stays within Stillness::in_half_a_second.
+/// - A pull does not move it. With all awake it ends where it would without the pull, within Stillness::by_a_pull.
 /// - No contact gave it an impulse in the last step.
 /// - No body that is awake was within an edge of it when the last step began, as boxes along the axes.
 [[nodiscard]] std::vector<std::string> breaches(const Window& window, const Model& model, const Stillness& stillness);

@@ -81,6 +81,7 @@ void limit_quiet_steps(uint item) {
   if (thread == 0u) look_at(b);
   for (uint n = thread; n < quiet_steps[0].moving_bodies; n += threads_of_a_body) {
     uint other = share[quiet_body[n].moving_share].body_index;
+    // two that both move are both listed, and the later one compares them
     if (other < b || (other > b && !moves(b))) compare(other, b);
   }
 }

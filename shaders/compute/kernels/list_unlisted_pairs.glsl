@@ -5,7 +5,7 @@
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/surface.glsl"
-READ(control)
+WRITE(control)
 READ(near_pair)
 PARAMETER(uint, leaf_pair_capacity)
 PARAMETER(uint, search_threads)
@@ -14,5 +14,7 @@ void found_leaves(uvec2 leaves) { list_triangles(leaves, 0u, 1u); }
 #include "parts/descend.glsl"
 
 void list_unlisted_pairs(uint item) {
-  if (control[0].leaf_pair_count > leaf_pair_capacity) descend_trees(item, search_threads);
+  if (control[0].leaf_pair_count <= leaf_pair_capacity) return;
+  if (item == 0u) atomicAdd(control[0].count[pairs_beyond_capacity], control[0].leaf_pair_count - leaf_pair_capacity);
+  descend_trees(item, search_threads);
 }

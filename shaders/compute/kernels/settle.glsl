@@ -102,7 +102,9 @@ void settle(uint i) {
   double most = most_tremble_ratio * sleep_speed * control[0].time_step;
   if (sleep_speed > double(0) && length(gone) > most) ATOMIC_STORE(cluster[b].is_stirred, 1u);
   dvec3 at_start = LOAD3(motion, velocity_of(before)), at_end = LOAD3(motion, velocity_of(after));
-  if (!is_asleep(status[b])) keep_surplus(i, b, at_start, gone / control[0].time_step, at_end);
+  // what sleeps on keeps what it fell asleep with. Whether it does is not asked of its status, because cuts of this pass may rouse it
+  bool is_moved = gone != dvec3(0) || at_start != dvec3(0) || at_end != dvec3(0);
+  if (is_moved || status[b].asleep == 0u) keep_surplus(i, b, at_start, gone / control[0].time_step, at_end);
   double part = part_left(i, b);
   last_cut[i] = part < double(1) ? 1u : 0u;
   if (part < double(1)) cut_short(i, b, part, gone);

@@ -13,8 +13,7 @@ const uint motion_size = 6u;  // numbers of a vertex
 FN uint displacement_of(uint place) { return motion_size * place; }
 FN uint velocity_of(uint place) { return motion_size * place + 3u; }
 
-// The first of the three numbers of vertex i: in `added_force` and the like, and in `acceleration`. `kept_force` has halves, too
-// (kernels/parts/kept_force.glsl).
+// The first of the three numbers of vertex i: in `added_force`, `kept_force` and the like, and in `acceleration`.
 FN uint force_of(uint i) { return 3u * i; }
 FN uint acceleration_of(uint stage, uint vertex_count, uint i) { return 3u * (stage * vertex_count + i); }
 

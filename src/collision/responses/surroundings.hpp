@@ -12,10 +12,8 @@
 namespace pliant {
 
 /// Returns [triangle][4] of one body's triangles, as the array `triangle_around` has it. Vertices count from `first_vertex`.
-/// - Of each edge, from corner k to the next, the third vertex of the triangle across it. Edges of more than two triangles have
-/// none.
-/// - As bits, the vertices and edges that belong to the triangle: those that no triangle before it has. So a contact is found
-/// once.
+/// - Of each edge, from corner k to the next, the third vertex of the triangle across it. An edge of three or more has none.
+/// - As bits, the vertices and edges that belong to the triangle, because no triangle before has them.
 [[nodiscard]] std::vector<std::uint32_t> surroundings(std::span<const std::array<std::uint32_t, 3>> triangles,
                                                       std::uint32_t first_vertex, std::uint32_t vertex_count);
 

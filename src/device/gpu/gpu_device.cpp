@@ -84,6 +84,7 @@ class GpuDevice final : public Device {
   }
   void enlarge(BufferId buffer, std::size_t bytes) override {
     ahead_.clear();
+    bound_ = {};
     buffers_.at(buffer) = gl::Buffer();  // so that there is never room needed for both
     buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
   }

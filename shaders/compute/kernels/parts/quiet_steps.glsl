@@ -208,6 +208,7 @@ void meet_all(uint groups) {
 #define SHARE(k) share[k == group ? own : quiet_body[k].moving_share]
 void make_quiet_steps(uint group) {
   uint count = lists_shares != 0u ? quiet_steps[0].moving_bodies : share_count, groups = min(count, item_count);
+  if (count == 0u && group == 0u && gl_LocalInvocationID.x == 0u) quiet_steps[0].begun = 1u;  // with nobody to meet
   if (group >= groups) return;
   if (gl_LocalInvocationID.x == 0u) {
     end_seen = atomicAdd(quiet_steps[0].end, 0u);
