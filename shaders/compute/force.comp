@@ -154,6 +154,10 @@ void finish(uint i, Share s, dvec3 force) {
   for (uint k = 0u; k < 3u && settles(); ++k) settle(i, k, s, dvec3(x, y, z));
 }
 
+// Repeats what follows for each coordinate n of the share that this thread keeps.
+#define EACH_KEPT(n) \
+  for (uint n = 3u * gl_LocalInvocationID.x; n < 3u * s.vertex_count; n += n % 3u == 2u ? 3u * TEAMS - 2u : 1u)
+
 #define FINISH(k) \
   if (PLACE(k) < s.vertex_count) finish(s.first_vertex + PLACE(k), s, (-s.body.unit_force) * (dvec3(total##k) + dvec3(rest##k)));
 void prepare(Share s) {}
@@ -161,7 +165,6 @@ void prepare(Share s) {}
 void serve(Share s, bool sums) {
   const uint lane = 0u;
   uint team = gl_LocalInvocationID.x, base = placed_from();
-  if (!runs(s)) return;
   if (team == 0u && s.first_vertex == s.body.first_vertex) count_force(s, sums);
   EACH(OWN)
 #ifdef TILE
@@ -240,8 +243,9 @@ void sum_over_threads(Share s, bool sums) {
   barrier();
 }
 
-uint keeper() { return gl_LocalInvocationID.x - LANES * TEAMS; }
-bool keeps(Share s) { return gl_LocalInvocationID.x >= LANES * TEAMS && keeper() / 3u < s.vertex_count; }
+uint keeper() { return gl_LocalInvocationID.x - LANES * TEAMS; }  // of other threads it is large, because it wraps around
+bool keeps(Share s) { return keeper() < 3u * s.vertex_count; }
+#define EACH_KEPT(n) for (uint n = keeper(); n < 3u * s.vertex_count; n += KEEPERS)
 
 // Keepers load what other groups do not write.
 Pending pending;
@@ -251,7 +255,7 @@ void prepare(Share s) {
 
 void serve(Share s, bool sums) {
   uint place = keeper() / 3u, k = keeper() % 3u, i = s.first_vertex + place;
-  bool is_kept = keeps(s) && runs(s);
+  bool is_kept = keeps(s);
 #ifdef TILE
   if (sums) sum_over_threads(s, sums);
 #else
@@ -277,13 +281,20 @@ uint groups_of(Share s) {
   return (s.body.vertex_count + share_size - 1u) / share_size;
 }
 
+// What this thread has written, others of the group may read after it.
+void meet_group() {
+  groupMemoryBarrier();
+  barrier();
+}
+
 // Tells the body's other groups that this one has written what they may read. Between this and wait_for_others() threads load what other
 // groups do not write.
 void arrive(Share s) {
   ++meetings;
-  memoryBarrierBuffer();
-  barrier();
-  if (gl_LocalInvocationID.x == 0u && groups_of(s) > 1u) atomicAdd(meeting[s.body_index], 1u);
+  meet_group();
+  if (gl_LocalInvocationID.x != 0u || groups_of(s) == 1u) return;
+  memoryBarrierBuffer();  // for all threads of the group
+  atomicAdd(meeting[s.body_index], 1u);
 }
 
 // Waits until every group of the body has arrived as often. All of them run at once, so none waits in vain. If a driver holds some of
@@ -312,12 +323,14 @@ const bool kicks_first = true;
 #else
 const bool kicks_first = false;
 #endif
-shared bool group_sums;  // one thread asks for it, so that all threads of the group go the same way
+// One thread asks for these, so that all threads of the group go the same way.
+shared bool group_runs, group_sums;
+void ask(Share s) {
+  group_runs = runs(s);
+  group_sums = deformed(s);
+}
 
-void serve_stages(Share s) {
-  if (!runs(s)) return;
-  if (gl_LocalInvocationID.x == 0u) group_sums = deformed(s);
-  barrier();
+void run_stages(Share s) {
   for (stage_index = first_stage(s, group_sums); stage_index < stage_count; ++stage_index) {
     bool meets = group_sums && (stage_index > 0u || kicks_first);
     if (meets) arrive(s);
@@ -327,18 +340,24 @@ void serve_stages(Share s) {
     serve(s, group_sums);
   }
 }
-#else
-void serve_stages(Share s) {
-  if (!runs(s)) return;
-  prepare(s);
-  serve(s, deformed(s));
-}
 #endif
 
 #ifdef QUIET
 #include "kernels/parts/quiet_steps.glsl"
 void main() { make_quiet_steps(gl_WorkGroupID.x); }
 #else
+void serve_stages(Share s) {
+#ifdef TILE
+  if (gl_LocalInvocationID.x == 0u) ask(s);
+  barrier();
+  if (group_runs) run_stages(s);
+#else
+  if (!runs(s)) return;
+  prepare(s);
+  serve(s, deformed(s));
+#endif
+}
+
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   if (group < item_count) serve_stages(share[first_share + group]);

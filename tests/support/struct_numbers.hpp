@@ -152,6 +152,7 @@ inline std::vector<double> numbers_of(const physics::QuietBody& body) {
   for (const float* bound : {bounds.lower, bounds.upper, bounds.least_velocity, bounds.most_velocity})
     numbers.insert(numbers.end(), bound, bound + 3);
   numbers.insert(numbers.end(), body.first_motion, body.first_motion + 12);
+  numbers.insert(numbers.end(), body.reference, body.reference + 6);
   return numbers;
 }
 

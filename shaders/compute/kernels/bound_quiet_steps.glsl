@@ -12,6 +12,7 @@ READ(step_parts)
 READ(status)
 READ(body)
 READ(motion)
+READ(pose)
 READ(quiet_steps)
 WRITE(quiet_body)
 #include "parts/tell_first.glsl"

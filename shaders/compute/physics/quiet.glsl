@@ -21,7 +21,7 @@ struct QuietBody {
   uint frame_changes;          // in these steps
   uint moving_share;           // not of this body: in the list of bodies that move, the first share of one
   FrameChange change;          // of the latest step whose frame has turned
-  double reference_before[3];  // pose's, at the step's start [m]
+  double reference[6];         // [half][3] as `pose` has it [m]
   double first_motion[12];     // [half][6] as `motion` has it of the first vertex
   double samples[96];          // [steps in turn][16][3] displacements at the step's end, of vertices that stand for the body [m]
 };
@@ -37,7 +37,7 @@ struct QuietSteps {
 FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.undone ? s.end : s.undone; }
 
 // A dispatch makes so many steps at most. Bounds are tried for as many first, then for half as many, and so on.
-const uint most_quiet_steps = 64u;
+const uint most_quiet_steps = 256u;
 const uint fewest_quiet_steps = 2u;
 const uint most_quiet_bodies = 1024u;  // that move where bodies may meet: each is compared with all. With more that takes too long
 const uint has_news = 1u << 30;  // in arrivals: `end` or `undone` has changed

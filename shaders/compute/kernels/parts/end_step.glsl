@@ -5,7 +5,7 @@ void end_step(uint i, uint k, IN(Share) s, double displacement, double velocity,
   motion[displacement_of(after) + k] = displacement;
   motion[velocity_of(after) + k] = velocity;
   if (!is_finite(float(velocity))) note_non_finite(s.body_index, i);
-  if (i == s.body.first_vertex) pose[s.body_index].reference[k] = reference;
+  if (i == s.body.first_vertex) tell_reference(s.body_index, k, reference);
 }
 
 // Writes the world position on axis k, rounded once, of a vertex that stands at `position` in the body's frame [m].

@@ -2,6 +2,7 @@
 shared Pose frame;  // but for the quaternion
 shared double first_motion[motion_size];
 shared QuietBounds bounds;
+shared double step_length;  // [s]
 
 // For a step from this half on. Threads load side by side, some of them the same.
 void fetch_body(uint b, uint half_index) {
@@ -11,12 +12,18 @@ void fetch_body(uint b, uint half_index) {
   first_motion[m] = quiet_body[b].first_motion[motion_size * half_index + m];
   frame.origin[k] = pose[b].origin[k];
   frame.gravity[k] = pose[b].gravity[k];
-  frame.reference[k] = pose[b].reference[k];
+  frame.reference[k] = quiet_body[b].reference[3u * half_index + k];
   bounds.lower[k] = quiet_body[b].bounds.lower[k];
   bounds.upper[k] = quiet_body[b].bounds.upper[k];
   bounds.least_velocity[k] = quiet_body[b].bounds.least_velocity[k];
   bounds.most_velocity[k] = quiet_body[b].bounds.most_velocity[k];
   bounds.room = quiet_body[b].bounds.room;
+}
+
+// A group may be a step ahead of another that fetches, so each half has its own.
+void tell_reference(uint b, uint k, double reference) {
+  pose[b].reference[k] = reference;
+  quiet_body[b].reference[3u * other_half(from_half) + k] = reference;
 }
 
 double gravity_of(uint b, uint k) { return frame.gravity[k]; }

@@ -43,7 +43,6 @@ void take_back_force(uint i, uint k) {}
 #endif
 
 #define EACH_THREAD(n, count) for (uint n = gl_LocalInvocationID.x; n < (count); n += gl_WorkGroupSize.x)
-#define EACH_COORDINATE(n) EACH_THREAD(n, 3u * s.vertex_count)
 #define VERTEX_OF(n) (s.first_vertex + n / 3u)
 #define AXIS_OF(n) (n % 3u)
 
@@ -60,8 +59,9 @@ dvec3 way_in_frame(uint i) {
 #ifdef IMPULSES
 #include "quiet_surplus.glsl"
 #else
-void look_at_vertex(uint i, uint k, uint b) {}
-void keep_surplus(uint i, uint k, uint b) {}
+void find_surplus(Share s) {}
+void look_at_vertices(Share s) {}
+void keep_surplus(Share s) {}
 #endif
 
 // Whether the step left an undeformed body where it was. That it comes to rest is left to other steps.
@@ -91,65 +91,72 @@ void fetch_samples(IN(Body) material, uint b) {
     uint i = sample_vertex(material.first_vertex, material.vertex_count, n / 3u), k = n % 3u, at = 6u * (n / 3u) + k;
     double rest = double(rest_position[i][int(k)]);
     sample_number[at] = rest;
-    sample_number[at + 3u] = place_of_sample(rest, quiet_body[b].samples[sample_at(n)], pose[b].reference[k]);
+    double reference = quiet_body[b].reference[3u * other_half(from_half) + k];
+    sample_number[at + 3u] = place_of_sample(rest, quiet_body[b].samples[sample_at(n)], reference);
   }
 }
 
-const uint no_share = 0xffffffffu;
-uint share_at_hand = no_share;  // the one whose body has been fetched for the next step
+shared Share served;
+uint taken_up = ~0u;  // its number
 
-void make_step(uint number, Share s) {
-  uint b = s.body_index;
+// Has the group serve this share. Returns false if it does already.
+bool take_up(uint number, uint own) {
+  if (taken_up == number) return false;
+  taken_up = number;
   barrier();  // shared memory changes from here on
-  if (!runs(s)) return;
-  if (share_at_hand != number) {
-    fetch_body(b, from_half);
-    share_at_hand = number;
-    barrier();
+  if (gl_LocalInvocationID.x == 0u) {
+    served = share[own];
+    ask(served);
   }
-  if (serves_first(s)) EACH_THREAD(k, 3u) quiet_body[b].reference_before[k] = frame.reference[k];
+  barrier();
+  return true;
+}
+
+// What a step does before its stages. What the body is like from `from_half` on has been fetched.
+void begin_step(Share s) {
 #ifdef KICKS_FIRST
-  EACH_COORDINATE(n) {
+  EACH_KEPT(n) {
     note_force(VERTEX_OF(n), AXIS_OF(n));
-    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), b, s.body));
+    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body));
   }
 #endif
-  memoryBarrierBuffer();
-  barrier();
-  serve_stages(s);
-  memoryBarrierBuffer();
-  barrier();
-  EACH_COORDINATE(n) look_at_vertex(VERTEX_OF(n), AXIS_OF(n), b);
+}
+
+void begin_next_step(Share s) {
+  from_half = other_half(from_half);
+  begin_step(s);
+  from_half = other_half(from_half);
+}
+
+void make_step(Share s) {
+  run_stages(s);
+  meet_group();
+  look_at_vertices(s);
   tell_first(s);
   if (group_sums) tell_samples(s);
-  if (group_sums || !leads(s) || !is_left_where_it_was(s, b)) return;
-  status[b].calm = 1u;
+  if (group_sums || !leads(s) || !is_left_where_it_was(s, s.body_index)) return;
+  status[s.body_index].calm = 1u;
   end_with_step();
 }
 
 shared bool frame_turns;
 
-// The step stands. Each group of the body finds whether its frame turns. It does not while all vertices move alike.
-void end_step_of(uint number, Share s) {
+// Each group of the body finds whether its frame turns. It does not while all vertices move alike. Nobody waits for the answer: the next
+// step begins, and begins anew if the frame turns.
+void end_step_of(Share s, bool is_new, bool goes_on) {
   uint b = s.body_index;
-  if (!runs(s)) return;
-  bool may_turn = deformed(s);
-  barrier();  // shared memory changes from here on
   fetch_body(b, other_half(from_half));
-  share_at_hand = number;
-  if (may_turn) fetch_samples(s.body, b);
+  if (group_sums) fetch_samples(s.body, b);
   barrier();
-  if (!may_turn) {
-    EACH_COORDINATE(n) keep_surplus(VERTEX_OF(n), AXIS_OF(n), b);
-    return;
-  }
-  sum_samples();
+  if (group_sums) sum_samples();
+  if (is_new) find_surplus(s);
+  keep_surplus(s);
   barrier();
-  if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) frame_turns = has_turned(summed_samples());
-  EACH_COORDINATE(n) keep_surplus(VERTEX_OF(n), AXIS_OF(n), b);
+  if (group_sums && gl_LocalInvocationID.x == 0u) frame_turns = has_turned(summed_samples());
+  if (goes_on) begin_next_step(s);
+  if (!group_sums) return;
   barrier();
   if (!frame_turns) return;
-  share_at_hand = no_share;
   meet_others(s);
   if (leads(s)) follow_rotation(b, s.body.first_vertex, summed_samples(), LOAD3(frame.reference, 0u));
   meet_others(s);
@@ -157,23 +164,25 @@ void end_step_of(uint number, Share s) {
     restate(s.first_vertex + n, b, s.body.inverse_unit);
     restate_force(s.first_vertex + n, b);
   }
-  memoryBarrierBuffer();
-  barrier();
+  meet_group();
   tell_first(s);
+  if (leads(s)) STORE3(quiet_body[b].reference, 3u * other_half(from_half), LOAD3(pose[b].reference, 0u))
   meet_others(s);
+  fetch_body(b, other_half(from_half));
+  barrier();
+  if (goes_on) begin_next_step(s);
 }
 
 // Motions have a half for the step's start, and kept forces were noted. The placement there and what it is relative to are found again.
 void undo_step(Share s) {
   uint b = s.body_index;
-  if (!runs(s)) return;
-  EACH_COORDINATE(n) {
+  EACH_KEPT(n) {
     uint i = VERTEX_OF(n), k = AXIS_OF(n);
-    double relative = motion[displacement_of(before_step(i)) + k] - quiet_body[b].reference_before[k];
+    double relative = motion[displacement_of(before_step(i)) + k] - quiet_body[b].reference[3u * from_half + k];
     place(start_slot, i, k, s.body.inverse_unit, double(rest_position[i][int(k)]), relative);
     take_back_force(i, k);
   }
-  if (serves_first(s)) EACH_THREAD(k, 3u) pose[b].reference[k] = quiet_body[b].reference_before[k];
+  if (serves_first(s)) EACH_THREAD(k, 3u) pose[b].reference[k] = quiet_body[b].reference[3u * from_half + k];
   if (leads(s)) status[b].calm = 0u;
 }
 
@@ -183,9 +192,9 @@ uint meetings_of_all = 0u;
 // Others may be a step ahead by the time that news are read, and may have more of them, but only of later steps.
 void meet_all(uint groups) {
   ++meetings_of_all;
-  memoryBarrierBuffer();
-  barrier();
+  meet_group();
   if (gl_LocalInvocationID.x == 0u) {
+    memoryBarrierBuffer();  // for all threads of the group
     uint polls = 0u, seen = atomicAdd(quiet_steps[0].arrivals, 1u) + 1u;
     while ((seen & ~has_news) < groups * meetings_of_all && polls < most_polls) {
       seen = atomicAdd(quiet_steps[0].arrivals, 0u);
@@ -204,8 +213,16 @@ void meet_all(uint groups) {
 
 // Groups meet before they change anything. If they do not all run at once, they make no step.
 #include "was_stopped.glsl"
+// For all steps.
+void set_step_length() {
+  step_length = control[0].time_step;
+#ifdef KICKS_FIRST
+  part_at_hand = part_of(step_length);
+#endif
+}
+
 #define EACH_SHARE(k) for (uint k = group; k < count; k += groups)
-#define SHARE(k) share[k == group ? own : quiet_body[k].moving_share]
+#define TAKE_UP(k) take_up(k, k == group ? own : quiet_body[k].moving_share)
 void make_quiet_steps(uint group) {
   uint count = lists_shares != 0u ? quiet_steps[0].moving_bodies : share_count, groups = min(count, item_count);
   if (count == 0u && group == 0u && gl_LocalInvocationID.x == 0u) quiet_steps[0].begun = 1u;  // with nobody to meet
@@ -221,16 +238,38 @@ void make_quiet_steps(uint group) {
   meet_all(groups);
   bool goes_on = end_seen > 0u;
   if (goes_on && gl_LocalInvocationID.x == 0u) atomicOr(quiet_steps[0].begun, 1u);
+  from_half = first_half;
+  if (gl_LocalInvocationID.x == 0u) set_step_length();
+  if (goes_on) EACH_SHARE(k) {
+    TAKE_UP(k);
+    if (!group_runs) continue;
+    fetch_body(served.body_index, from_half);
+    barrier();
+    begin_step(served);
+  }
   for (step_index = 0u; goes_on; ++step_index) {
-    from_half = (first_half + step_index) & 1u;
-    EACH_SHARE(k) make_step(k, SHARE(k));
-    meet_all(groups);
-    if (undone_seen <= step_index) {
-      EACH_SHARE(k) undo_step(SHARE(k));
-    } else {
-      EACH_SHARE(k) end_step_of(k, SHARE(k));
+    EACH_SHARE(k) {
+      bool is_new = TAKE_UP(k);
+      if (!group_runs) continue;
+      if (is_new) {
+        fetch_body(served.body_index, from_half);
+        barrier();
+      }
+      make_step(served);
     }
-    goes_on = undone_seen > step_index && end_seen > step_index + 1u;
+    meet_all(groups);
+    bool stands = undone_seen > step_index;
+    goes_on = stands && end_seen > step_index + 1u;
+    EACH_SHARE(k) {
+      bool is_new = TAKE_UP(k);
+      if (!group_runs) continue;
+      if (!stands) {
+        undo_step(served);
+        continue;
+      }
+      end_step_of(served, is_new, goes_on);
+    }
+    from_half = other_half(from_half);
   }
   if (was_stopped(share_count)) atomicOr(quiet_steps[0].arrivals, waited_in_vain);
 }

@@ -30,6 +30,7 @@ WRITE(tally)
 WRITE(body_box)
 #include "frame.glsl"
 #include "bound.glsl"
+void tell_reference(uint b, uint k, double reference) { pose[b].reference[k] = reference; }
 #endif
 PARAMETER(uint, stage_count)
 CONSTANTS(tableau, tableau_size)
