@@ -318,27 +318,48 @@ void meet_others(Share s) {
   wait_for_others(s);
 }
 
+#define VERTEX_OF(n) (s.first_vertex + n / 3u)
+#define AXIS_OF(n) (n % 3u)
+
 #ifdef KICKS_FIRST
-const bool kicks_first = true;
+void kick_first(Share s) {
+  EACH_KEPT(n)
+    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body));
+}
 #else
-const bool kicks_first = false;
+void kick_first(Share s) {}
 #endif
+
 // One thread asks for these, so that all threads of the group go the same way.
-shared bool group_runs, group_sums;
+shared bool group_runs, group_sums, group_refreshes;
 void ask(Share s) {
   group_runs = runs(s);
   group_sums = deformed(s);
+  group_refreshes = refreshes(s);
 }
 
+// What comes before the first stage, in a method that kicks first. In quiet steps it is done.
+#ifndef QUIET
+void begin_stages(Share s) {
+  if (group_refreshes) meet_group();
+  if (kicks_first()) kick_first(s);
+}
+#else
+void begin_stages(Share s) {}
+#endif
+
 void run_stages(Share s) {
-  for (stage_index = first_stage(s, group_sums); stage_index < stage_count; ++stage_index) {
-    bool meets = group_sums && (stage_index > 0u || kicks_first);
+  for (stage_index = group_refreshes ? refresh_stage : first_stage(s, group_sums); stage_index == refresh_stage || stage_index < stage_count; ++stage_index) {
+    if (stage_index == 0u) begin_stages(s);
+    bool follows = stage_index == 0u ? kicks_first() : stage_index != refresh_stage;
+    bool meets = follows && (group_sums || group_refreshes);
     if (meets) arrive(s);
     prepare(s);
     if (meets) wait_for_others(s);
     barrier();  // shared memory changes from here on
     serve(s, group_sums);
   }
+  if (group_refreshes && gl_LocalInvocationID.x == 0u) end_refresh(s);  // all groups of the body have met since they asked
 }
 #endif
 

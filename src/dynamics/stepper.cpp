@@ -165,8 +165,8 @@ std::vector<Pass> Stepper::force_passes(const StageState& at) const {
   return passes;
 }
 
-std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half,
-                                        const StateOfStage& state_of_stage) const {
+std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t from_half, const StateOfStage& state_of_stage,
+                                        const Parameters& of_all_stages) const {
   const bool comes_between = adds_force() != 0;                     // added forces come between stages
   const auto passes_of = [&](std::optional<std::uint32_t> stage) {  // none: all stages at once
     std::vector<Pass> of_groups;
@@ -179,7 +179,10 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
                                {"adds_force", adds_force()},
                                {"stage_count", stage_count_},
                                {"first_share", group.first_share}};
-      if (stage) parameters.emplace_back("stage_index", *stage);
+      if (stage)
+        parameters.emplace_back("stage_index", *stage);
+      else
+        parameters.insert(parameters.end(), of_all_stages.begin(), of_all_stages.end());
       of_groups.push_back(make_pass(bodies_.arrays, name, kernel, parameters, group.share_count));
     }
     run_together(of_groups);
@@ -194,8 +197,12 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   return passes;
 }
 
+bool Stepper::makes_steps_at_once() const {
+  return adds_force() == 0 && std::ranges::all_of(bodies_.force_groups, &ForceGroup::all_stages);
+}
+
 bool Stepper::makes_quiet_steps() const {
-  if (adds_force() != 0 || bodies_.force_groups.size() != 1 || !bodies_.force_groups[0].all_stages) return false;
+  if (bodies_.force_groups.size() != 1 || !makes_steps_at_once()) return false;
   const ForceGroup& group = bodies_.force_groups[0];
   const std::uint32_t work_groups = bodies_.arrays.device().force_variants()[group.variant].quiet_groups;
   return work_groups > 0 && (group.has_whole_bodies || group.share_count <= work_groups);
@@ -210,31 +217,35 @@ Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
                            {"stage_count", stage_count_},      {"first_share", group.first_share},
                            {"share_count", group.share_count}, {"lists_shares", group.has_whole_bodies ? 1u : 0u}};
   const auto* splitting = std::get_if<Splitting>(&integrator_.method);
-  if (splitting != nullptr) {
-    parameters.emplace_back("first_kick_time", seconds(splitting->kick[0], time_step_));
-    parameters.emplace_back("first_drift_time", seconds(splitting->drift[0], time_step_));
-  }
+  if (splitting != nullptr) std::ranges::copy(first_kick_times(*splitting), std::back_inserter(parameters));
   const KernelId kernel =
       bodies_.arrays.device().force_kernel(splitting != nullptr ? "splitting_stage" : "runge_kutta_stage", group.variant, span);
   return make_pass(bodies_.arrays, "quiet_steps", kernel, parameters, work_groups);
 }
 
+Parameters Stepper::first_kick_times(const Splitting& method) const {
+  return {{"first_kick_time", seconds(method.kick[0], time_step_)}, {"first_drift_time", seconds(method.drift[0], time_step_)}};
+}
+
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
-  const double first_kick = seconds(method.kick[0], time_step_);
-  std::vector<Pass> result = refresh_passes();
-  std::ranges::move(force_passes({physics::start_slot, from_half, 0, first_kick}), std::back_inserter(result));
-  result.push_back(make_pass(bodies_.arrays, "first_kick",
-                             {{"from_half", from_half},
-                              {"damping_law", law_},
-                              {"adds_force", adds_force()},
-                              {"first_kick_time", first_kick},
-                              {"first_drift_time", seconds(method.drift[0], time_step_)}},
-                             bodies_.vertex_count));
+  const Parameters times = first_kick_times(method);
+  const bool at_once = makes_steps_at_once();
+  std::vector<Pass> result;
+  if (!at_once) {
+    result = refresh_passes();
+    const StageState start{physics::start_slot, from_half, 0, seconds(method.kick[0], time_step_)};
+    std::ranges::move(force_passes(start), std::back_inserter(result));
+    Parameters parameters = {{"from_half", from_half}, {"damping_law", law_}, {"adds_force", adds_force()}};
+    parameters.insert(parameters.end(), times.begin(), times.end());
+    result.push_back(make_pass(bodies_.arrays, "first_kick", parameters, bodies_.vertex_count));
+  }
+  Parameters of_all_stages = times;
+  of_all_stages.emplace_back("with_first_kick", at_once ? 1u : 0u);
   const auto state_of_stage = [&](std::uint32_t stage) {
     return StageState{physics::slot_of_force(stage), physics::other_half(from_half), 0,
                       seconds(method.kick[stage + 1], time_step_)};
   };
-  std::ranges::move(stage_passes("splitting_stage", from_half, state_of_stage), std::back_inserter(result));
+  std::ranges::move(stage_passes("splitting_stage", from_half, state_of_stage, of_all_stages), std::back_inserter(result));
   return result;
 }
 

@@ -34,7 +34,8 @@ class Stepper {
   /// passes(). Either may run beside a pass that uses neither frames nor motions.
   [[nodiscard]] Pass following_pass(std::uint32_t from_half) const;
   [[nodiscard]] Pass restating_pass(std::uint32_t from_half) const;
-  /// Sums the spring forces at the step's start, for bodies whose kept ones are stale. It is part of a splitting's step.
+  /// Sums the spring forces at the step's start, for bodies whose kept ones are stale. It is part of a splitting's step, unless
+  /// one pass makes all of the step.
   [[nodiscard]] std::vector<Pass> refresh_passes() const;
 
   /// Whether it can make quiet steps (physics/quiet.glsl).
@@ -52,12 +53,16 @@ class Stepper {
   void use_tableaus(Stages stages);
   /// Returns a pass for each stage, or one for all stages if the bodies are small enough and springs are their only forces.
   using StateOfStage = std::function<StageState(std::uint32_t stage)>;
-  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half,
-                                               const StateOfStage& state_of_stage) const;
+  /// `of_all_stages` is for passes of the second kind.
+  [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, const StateOfStage& state_of_stage,
+                                               const Parameters& of_all_stages = {}) const;
   /// Returns passes that set the forces beside the springs, for one stage.
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
+  [[nodiscard]] Parameters first_kick_times(const Splitting& method) const;
+  /// Whether one pass makes all forces and stages of a step, for each force group.
+  [[nodiscard]] bool makes_steps_at_once() const;
 
   DeviceBodies& bodies_;
   AddedForces added_forces_;

@@ -18,7 +18,8 @@ PARAMETER(uint, near_pair_capacity)
 Box box_to_meet(uint b) { return box_to_touch(b); }
 
 void meet(uint a, uint b) {
-  if ((status[a].activity != moving && status[b].activity != moving) || (is_still(status[a]) && is_still(status[b]))) return;
+  Status first = status[a], second = status[b];
+  if ((first.activity != moving && second.activity != moving) || (is_still(first) && is_still(second))) return;
   TAKE_PLACES(at, control[0].near_pair_count, 1u)
   if (at >= near_pair_capacity) {
     atomicAdd(control[0].near_pair_count, ~0u);  // minus one

@@ -23,17 +23,29 @@ PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if 
 #include "parts/end_step.glsl"
 #include "parts/kick.glsl"
 #include "parts/part_of_step.glsl"
-#ifdef QUIET
+bool runs(IN(Share) s) { return !halted(s); }
+
+#ifdef TILE
 #define KICKS_FIRST
 #include "parts/first_kick.glsl"
-#include "parts/kept_before.glsl"
 #endif
-
-bool runs(IN(Share) s) { return !halted(s); }
+#ifdef QUIET
+#include "parts/kept_before.glsl"
+bool kicks_first() { return true; }
+bool refreshes(IN(Share) s) { return false; }
+void end_refresh(IN(Share) s) {}
+#else
+#ifdef TILE
+PARAMETER(uint, with_first_kick)  // 0: another kernel has made it
+bool kicks_first() { return with_first_kick != 0u; }
+bool refreshes(IN(Share) s) { return kicks_first() && status[s.body_index].force_stale != 0u; }
+void end_refresh(IN(Share) s) { status[s.body_index].force_stale = 0u; }
+#endif
+#endif
 #ifdef TILE
 uint first_stage(IN(Share) s, bool sums) { return 0u; }
 #endif
-uint placement_slot() { return slot_of_force(stage_index); }
+uint placement_slot() { return stage_index == refresh_stage ? start_slot : slot_of_force(stage_index); }
 
 // These read the tableau's two rows for this stage.
 double kick_time() { return part_of_step() * tableau[splitting_row_size * stage_index].x; }     // [s]
@@ -49,8 +61,9 @@ struct Pending {
 };
 
 Pending before_force(uint i, uint k, IN(Share) s) {
-  uint after = in_half(other_half(from_half), vertex_count, i), first = s.body.first_vertex;
   Pending p;
+  if (stage_index == refresh_stage) return p;
+  uint after = in_half(other_half(from_half), vertex_count, i), first = s.body.first_vertex;
   p.rest = double(rest_position[i][int(k)]);
   p.gravity = gravity_of(s.body_index, k);
   p.displacement = motion[displacement_of(after) + k];
@@ -62,6 +75,7 @@ Pending before_force(uint i, uint k, IN(Share) s) {
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
+  if (stage_index == refresh_stage) return double(0);
   double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), force_squared, p.velocity, kick_time());
   EXACT double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);

@@ -2,5 +2,8 @@
 #include "box_of_body.glsl"
 
 Box box_to_touch(uint b) {
-  return tree[b].y != 0u && status[b].non_finite_vertex == no_vertex ? box_of_body(b) : empty_box();
+  bool has_triangles = tree[b].y != 0u, is_finite = status[b].non_finite_vertex == no_vertex;
+  Box box = box_of_body(b);  // loaded with the others, because waiting for one after the other costs more
+  if (!has_triangles || !is_finite) box = empty_box();
+  return box;
 }

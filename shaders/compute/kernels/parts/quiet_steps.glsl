@@ -39,12 +39,11 @@ Samples summed_samples() {
 #include "restate_force.glsl"
 #else
 void restate_force(uint i, uint b) {}
+void note_force(uint i, uint k) {}
 void take_back_force(uint i, uint k) {}
 #endif
 
 #define EACH_THREAD(n, count) for (uint n = gl_LocalInvocationID.x; n < (count); n += gl_WorkGroupSize.x)
-#define VERTEX_OF(n) (s.first_vertex + n / 3u)
-#define AXIS_OF(n) (n % 3u)
 
 bool serves_first(Share s) { return s.first_vertex == s.body.first_vertex; }
 bool leads(Share s) { return gl_LocalInvocationID.x == 0u && serves_first(s); }
@@ -114,12 +113,8 @@ bool take_up(uint number, uint own) {
 
 // What a step does before its stages. What the body is like from `from_half` on has been fetched.
 void begin_step(Share s) {
-#ifdef KICKS_FIRST
-  EACH_KEPT(n) {
-    note_force(VERTEX_OF(n), AXIS_OF(n));
-    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body));
-  }
-#endif
+  EACH_KEPT(n) note_force(VERTEX_OF(n), AXIS_OF(n));
+  kick_first(s);
 }
 
 void begin_next_step(Share s) {

@@ -1,6 +1,7 @@
 // What force kernels with several stages a step declare alike. A dispatch runs the stage that the parameter names. With TILE it runs
 // all of them, and the frame around counts. Placements are then read past caches, because other groups write them meanwhile. With QUIET
 // it runs all stages of many quiet steps. The frame around counts steps, too, and other groups write frames meanwhile.
+const uint refresh_stage = ~0u;  // comes before stage 0, and sums the springs at the step's start for the first kick
 #ifdef TILE
 uint stage_index = 0u;
 SHARED_WRITE_AS(placement, real4, placed)
