@@ -24,7 +24,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies, model, description.broad_phase),
-      trees_(bodies, forest_, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
+      trees_(bodies, forest_, description.leaf_pair_capacity, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       response_row_(row_of(description, searches() || !model.grounds.empty())) {
   if (response_row_.make != nullptr)

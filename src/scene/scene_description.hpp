@@ -69,7 +69,8 @@ struct CollisionDescription {
   Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
-  std::vector<Origin> surface_keys = {};  // given ones that not all responses read
+  std::uint32_t leaf_pair_capacity = 1u << 18;  // of the search's list. No key sets it: what it lacks costs speed alone
+  std::vector<Origin> surface_keys = {};        // given ones that not all responses read
 };
 
 /// What contacts know of a body or a ground. What is empty is the scene's.

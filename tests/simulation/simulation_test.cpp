@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "collision/contacts/oracle.hpp"
 #include "support/collision_scene.hpp"
@@ -219,6 +220,32 @@ TEST_CASE("pairs beyond the list's capacity are found a second time, and none is
   }
   const StepReport report = check_marks(*make_cpu_device(2, 32), build_model(setups, {0, 0, 0}));
   CHECK(report.pairs_beyond_capacity > 0);
+}
+
+// With a capacity of 1 a search with n pairs has n - 1 beyond it, and 7 fewer with a capacity of 8, if n is that large.
+TEST_CASE("a run whose list of leaf pairs is too short in most steps gives the bits of one with room for all", "[gl]") {
+  const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
+  for (const TestDevice& test : all_devices())
+    for (CollisionDescription collision : {impelled, reflected}) {
+      CAPTURE(test.name, collision.response.value);
+      const Outcome roomy = collide(*test.device, start, usual, 30, collision);
+      CHECK(roomy.report.contact_steps > 5);
+      CHECK(roomy.report.pairs_beyond_capacity == 0);
+      std::vector<std::uint64_t> beyond;
+      for (const std::uint32_t capacity : {1u, 8u}) {
+        collision.leaf_pair_capacity = capacity;
+        Outcome cramped = collide(*test.device, start, usual, 30, collision);
+        CHECK(cramped.state.motion == roomy.state.motion);
+        CHECK(same_bits(cramped.state.poses, roomy.state.poses));
+        CHECK(cramped.positions == roomy.positions);
+        beyond.push_back(std::exchange(cramped.report.pairs_beyond_capacity, 0));
+        CHECK(cramped.report == roomy.report);
+      }
+      const std::uint64_t searches = roomy.report.steps + roomy.report.substeps;
+      CHECK(beyond[1] > 10 * roomy.report.contact_steps);
+      CHECK(beyond[0] >= beyond[1] + 7 * roomy.report.contact_steps);
+      CHECK(beyond[0] <= beyond[1] + 7 * searches);
+    }
 }
 
 TEST_CASE("bodies that have parted are no longer reported as touching", "[gl]") {

@@ -38,7 +38,7 @@ Parameters Touching::test_parameters(std::uint32_t half) const {
 Pass Touching::testing_pass(std::uint32_t half) const {
   const std::uint32_t pairs = std::clamp(parallel_items_, least_test_threads, most_test_threads) / physics::threads_per_leaf_pair;
   Parameters parameters = test_parameters(half);
-  parameters.insert(parameters.end(), {{"leaf_pair_capacity", leaf_pair_capacity}, {"pairs_at_once", pairs}});
+  parameters.emplace_back("pairs_at_once", pairs);
   return make_pass(bodies_.arrays, "test_pairs", parameters, pairs * physics::threads_per_leaf_pair);
 }
 

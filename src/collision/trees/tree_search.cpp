@@ -77,13 +77,16 @@ std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_
   return std::clamp<std::uint32_t>(std::max(parallel_items, least_search_threads) / threads_per_pair, 1, most_pairs);
 }
 
-TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t parallel_items, std::uint32_t most_near_pairs)
+TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t leaf_pair_capacity, std::uint32_t parallel_items,
+                       std::uint32_t most_near_pairs)
     : bodies_(bodies),
       leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
+      leaf_pair_capacity_(leaf_pair_capacity),
       triangles_of_a_start_(most_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
   const std::vector<glm::uvec4> nodes = cut_nodes(forest, triangles_of_a_start_);
   search_threads_ = pairs_at_once(parallel_items, 1, most_subtree_pairs(nodes, forest, most_near_pairs));
   Arrays& arrays = bodies.arrays;
+  arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity);
   arrays.set_parameter("node_count", static_cast<std::uint32_t>(forest.nodes.size()));
   arrays.make("tree", trees_of(forest));
   arrays.make("leaf", forest.leaves);
@@ -99,8 +102,7 @@ Pass TreeSearch::refitting_pass(std::uint32_t half) const {
 }
 
 Pass TreeSearch::finding_pass() const {
-  return make_pass(bodies_.arrays, "find_pairs",
-                   {{"leaf_pair_capacity", leaf_pair_capacity}, {"search_threads", search_threads_}}, search_threads_);
+  return make_pass(bodies_.arrays, "find_pairs", {{"search_threads", search_threads_}}, search_threads_);
 }
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
@@ -109,25 +111,22 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
   const std::uint32_t threads = device.info().kind == DeviceKind::gpu ? 4 : 1;
   const std::uint32_t leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
   return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass(),
-          beside_next(make_pass(bodies_.arrays, "list_triangle_pairs",
-                                {{"leaf_pair_capacity", leaf_pair_capacity},
-                                 {"triangle_pair_capacity", triangle_pair_capacity},
-                                 {"pairs_at_once", leaf_pairs},
-                                 {"threads_of_a_pair", threads}},
-                                threads * leaf_pairs)),
+          beside_next(make_pass(
+              bodies_.arrays, "list_triangle_pairs",
+              {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", leaf_pairs}, {"threads_of_a_pair", threads}},
+              threads * leaf_pairs)),
           unlisted_pass("list_unlisted_pairs", {{"triangle_pair_capacity", triangle_pair_capacity}})};
 }
 
 Pass TreeSearch::unlisted_pass(std::string_view kernel, Parameters parameters) const {
   const std::uint32_t threads = std::min(search_threads_, most_unlisted_threads);
-  parameters.emplace_back("leaf_pair_capacity", leaf_pair_capacity);
   parameters.emplace_back("search_threads", threads);
   return make_pass(bodies_.arrays, kernel, parameters, threads);
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {
   const std::uint32_t found = bodies_.control.download().front().leaf_pair_count;
-  return bodies_.arrays.get<glm::uvec2>("leaf_pair").download(0, std::min(found, leaf_pair_capacity));
+  return bodies_.arrays.get<glm::uvec2>("leaf_pair").download(0, std::min(found, leaf_pair_capacity_));
 }
 
 std::vector<glm::vec4> TreeSearch::node_boxes() const { return bodies_.arrays.get<glm::vec4>("node_box").download(); }

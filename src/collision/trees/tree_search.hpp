@@ -13,13 +13,12 @@ namespace pliant {
 /// device busy, but not too few.
 [[nodiscard]] std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs);
 
-// A full list costs speed, never a contact: the trees are then descended twice, and pairs served where they are found.
-inline constexpr std::uint32_t leaf_pair_capacity = 1u << 18;
-
 class TreeSearch {
  public:
-  /// `bodies` must outlive this. Searches are cut for `parallel_items` threads at once.
-  TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t parallel_items, std::uint32_t most_near_pairs);
+  /// `bodies` must outlive this. Searches are cut for `parallel_items` threads at once. Their list has room for so many pairs of
+  /// leaves. A full list costs speed, never a contact: the trees are then descended twice, and pairs served where they are found.
+  TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t leaf_pair_capacity, std::uint32_t parallel_items,
+             std::uint32_t most_near_pairs);
 
   /// Refits the trees of bodies that are near another to the positions at `half`.
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
@@ -42,7 +41,7 @@ class TreeSearch {
 
  private:
   DeviceBodies& bodies_;
-  std::uint32_t leaf_count_;
+  std::uint32_t leaf_count_, leaf_pair_capacity_;
   std::uint32_t triangles_of_a_start_;
   std::uint32_t search_threads_ = 0;
 };
