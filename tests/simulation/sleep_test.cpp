@@ -1,8 +1,14 @@
 // Bodies that rest on something sleep until something may reach them.
 #include <catch2/catch.hpp>
+#include <glm/trigonometric.hpp>
 
+#include "bench/contact/apart.hpp"
+#include "core/larger.hpp"
+#include "support/device_bench.hpp"
 #include "support/evolve.hpp"
+#include "support/has.hpp"
 #include "support/impulse_scene.hpp"
+#include "support/pocket.hpp"
 
 namespace pliant {
 namespace {
@@ -145,6 +151,125 @@ TEST_CASE("what wakes is held from its first step on by what it lies on", "[gl]"
       const double given = (simulation.report().response.outside_impulse.y - before) / (weight * plan.time_step);
       CHECK(given > 0.4);
       CHECK(given < 0.6);
+    }
+}
+
+// A ball between the floor and a static slab, which squeeze it by an eighth. Another body comes with it.
+ModelAndState squeezed_beside(const BodySetup& other) {
+  BodySetup squeezed = lying_ball({0, 0.36, 0}), slab = soft(generate_mesh("cube:2"), "slab");
+  squeezed.description.stretch = {1, 0.85, 1};
+  slab.description.kind = BodyKind::immovable;
+  slab.description.scale = 0.6;
+  slab.description.position = {0, 1.02, 0};
+  return on_floor({squeezed, other, slab});
+}
+
+// The farthest that a vertex of the first body is from where it was [m].
+double farthest_from(const std::vector<glm::vec4>& places, const std::vector<glm::vec4>& now, const Model& model) {
+  double farthest = 0;
+  for (std::uint32_t i = 0; i < model.bodies[0].vertex_count; ++i)
+    farthest = larger(farthest, glm::distance(glm::dvec3(places[i]), glm::dvec3(now[i])));
+  return farthest;
+}
+
+// How far springs would move a vertex of the first body in a step if nothing held it, at most [m]. Bodies that rest have no mean
+// velocity, so vertices that are held end a step with half of what their springs give in one. From rest that is the mean.
+double farthest_unheld(const State& resting, const Model& model, double time_step) {
+  double fastest = 0;
+  const std::vector<glm::dvec3> velocities = resting.world_velocities(model);
+  for (std::uint32_t i = 0; i < model.bodies[0].vertex_count; ++i) fastest = larger(fastest, glm::length(velocities[i]));
+  return fastest * time_step;
+}
+
+// A hand drags the neighbour away at 0.1 m/s.
+TEST_CASE("a ball that is squeezed as it sleeps does not jump when a neighbour that moves wakes it", "[gl]") {
+  const ModelAndState start = squeezed_beside(lying_ball({0.86, 0.41, 0}));
+  for (const TestDevice& test : all_devices())
+    for (const char* integrator : {"verlet", "cv8"}) {
+      CAPTURE(test.name, integrator);
+      const bool is_software = test.name == "gpu" && test.device->shares_at_once() == 0;
+      if (is_software && std::string_view(integrator) == "cv8") continue;  // slow
+      const TimePlan plan = sleeping(integrator);
+      Simulation simulation(*test.device, start.model, start.state, plan, by_impulses);
+      while (simulation.report().bodies_asleep < 2 && simulation.report().time < 6) simulation.advance(20);
+      REQUIRE(simulation.report().bodies_asleep == 2);
+      const std::vector<glm::vec4> places = simulation.world_positions();
+      const std::uint32_t held = start.model.bodies[1].first_vertex;
+      double farthest = 0;
+      for (int step = 1; step <= 50; ++step) {
+        const glm::dvec3 way(0.1 * step * plan.time_step, 0, 0);
+        simulation.pull({.vertex = held, .target = glm::dvec3(places[held]) + way}, plan.time_step);
+        simulation.advance(1);
+        if (step == 1) CHECK(simulation.report().bodies_asleep == 0);
+        farthest = larger(farthest, farthest_from(places, simulation.world_positions(), start.model));
+      }
+      const double unheld = farthest_unheld(simulation.state(), start.model, plan.time_step);
+      CHECK(unheld > 5 * 9.81 * plan.time_step * plan.time_step);
+      CHECK(farthest < 0.3 * unheld);
+      CHECK(glm::distance(places[held], simulation.world_positions()[held]) > 100 * farthest);
+      CHECK(simulation.intersections().pairs == 0);
+    }
+}
+
+// A run in which motions of the squeezed ball are cut short, by hand, in one step. That is the first step of its sleep, or the
+// one in which a ball that falls by comes within an edge of 0.24 m, and wakes it.
+struct CutInSleep {
+  CutInSleep(std::unique_ptr<Device> device, bool as_it_wakes)
+      : start(squeezed_beside(lying_ball({0.9, 8, 0}))),
+        bench(std::move(device), start, {"verlet", time_step, DampingLaw::internal}, by_impulses),
+        cuts_as_it_wakes(as_it_wakes) {
+    bench.begin();
+  }
+  [[nodiscard]] physics::Status status() const { return bench.bodies.statuses.download().front(); }
+  [[nodiscard]] State state() const { return bench.bodies.download(half); }
+  [[nodiscard]] std::vector<glm::vec4> places() const {
+    return bench.bodies.world_positions.download(bench.bodies.first_of_half(half), start.model.vertex_count());
+  }
+  // Returns whether motions were cut short.
+  bool make_step(bool may_cut) {
+    bool is_cut = false;
+    for (const Pass& pass : bench.step(half)) {
+      bench.device->run({&pass, 1});
+      if (pass.name != "expect_cuts" || !may_cut) continue;
+      is_cut = status().asleep != 0 && (status().disturbed != 0) == cuts_as_it_wakes;
+      if (is_cut) cut_by_hand(bench.bodies.arrays.get<std::uint32_t>("cut"), cuts);
+    }
+    half = 1 - half;
+    return is_cut;
+  }
+  static constexpr double time_step = 0.002;
+  static constexpr std::size_t cuts = 8;
+  ModelAndState start;
+  Bench bench;
+  bool cuts_as_it_wakes;
+  std::uint32_t half = 0;
+};
+
+// A cut rouses the body while the step goes on for its other vertices.
+TEST_CASE("a ball whose motions are cut short as it sleeps, or as it wakes, is awake from then on and does not jump", "[gl]") {
+  for (const bool on_gpu : {false, true})
+    for (const bool as_it_wakes : {false, true}) {
+      if (on_gpu && !test::has_gl()) continue;
+      CAPTURE(on_gpu, as_it_wakes);
+      CutInSleep run(on_gpu ? make_gpu_device(0) : make_cpu_device(1, 64), as_it_wakes);
+      std::vector<glm::vec4> places = run.places();
+      int steps = 1;
+      for (; !run.make_step(true) && steps < 1500; ++steps) places = run.places();
+      REQUIRE(steps < 1500);
+      CHECK(run.status().asleep == 0);
+      const auto control = [&] { return run.bench.bodies.control.download().front(); };
+      CHECK(control().total_low[physics::reverted_vertices] == CutInSleep::cuts);
+      CHECK(std::equal(places.begin(), places.begin() + CutInSleep::cuts, run.places().begin()));
+      const bench::ApartOracle oracle(run.start.model);
+      for (int step = 0; step < 5; ++step) {
+        run.make_step(false);
+        const double unheld = farthest_unheld(run.state(), run.start.model, CutInSleep::time_step);
+        const double farthest = farthest_from(places, run.places(), run.start.model);
+        CHECK(unheld > 5 * 9.81 * CutInSleep::time_step * CutInSleep::time_step);
+        CHECK(farthest < 0.3 * unheld);
+        CHECK(oracle.pairs_not_apart(run.state().world_positions(run.start.model)) == 0);
+        CHECK(control().non_finite_step == 0);
+      }
     }
 }
 
