@@ -102,6 +102,7 @@ class Soak {
 
   /// Makes whole pauses and pulls until the simulated time is `time` [s]. It ends where a run with other ends would pass through.
   void run_to(double time) {
+    if (resident_.empty()) note_first_memory();
     while (simulation_.report().time < time && !simulation_.report().breakdown) make_event();
   }
   [[nodiscard]] std::string save() {
@@ -120,12 +121,11 @@ class Soak {
   [[nodiscard]] const std::vector<std::string>& said() const { return said_; }
   /// Hands over what save() would have returned before the first window in which a law is broken.
   void keep_before_breach(std::function<void(const std::string&)> keep) { keep_before_breach_ = std::move(keep); }
-  /// Returns how much more memory the second half of the events needed than the first half [MiB].
+  /// Returns how much more memory the second half of the piece needed than the first half, which begins before the first event
+  /// [MiB].
   [[nodiscard]] double growth() const {
     const auto middle = resident_.begin() + static_cast<std::ptrdiff_t>(resident_.size() / 2);
-    return middle == resident_.begin()
-               ? 0
-               : *std::max_element(middle, resident_.end()) - *std::max_element(resident_.begin(), middle);
+    return *std::max_element(middle, resident_.end()) - *std::max_element(resident_.begin(), middle);
   }
   [[nodiscard]] std::string table();
 
@@ -139,6 +139,8 @@ class Soak {
   }
   void judge(const test::Window& window);
   void judge_health();
+  void note_memory();
+  void note_first_memory();
   [[nodiscard]] std::size_t play_in_memory() const;
   void say(const std::string& what) {
     said_.push_back(fmt::format("event {}, {:.3f} s: {}", progress_.events, simulation_.report().time, what));
@@ -165,8 +167,8 @@ class Soak {
   std::vector<std::string> said_;
   std::string before_window_;  // as save() has it
   std::function<void(const std::string&)> keep_before_breach_;
-  std::vector<double> resident_;        // at the end of each event [MiB]
-  std::size_t allocated_at_first_ = 0;  // on the device, after the first event [bytes]
+  std::vector<double> resident_;        // before the first event of this piece, and at the end of each [MiB]
+  std::vector<std::size_t> allocated_;  // then, on the device [bytes]
   Stopwatch stepping_, all_;
 };
 
@@ -249,10 +251,22 @@ void Soak::judge_health() {
   if (simulation_.report().breakdown) say("a vertex is not finite");
   if (!std::ranges::all_of(simulation_.state().motion, [](double number) { return std::isfinite(number); }))
     say("a number is not finite");
-  if (allocated_at_first_ == 0) allocated_at_first_ = device_.allocated_bytes();
-  if (device_.allocated_bytes() > allocated_at_first_ + play_in_memory())
-    say(fmt::format("the device holds {} bytes, and held {}", device_.allocated_bytes(), allocated_at_first_));
+  note_memory();
+  if (allocated_.back() > allocated_.front() + play_in_memory())
+    say(fmt::format("the device holds {} bytes, and held {}", allocated_.back(), allocated_.front()));
+}
+
+void Soak::note_memory() {
   resident_.push_back(test::resident_memory());
+  allocated_.push_back(device_.allocated_bytes());
+}
+
+// Makes a window first and takes it back, because memory counts as resident only once it has been used.
+void Soak::note_first_memory() {
+  const std::string saved = save();
+  (void)see_window(nullptr);
+  restore(saved);
+  note_memory();
 }
 
 void Soak::make_event() {

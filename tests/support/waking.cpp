@@ -11,6 +11,7 @@
 #include <limits>
 #include <span>
 
+#include "collision/responses/sleep_bounds.hpp"
 #include "core/bytes.hpp"
 #include "model/mean_edge.hpp"
 
@@ -144,11 +145,7 @@ std::uint64_t Window::woken() const {
 }
 
 Stillness stillness_of(const Model& model, double gravity) {
-  double smallest = std::numeric_limits<double>::infinity();  // radius
-  for (const ModelBody& body : model.bodies)
-    if (!body.is_static) smallest = std::min(smallest, body.radius);
-  const double by_size = 0.025 * 2 * smallest;
-  const double way = gravity > 0 ? std::min(by_size, 0.00214 * gravity) : by_size;
+  const double way = sleep_way(model, gravity);
   return {.in_half_a_second = way, .by_a_pull = way / 10};
 }
 

@@ -39,6 +39,7 @@ struct Stillness {
   double in_half_a_second = 0;  // what docs/scenes.md allows a body that falls asleep
   double by_a_pull = 0;         // of other bodies, in a window
 };
+/// `gravity` is the size of the acceleration [m/s^2].
 [[nodiscard]] Stillness stillness_of(const Model& model, double gravity);
 
 /// Returns the farthest that vertices of bodies went which slept through the window, in the senses of Stillness [m].
