@@ -55,8 +55,7 @@ std::vector<Pass> Collider::finding_passes() const {
 std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
   if (!searches()) return {};
   if (!uses_trees()) return {touching_.brute_force_pass(half)};
-  return {beside_next(touching_.testing_pass(half)),
-          trees_.unlisted_pass("test_unlisted_pairs", touching_.test_parameters(half))};
+  return trees_.serving_passes(touching_.testing_pass(half), "test_unlisted_pairs", touching_.test_parameters(half));
 }
 
 std::vector<Pass> Collider::search_passes(std::uint32_t half) const {

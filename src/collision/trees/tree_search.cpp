@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 namespace pliant {
 namespace {
@@ -71,6 +72,16 @@ std::uint32_t most_subtree_pairs(const std::vector<glm::uvec4>& nodes, const For
   return static_cast<std::uint32_t>(std::min(many, std::min(many, most_starts * most_starts) * std::max(most_near_pairs, 1u)));
 }
 
+// Of leaves of two bodies each.
+std::uint64_t all_leaf_pairs(const Forest& forest) {
+  std::uint64_t leaves = 0, pairs = 0;
+  for (const std::uint32_t of_body : forest.leaf_counts) {
+    pairs += leaves * of_body;
+    leaves += of_body;
+  }
+  return pairs;
+}
+
 }  // namespace
 
 std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_per_pair, std::uint32_t most_pairs) {
@@ -82,6 +93,7 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t
     : bodies_(bodies),
       leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
       leaf_pair_capacity_(leaf_pair_capacity),
+      may_lack_room_(all_leaf_pairs(forest) > leaf_pair_capacity),
       triangles_of_a_start_(most_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
   const std::vector<glm::uvec4> nodes = cut_nodes(forest, triangles_of_a_start_);
   search_threads_ = pairs_at_once(parallel_items, 1, most_subtree_pairs(nodes, forest, most_near_pairs));
@@ -110,18 +122,22 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
   // of a pair of leaves: a GPU waits for its slowest
   const std::uint32_t threads = device.info().kind == DeviceKind::gpu ? 4 : 1;
   const std::uint32_t leaf_pairs = device.items_of_lists(bodies_.body_count) / threads;
-  return {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass(),
-          beside_next(make_pass(
-              bodies_.arrays, "list_triangle_pairs",
-              {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", leaf_pairs}, {"threads_of_a_pair", threads}},
-              threads * leaf_pairs)),
-          unlisted_pass("list_unlisted_pairs", {{"triangle_pair_capacity", triangle_pair_capacity}})};
+  Pass listing = make_pass(
+      bodies_.arrays, "list_triangle_pairs",
+      {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", leaf_pairs}, {"threads_of_a_pair", threads}},
+      threads * leaf_pairs);
+  std::vector<Pass> passes = {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass()};
+  std::ranges::move(
+      serving_passes(std::move(listing), "list_unlisted_pairs", {{"triangle_pair_capacity", triangle_pair_capacity}}),
+      std::back_inserter(passes));
+  return passes;
 }
 
-Pass TreeSearch::unlisted_pass(std::string_view kernel, Parameters parameters) const {
+std::vector<Pass> TreeSearch::serving_passes(Pass of_list, std::string_view kernel_of_all, Parameters parameters) const {
+  if (!may_lack_room_) return {std::move(of_list)};
   const std::uint32_t threads = std::min(search_threads_, most_unlisted_threads);
   parameters.emplace_back("search_threads", threads);
-  return make_pass(bodies_.arrays, kernel, parameters, threads);
+  return {beside_next(std::move(of_list)), make_pass(bodies_.arrays, kernel_of_all, parameters, threads)};
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {

@@ -24,9 +24,9 @@ class TreeSearch {
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
   /// Lists the pairs of leaves whose boxes overlap.
   [[nodiscard]] Pass finding_pass() const;
-  /// Returns the pass that serves all pairs of leaves if they were more than the list had room for. `kernel` takes these
-  /// parameters besides those of a search.
-  [[nodiscard]] Pass unlisted_pass(std::string_view kernel, Parameters parameters) const;
+  /// Returns `of_list`, which serves the listed pairs of leaves. If the list may lack room a pass follows that serves all pairs
+  /// where it does. `kernel_of_all` takes these parameters besides those of a search.
+  [[nodiscard]] std::vector<Pass> serving_passes(Pass of_list, std::string_view kernel_of_all, Parameters parameters) const;
   /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
   [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;
 
@@ -42,6 +42,7 @@ class TreeSearch {
  private:
   DeviceBodies& bodies_;
   std::uint32_t leaf_count_, leaf_pair_capacity_;
+  bool may_lack_room_;  // all pairs of leaves are more than it has room for
   std::uint32_t triangles_of_a_start_;
   std::uint32_t search_threads_ = 0;
 };
