@@ -281,7 +281,9 @@ uint groups_of(Share s) {
   return (s.body.vertex_count + share_size - 1u) / share_size;
 }
 
-// What this thread has written, others of the group may read after it.
+// What this thread has written, others of the group may read after it. Then one thread's memoryBarrierBuffer() shows other groups what the
+// whole group has written, because fences are cumulative on GPUs of NVIDIA. Other devices do not tell their number of multiprocessors, and
+// no group waits for another there. Each thread that fences waits for its own writes, and that takes longer.
 void meet_group() {
   groupMemoryBarrier();
   barrier();
@@ -293,7 +295,7 @@ void arrive(Share s) {
   ++meetings;
   meet_group();
   if (gl_LocalInvocationID.x != 0u || groups_of(s) == 1u) return;
-  memoryBarrierBuffer();  // for all threads of the group
+  memoryBarrierBuffer();
   atomicAdd(meeting[s.body_index], 1u);
 }
 
@@ -321,13 +323,16 @@ void meet_others(Share s) {
 #define VERTEX_OF(n) (s.first_vertex + n / 3u)
 #define AXIS_OF(n) (n % 3u)
 
-#ifdef KICKS_FIRST
-void kick_first(Share s) {
+#ifdef HAS_FIRST_KICK
+void make_first_kick(Share s) {
   EACH_KEPT(n)
     store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body));
 }
 #else
-void kick_first(Share s) {}
+bool makes_first_kick() { return false; }
+bool refreshes(Share s) { return false; }
+void end_refresh(Share s) {}
+void make_first_kick(Share s) {}
 #endif
 
 // One thread asks for these, so that all threads of the group go the same way.
@@ -338,28 +343,31 @@ void ask(Share s) {
   group_refreshes = refreshes(s);
 }
 
-// What comes before the first stage, in a method that kicks first. In quiet steps it is done.
-#ifndef QUIET
+// In quiet steps the step before has made the first kick.
+#ifdef QUIET
+void begin_stages(Share s) {}
+#else
 void begin_stages(Share s) {
   if (group_refreshes) meet_group();
-  if (kicks_first()) kick_first(s);
+  if (makes_first_kick()) make_first_kick(s);
 }
-#else
-void begin_stages(Share s) {}
 #endif
 
+// All sums stand in one loop, so that their code does, too. The refresh's number is one before 0. Groups that have nothing to sum meet after
+// it as well, so that all have asked for it before it ends.
 void run_stages(Share s) {
-  for (stage_index = group_refreshes ? refresh_stage : first_stage(s, group_sums); stage_index == refresh_stage || stage_index < stage_count; ++stage_index) {
+  stage_index = group_refreshes ? refresh_stage : first_stage(s, group_sums);
+  for (; stage_index + 1u <= stage_count; ++stage_index) {
     if (stage_index == 0u) begin_stages(s);
-    bool follows = stage_index == 0u ? kicks_first() : stage_index != refresh_stage;
-    bool meets = follows && (group_sums || group_refreshes);
+    bool follows_another = stage_index == 0u ? makes_first_kick() : stage_index != refresh_stage;
+    bool meets = follows_another && (group_sums || group_refreshes);
     if (meets) arrive(s);
     prepare(s);
     if (meets) wait_for_others(s);
     barrier();  // shared memory changes from here on
     serve(s, group_sums);
   }
-  if (group_refreshes && gl_LocalInvocationID.x == 0u) end_refresh(s);  // all groups of the body have met since they asked
+  if (group_refreshes && gl_LocalInvocationID.x == 0u) end_refresh(s);
 }
 #endif
 

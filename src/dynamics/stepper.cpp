@@ -197,12 +197,12 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   return passes;
 }
 
-bool Stepper::makes_steps_at_once() const {
+bool Stepper::makes_a_step_in_one_pass() const {
   return adds_force() == 0 && std::ranges::all_of(bodies_.force_groups, &ForceGroup::all_stages);
 }
 
 bool Stepper::makes_quiet_steps() const {
-  if (bodies_.force_groups.size() != 1 || !makes_steps_at_once()) return false;
+  if (bodies_.force_groups.size() != 1 || !makes_a_step_in_one_pass()) return false;
   const ForceGroup& group = bodies_.force_groups[0];
   const std::uint32_t work_groups = bodies_.arrays.device().force_variants()[group.variant].quiet_groups;
   return work_groups > 0 && (group.has_whole_bodies || group.share_count <= work_groups);
@@ -211,27 +211,30 @@ bool Stepper::makes_quiet_steps() const {
 Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
   PLIANT_EXPECT(makes_quiet_steps());
   const ForceGroup& group = bodies_.force_groups[0];
-  const std::uint32_t work_groups =
-      std::min(bodies_.arrays.device().force_variants()[group.variant].quiet_groups, group.share_count);
   Parameters parameters = {{"first_half", first_half},         {"damping_law", law_},
                            {"stage_count", stage_count_},      {"first_share", group.first_share},
                            {"share_count", group.share_count}, {"lists_shares", group.has_whole_bodies ? 1u : 0u}};
   const auto* splitting = std::get_if<Splitting>(&integrator_.method);
-  if (splitting != nullptr) std::ranges::copy(first_kick_times(*splitting), std::back_inserter(parameters));
+  if (splitting != nullptr) std::ranges::copy(first_kick_and_drift(*splitting), std::back_inserter(parameters));
   const KernelId kernel =
       bodies_.arrays.device().force_kernel(splitting != nullptr ? "splitting_stage" : "runge_kutta_stage", group.variant, span);
-  return make_pass(bodies_.arrays, "quiet_steps", kernel, parameters, work_groups);
+  return make_pass(bodies_.arrays, "quiet_steps", kernel, parameters, quiet_group_count());
 }
 
-Parameters Stepper::first_kick_times(const Splitting& method) const {
+std::uint32_t Stepper::quiet_group_count() const {
+  const ForceGroup& group = bodies_.force_groups[0];
+  return std::min(bodies_.arrays.device().force_variants()[group.variant].quiet_groups, group.share_count);
+}
+
+Parameters Stepper::first_kick_and_drift(const Splitting& method) const {
   return {{"first_kick_time", seconds(method.kick[0], time_step_)}, {"first_drift_time", seconds(method.drift[0], time_step_)}};
 }
 
 std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32_t from_half) const {
-  const Parameters times = first_kick_times(method);
-  const bool at_once = makes_steps_at_once();
+  const Parameters times = first_kick_and_drift(method);
+  const bool in_one_pass = makes_a_step_in_one_pass();
   std::vector<Pass> result;
-  if (!at_once) {
+  if (!in_one_pass) {
     result = refresh_passes();
     const StageState start{physics::start_slot, from_half, 0, seconds(method.kick[0], time_step_)};
     std::ranges::move(force_passes(start), std::back_inserter(result));
@@ -240,7 +243,7 @@ std::vector<Pass> Stepper::splitting_passes(const Splitting& method, std::uint32
     result.push_back(make_pass(bodies_.arrays, "first_kick", parameters, bodies_.vertex_count));
   }
   Parameters of_all_stages = times;
-  of_all_stages.emplace_back("with_first_kick", at_once ? 1u : 0u);
+  of_all_stages.emplace_back("with_first_kick", in_one_pass ? 1u : 0u);
   const auto state_of_stage = [&](std::uint32_t stage) {
     return StageState{physics::slot_of_force(stage), physics::other_half(from_half), 0,
                       seconds(method.kick[stage + 1], time_step_)};

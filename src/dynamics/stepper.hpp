@@ -43,6 +43,8 @@ class Stepper {
   /// Returns the pass that makes quiet steps, the first of them from this half. Other passes have set bounds for it. `span` says
   /// which kind.
   [[nodiscard]] Pass quiet_pass(std::uint32_t first_half, ForceSpan span) const;
+  /// Returns how many work groups make quiet steps. They share all shares.
+  [[nodiscard]] std::uint32_t quiet_group_count() const;
 
   /// Whether the method keeps spring forces for the next step.
   [[nodiscard]] bool keeps_force() const { return staged_method(integrator_) == nullptr; }
@@ -51,8 +53,8 @@ class Stepper {
  private:
   /// Makes the method's tableau, or one for each rate of damping among the bodies.
   void use_tableaus(Stages stages);
-  /// Returns a pass for each stage, or one for all stages if the bodies are small enough and springs are their only forces.
   using StateOfStage = std::function<StageState(std::uint32_t stage)>;
+  /// Returns a pass for each stage, or one for all stages if the bodies are small enough and springs are their only forces.
   /// `of_all_stages` is for passes of the second kind.
   [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, const StateOfStage& state_of_stage,
                                                const Parameters& of_all_stages = {}) const;
@@ -60,9 +62,9 @@ class Stepper {
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
   [[nodiscard]] std::vector<Pass> splitting_passes(const Splitting& method, std::uint32_t from_half) const;
-  [[nodiscard]] Parameters first_kick_times(const Splitting& method) const;
+  [[nodiscard]] Parameters first_kick_and_drift(const Splitting& method) const;
   /// Whether one pass makes all forces and stages of a step, for each force group.
-  [[nodiscard]] bool makes_steps_at_once() const;
+  [[nodiscard]] bool makes_a_step_in_one_pass() const;
 
   DeviceBodies& bodies_;
   AddedForces added_forces_;

@@ -7,9 +7,20 @@
 namespace pliant {
 namespace {
 
+bool may_meet(const Collider& collider) { return collider.response() != nullptr && collider.searches(); }
+
+// Where bodies can't meet, any number of them may move. A work group that serves many shares then makes fewer steps, so that a
+// dispatch takes no longer.
+std::uint32_t most_of_groups_that_wait(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
+  if (may_meet(collider)) return physics::most_quiet_steps;
+  const auto shares = static_cast<std::uint32_t>(bodies.shares.size());
+  const std::uint32_t shares_of_a_group = (shares - 1) / stepper.quiet_group_count() + 1;
+  return std::max(physics::most_quiet_steps / shares_of_a_group, physics::fewest_quiet_steps);
+}
+
 // Where groups do not wait for each other, a driver in software runs the only one. It stops long loops (docs/step.md, Limits).
-std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper) {
-  if (bodies.arrays.device().shares_at_once() > 0) return physics::most_quiet_steps;
+std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
+  if (bodies.arrays.device().shares_at_once() > 0) return most_of_groups_that_wait(bodies, stepper, collider);
   constexpr std::uint64_t most_turns = 16384, turns_beside_a_sum = 32;
   std::uint64_t turns = 0;  // of one thread in a step
   for (const physics::Share& share : bodies.shares.download())
@@ -21,8 +32,6 @@ std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper) {
 bool looks_at_ends(const Collider& collider) {
   return collider.response() == nullptr || (collider.response_row().answers_touching && collider.uses_trees());
 }
-
-bool may_meet(const Collider& collider) { return collider.response() != nullptr && collider.searches(); }
 
 ForceSpan span_of(const Collider& collider) {
   return looks_at_ends(collider) ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses;
@@ -56,7 +65,7 @@ std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, co
 
 QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
   if (!stepper.makes_quiet_steps()) return;
-  most_at_once_ = most_at_once(bodies, stepper);
+  most_at_once_ = most_at_once(bodies, stepper, collider);
   if (most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
   bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);

@@ -331,6 +331,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   std::set<std::string_view> seen;
   CollisionDescription tree{.response = {"reflect"}}, brute = tree, grid = tree;
   grid.broad_phase = BroadPhase::grid;
+  grid.leaf_pair_capacity = 2000;  // there are more pairs of leaves, but fewer overlap
   brute.search = ContactSearch::brute_force;
   brute.triangle_test = TriangleTest::moller;
   std::vector<BodySetup> setups = colliding_spheres();

@@ -265,6 +265,7 @@ void Soak::note_memory() {
 void Soak::note_first_memory() {
   const std::string saved = save();
   (void)see_window(nullptr);
+  stepping_ = {};
   restore(saved);
   note_memory();
 }

@@ -15,7 +15,7 @@ READ(motion)
 READ(pose)
 READ(quiet_steps)
 WRITE(quiet_body)
-#include "parts/tell_first.glsl"
+#include "parts/tell_start.glsl"
 #include "parts/quiet_region.glsl"
 
 // Less than what bodies that meet no others have (limit_step.glsl, expect_motion.glsl).
@@ -34,6 +34,6 @@ void bound_quiet_steps(uint b) {
     quiet_body[b].bounds.most_velocity[k] = velocities.upper[int(k)];
   }
   quiet_body[b].bounds.room = float(room_of(b));
-  tell_first_motion(b);
+  tell_start(b);
   quiet_body[b].frame_changes = 0u;
 }

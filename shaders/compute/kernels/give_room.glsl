@@ -17,7 +17,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, searches)  // 0: no two bodies touch
 #include "parts/box_of_body.glsl"
 #include "parts/is_steady.glsl"
-#include "parts/tell_first.glsl"
+#include "parts/tell_start.glsl"
 
 const float endless = 1e38f;
 
@@ -50,5 +50,5 @@ void give_room(uint b) {
     quiet_body[b].bounds.upper[k] = searches != 0u ? box.upper[int(k)] + room : endless;
   }
   quiet_body[b].frame_changes = 0u;
-  tell_first_motion(b);
+  tell_start(b);
 }

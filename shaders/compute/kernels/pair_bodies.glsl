@@ -18,7 +18,7 @@ PARAMETER(uint, near_pair_capacity)
 Box box_to_meet(uint b) { return box_to_touch(b); }
 
 void meet(uint a, uint b) {
-  Status first = status[a], second = status[b];
+  Status first = status[a], second = status[b];  // at once, as in box_to_touch()
   if ((first.activity != moving && second.activity != moving) || (is_still(first) && is_still(second))) return;
   TAKE_PLACES(at, control[0].near_pair_count, 1u)
   if (at >= near_pair_capacity) {

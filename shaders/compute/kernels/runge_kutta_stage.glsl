@@ -38,11 +38,6 @@ const bool has_one_acceleration = false;
 uint first_stage(IN(Share) s, bool sums) { return 0u; }
 #endif
 #endif
-#ifdef TILE
-bool kicks_first() { return false; }
-bool refreshes(IN(Share) s) { return false; }
-void end_refresh(IN(Share) s) {}
-#endif
 uint placement_slot() { return slot_of_stage(stage_index); }
 
 // What a body's vertices have in common on one axis.

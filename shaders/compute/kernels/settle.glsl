@@ -45,8 +45,8 @@ double part_left(uint i, uint b) {
 void cut_short(uint i, uint b, double part, dvec3 gone) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
   dvec3 rest = dvec3(vec3(rest_position[i])), first = LOAD3(motion, displacement_of(before));
-  bool stays = all_stay() || flight_was_stopped(b);
-  dvec3 together = stays ? dvec3(0) : rotate_back(pose[b], flight_in_step(b, to_world(pose[b], rest + first)));
+  bool keeps_place = all_stay() || flight_was_stopped(b);
+  dvec3 together = keeps_place ? dvec3(0) : rotate_back(pose[b], flight_in_step(b, to_world(pose[b], rest + first)));
   dvec3 displacement = first + together + part * (gone - together);
   STORE3(motion, displacement_of(after), displacement)
   world_position[after] = part == double(0) && together == dvec3(0)

@@ -23,27 +23,24 @@ PARAMETER(double, parts_of)  // [s] the tableau is for steps of this length, if 
 #include "parts/end_step.glsl"
 #include "parts/kick.glsl"
 #include "parts/part_of_step.glsl"
+
 bool runs(IN(Share) s) { return !halted(s); }
 
 #ifdef TILE
-#define KICKS_FIRST
+#define HAS_FIRST_KICK
 #include "parts/first_kick.glsl"
-#endif
+uint first_stage(IN(Share) s, bool sums) { return 0u; }
 #ifdef QUIET
 #include "parts/kept_before.glsl"
-bool kicks_first() { return true; }
+bool makes_first_kick() { return true; }
 bool refreshes(IN(Share) s) { return false; }
 void end_refresh(IN(Share) s) {}
 #else
-#ifdef TILE
-PARAMETER(uint, with_first_kick)  // 0: another kernel has made it
-bool kicks_first() { return with_first_kick != 0u; }
-bool refreshes(IN(Share) s) { return kicks_first() && status[s.body_index].force_stale != 0u; }
+PARAMETER(uint, with_first_kick)  // 0: other kernels have summed stale forces again, and made the first kick
+bool makes_first_kick() { return with_first_kick != 0u; }
+bool refreshes(IN(Share) s) { return makes_first_kick() && status[s.body_index].force_stale != 0u; }
 void end_refresh(IN(Share) s) { status[s.body_index].force_stale = 0u; }
 #endif
-#endif
-#ifdef TILE
-uint first_stage(IN(Share) s, bool sums) { return 0u; }
 #endif
 uint placement_slot() { return stage_index == refresh_stage ? start_slot : slot_of_force(stage_index); }
 

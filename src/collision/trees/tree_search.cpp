@@ -72,7 +72,7 @@ std::uint32_t most_subtree_pairs(const std::vector<glm::uvec4>& nodes, const For
   return static_cast<std::uint32_t>(std::min(many, std::min(many, most_starts * most_starts) * std::max(most_near_pairs, 1u)));
 }
 
-// Of leaves of two bodies each.
+// Returns how many pairs there are of two leaves of different bodies.
 std::uint64_t all_leaf_pairs(const Forest& forest) {
   std::uint64_t leaves = 0, pairs = 0;
   for (const std::uint32_t of_body : forest.leaf_counts) {

@@ -24,8 +24,9 @@ class TreeSearch {
   [[nodiscard]] Pass refitting_pass(std::uint32_t half) const;
   /// Lists the pairs of leaves whose boxes overlap.
   [[nodiscard]] Pass finding_pass() const;
-  /// Returns `of_list`, which serves the listed pairs of leaves. If the list may lack room a pass follows that serves all pairs
-  /// where it does. `kernel_of_all` takes these parameters besides those of a search.
+  /// Returns `of_list`, which serves the listed pairs of leaves. If the list may be too short a second pass follows. It serves
+  /// all pairs in a step in which the list was, and `of_list` none then. `kernel_of_all` takes these parameters besides those of
+  /// a search.
   [[nodiscard]] std::vector<Pass> serving_passes(Pass of_list, std::string_view kernel_of_all, Parameters parameters) const;
   /// Do the same for the cages of vertices (responses/impulse.hpp), and list pairs of triangles whose cages overlap.
   [[nodiscard]] std::vector<Pass> cage_passes(std::uint32_t triangle_pair_capacity) const;

@@ -1,4 +1,5 @@
-// What frame.glsl knows, in a quiet step. Other groups write it between steps, so the group fetches it once a step.
+// What frame.glsl knows, in a quiet step, and what else a group has at hand. Other groups write it between steps, so the group fetches it
+// once a step.
 shared Pose frame;  // but for the quaternion
 shared double first_motion[motion_size];
 shared QuietBounds bounds;

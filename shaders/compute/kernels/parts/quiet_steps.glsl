@@ -35,7 +35,7 @@ Samples summed_samples() {
 }
 
 #include "restate.glsl"
-#ifdef KICKS_FIRST
+#ifdef HAS_FIRST_KICK
 #include "restate_force.glsl"
 #else
 void restate_force(uint i, uint b) {}
@@ -114,7 +114,7 @@ bool take_up(uint number, uint own) {
 // What a step does before its stages. What the body is like from `from_half` on has been fetched.
 void begin_step(Share s) {
   EACH_KEPT(n) note_force(VERTEX_OF(n), AXIS_OF(n));
-  kick_first(s);
+  make_first_kick(s);
 }
 
 void begin_next_step(Share s) {
@@ -144,7 +144,7 @@ void end_step_of(Share s, bool is_new, bool goes_on) {
   if (group_sums) fetch_samples(s.body, b);
   barrier();
   if (group_sums) sum_samples();
-  if (is_new) find_surplus(s);
+  if (is_new) find_surplus(s);  // else make_step has left it in shared memory
   keep_surplus(s);
   barrier();
   if (group_sums && gl_LocalInvocationID.x == 0u) frame_turns = has_turned(summed_samples());
@@ -189,7 +189,7 @@ void meet_all(uint groups) {
   ++meetings_of_all;
   meet_group();
   if (gl_LocalInvocationID.x == 0u) {
-    memoryBarrierBuffer();  // for all threads of the group
+    memoryBarrierBuffer();
     uint polls = 0u, seen = atomicAdd(quiet_steps[0].arrivals, 1u) + 1u;
     while ((seen & ~has_news) < groups * meetings_of_all && polls < most_polls) {
       seen = atomicAdd(quiet_steps[0].arrivals, 0u);
@@ -206,16 +206,16 @@ void meet_all(uint groups) {
   barrier();
 }
 
-// Groups meet before they change anything. If they do not all run at once, they make no step.
 #include "was_stopped.glsl"
-// For all steps.
+// Steps have one length, so this is done once.
 void set_step_length() {
   step_length = control[0].time_step;
-#ifdef KICKS_FIRST
+#ifdef HAS_FIRST_KICK
   part_at_hand = part_of(step_length);
 #endif
 }
 
+// Groups meet before they change anything. If they do not all run at once, they make no step.
 #define EACH_SHARE(k) for (uint k = group; k < count; k += groups)
 #define TAKE_UP(k) take_up(k, k == group ? own : quiet_body[k].moving_share)
 void make_quiet_steps(uint group) {
