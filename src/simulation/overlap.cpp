@@ -50,14 +50,16 @@ class Search {
   }
 
   // Calls visit(a, b, distance) for each two bodies that may touch, with a distance of 0, or that are nearer than the margin of
-  // proofs.
+  // proofs. Ends when that returns false.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
+    bool goes_on = true;
     for_each_near_bodies([&](const IndexedBox& a, const IndexedBox& b, double most) {
+      if (!goes_on) return;
       double nearest = std::numeric_limits<double>::infinity();
       for_each_near_triangles(model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
                               [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
-      if (nearest < most) visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
+      if (nearest < most) goes_on = visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
     });
   }
 
@@ -189,11 +191,12 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
   Search(model, positions, precision).for_each_pair([&](std::uint32_t first, std::uint32_t second, double distance) {
     if (distance > 0 && (!found || (found->distance > 0 && distance < found->distance)))
       found = {.first = first, .second = second, .distance = distance};
-    if (distance > 0 || measured == most_measured) return;
+    if (distance > 0) return true;
     ++measured;
     const ModelBody &a = model.bodies[first], &b = model.bodies[second];
     const double depth = std::max(deepest(model, a, b, positions), deepest(model, b, a, positions));
     if (!found || found->distance > 0 || depth > found->depth) found = {.first = first, .second = second, .depth = depth};
+    return measured < most_measured;
   });
   if (!found) return {};
   const ModelBody &first = model.bodies[found->first], &second = model.bodies[found->second];

@@ -75,6 +75,13 @@ TEST_CASE("only bodies that intersect are named, though the boxes of others over
   CHECK_FALSE(find_overlap(still.model, still.state.world_positions(still.model), {}, 64).has_value());
 }
 
+// Looking at all pairs took minutes.
+TEST_CASE("of thousands in one place two are named") {
+  std::vector<BodySetup> setups(2000, body_of_mesh(generate_mesh("icosphere:1")));
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  CHECK(find_overlap(start.model, start.state.world_positions(start.model), {}, 64)->distance == 0);
+}
+
 TEST_CASE("bodies of which one is longer have a way out, too") {
   const ModelAndState start = cubes({{1, {0.9, 0.9, 0.03}}});
   std::vector<glm::dvec3> positions = start.state.world_positions(start.model);
