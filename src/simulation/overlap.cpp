@@ -50,7 +50,7 @@ class Search {
   }
 
   // Calls visit(a, b, distance) for each two bodies that may touch, with a distance of 0, or that are nearer than the margin of
-  // proofs. Ends when that returns false.
+  // proofs. Calls no more once that has returned false.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
     bool goes_on = true;

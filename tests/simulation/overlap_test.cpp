@@ -75,7 +75,7 @@ TEST_CASE("only bodies that intersect are named, though the boxes of others over
   CHECK_FALSE(find_overlap(still.model, still.state.world_positions(still.model), {}, 64).has_value());
 }
 
-// Looking at all pairs took minutes.
+// Looking at all pairs would take longer than a test may.
 TEST_CASE("of thousands in one place two are named") {
   std::vector<BodySetup> setups(2000, body_of_mesh(generate_mesh("icosphere:1")));
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));

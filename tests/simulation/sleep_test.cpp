@@ -128,10 +128,9 @@ BodySetup of_mass(BodySetup ball, double mass) {
   return ball;
 }
 
-// A hand that takes hold where a vertex is wakes the body, and changes no velocity. Bodies that sleep have no velocity, so half
-// of what gravity gives in a step stops them in its mean. Forces on vertices that press are many times that.
-TEST_CASE("what wakes is held from its first step on by what it lies on", "[gl]") {
-  const ModelAndState start = on_floor({lying_ball({0, 0.45, 0})});
+// Calls check(simulation, time step) on each device, by two methods, once so many bodies sleep.
+template <class Check>
+void for_each_asleep(const ModelAndState& start, std::uint32_t bodies, const Check& check) {
   for (const TestDevice& test : all_devices())
     for (const char* integrator : {"verlet", "cv8"}) {
       CAPTURE(test.name, integrator);
@@ -139,19 +138,28 @@ TEST_CASE("what wakes is held from its first step on by what it lies on", "[gl]"
       if (is_software && std::string_view(integrator) == "cv8") continue;  // slow
       const TimePlan plan = sleeping(integrator);
       Simulation simulation(*test.device, start.model, start.state, plan, by_impulses);
-      while (simulation.report().bodies_asleep < 1 && simulation.report().time < 6) simulation.advance(20);
-      REQUIRE(simulation.report().bodies_asleep == 1);
-      simulation.advance(5);
-      const glm::vec3 place(simulation.world_positions()[0]);
-      const double before = simulation.report().response.outside_impulse.y;
-      simulation.pull({.vertex = 0, .target = glm::dvec3(place)}, plan.time_step);
-      simulation.advance(1);
-      CHECK(simulation.report().bodies_asleep == 0);
-      const double weight = start.model.bodies[0].vertex_count * start.model.bodies[0].vertex_mass * 9.81;  // [N]
-      const double given = (simulation.report().response.outside_impulse.y - before) / (weight * plan.time_step);
-      CHECK(given > 0.4);
-      CHECK(given < 0.6);
+      while (simulation.report().bodies_asleep < bodies && simulation.report().time < 6) simulation.advance(20);
+      REQUIRE(simulation.report().bodies_asleep == bodies);
+      check(simulation, plan.time_step);
     }
+}
+
+// A hand that takes hold where a vertex is wakes the body, and changes no velocity. Bodies that sleep have no velocity, so half
+// of what gravity gives in a step stops them in its mean. Forces on vertices that press are many times that.
+TEST_CASE("what wakes is held from its first step on by what it lies on", "[gl]") {
+  const ModelAndState start = on_floor({lying_ball({0, 0.45, 0})});
+  for_each_asleep(start, 1, [&](Simulation& simulation, double time_step) {
+    simulation.advance(5);
+    const glm::vec3 place(simulation.world_positions()[0]);
+    const double before = simulation.report().response.outside_impulse.y;
+    simulation.pull({.vertex = 0, .target = glm::dvec3(place)}, time_step);
+    simulation.advance(1);
+    CHECK(simulation.report().bodies_asleep == 0);
+    const double weight = start.model.bodies[0].vertex_count * start.model.bodies[0].vertex_mass * 9.81;  // [N]
+    const double given = (simulation.report().response.outside_impulse.y - before) / (weight * time_step);
+    CHECK(given > 0.4);
+    CHECK(given < 0.6);
+  });
 }
 
 // A ball between the floor and a static slab, which squeeze it by an eighth. Another body comes with it.
@@ -184,31 +192,23 @@ double farthest_unheld(const State& resting, const Model& model, double time_ste
 // A hand drags the neighbour away at 0.1 m/s.
 TEST_CASE("a ball that is squeezed as it sleeps does not jump when a neighbour that moves wakes it", "[gl]") {
   const ModelAndState start = squeezed_beside(lying_ball({0.86, 0.41, 0}));
-  for (const TestDevice& test : all_devices())
-    for (const char* integrator : {"verlet", "cv8"}) {
-      CAPTURE(test.name, integrator);
-      const bool is_software = test.name == "gpu" && test.device->shares_at_once() == 0;
-      if (is_software && std::string_view(integrator) == "cv8") continue;  // slow
-      const TimePlan plan = sleeping(integrator);
-      Simulation simulation(*test.device, start.model, start.state, plan, by_impulses);
-      while (simulation.report().bodies_asleep < 2 && simulation.report().time < 6) simulation.advance(20);
-      REQUIRE(simulation.report().bodies_asleep == 2);
-      const std::vector<glm::vec4> places = simulation.world_positions();
-      const std::uint32_t held = start.model.bodies[1].first_vertex;
-      double farthest = 0;
-      for (int step = 1; step <= 50; ++step) {
-        const glm::dvec3 way(0.1 * step * plan.time_step, 0, 0);
-        simulation.pull({.vertex = held, .target = glm::dvec3(places[held]) + way}, plan.time_step);
-        simulation.advance(1);
-        if (step == 1) CHECK(simulation.report().bodies_asleep == 0);
-        farthest = larger(farthest, farthest_from(places, simulation.world_positions(), start.model));
-      }
-      const double unheld = farthest_unheld(simulation.state(), start.model, plan.time_step);
-      CHECK(unheld > 5 * 9.81 * plan.time_step * plan.time_step);
-      CHECK(farthest < 0.3 * unheld);
-      CHECK(glm::distance(places[held], simulation.world_positions()[held]) > 100 * farthest);
-      CHECK(simulation.intersections().pairs == 0);
+  for_each_asleep(start, 2, [&](Simulation& simulation, double time_step) {
+    const std::vector<glm::vec4> places = simulation.world_positions();
+    const std::uint32_t held = start.model.bodies[1].first_vertex;
+    double farthest = 0;
+    for (int step = 1; step <= 50; ++step) {
+      const glm::dvec3 way(0.1 * step * time_step, 0, 0);
+      simulation.pull({.vertex = held, .target = glm::dvec3(places[held]) + way}, time_step);
+      simulation.advance(1);
+      if (step == 1) CHECK(simulation.report().bodies_asleep == 0);
+      farthest = larger(farthest, farthest_from(places, simulation.world_positions(), start.model));
     }
+    const double unheld = farthest_unheld(simulation.state(), start.model, time_step);
+    CHECK(unheld > 5 * 9.81 * time_step * time_step);
+    CHECK(farthest < 0.3 * unheld);
+    CHECK(glm::distance(places[held], simulation.world_positions()[held]) > 100 * farthest);
+    CHECK(simulation.intersections().pairs == 0);
+  });
 }
 
 // A run in which motions of the squeezed ball are cut short, by hand, in one step. That is the first step of its sleep, or the
