@@ -147,10 +147,10 @@ void fetch(uint from, uint count) {
 
 #if LANES == 1
 void finish(uint i, Share s, dvec3 force) {
-  double squared = ordered_dot(force, force);
-  double x = after_force(i, 0u, s, force.x, squared, before_force(i, 0u, s));
-  double y = after_force(i, 1u, s, force.y, squared, before_force(i, 1u, s));
-  double z = after_force(i, 2u, s, force.z, squared, before_force(i, 2u, s));
+  Damping d = damping_by(s, ordered_dot(force, force));
+  double x = after_force(i, 0u, s, force.x, d, before_force(i, 0u, s));
+  double y = after_force(i, 1u, s, force.y, d, before_force(i, 1u, s));
+  double z = after_force(i, 2u, s, force.z, d, before_force(i, 2u, s));
   for (uint k = 0u; k < 3u && settles(); ++k) settle(i, k, s, dvec3(x, y, z));
 }
 
@@ -265,7 +265,7 @@ void serve(Share s, bool sums) {
     if (keeper() == 0u && i == s.body.first_vertex) count_force(s, sums);
     dvec3 force = (-s.body.unit_force) * (sums ? sum_of_runs(place * LANES) : dvec3(0));
     double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
-    settled[keeper()] = after_force(i, k, s, component, ordered_dot(force, force), pending);
+    settled[keeper()] = after_force(i, k, s, component, damping_by(s, ordered_dot(force, force)), pending);
   }
   if (!settles()) return;
   barrier();
@@ -326,7 +326,8 @@ void meet_others(Share s) {
 #ifdef HAS_FIRST_KICK
 void make_first_kick(Share s) {
   EACH_KEPT(n)
-    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body, first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body));
+    store_first_kick(VERTEX_OF(n), AXIS_OF(n), s.body,
+                     first_kick_of(VERTEX_OF(n), AXIS_OF(n), s.body_index, s.body, first_decay(VERTEX_OF(n), s.body)));
 }
 #else
 bool makes_first_kick() { return false; }

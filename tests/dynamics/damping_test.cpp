@@ -19,6 +19,17 @@ TEST_CASE("decay is e^-z and (1 - e^-z) / z from tiny to enormous z") {
   }
 }
 
+TEST_CASE("decay is as good where its series gets shorter, and falls there, too") {
+  constexpr double seam = 1.0 / 64;
+  for (const double z : {std::nextafter(seam, 0.0), seam, std::nextafter(seam, 1.0)}) {
+    const physics::Decay d = physics::decay(z);
+    CHECK(d.gain == Approx(-std::expm1(-z) / z).epsilon(2e-16));
+    CHECK(d.keep == Approx(std::exp(-z)).epsilon(2e-16));
+  }
+  CHECK(physics::decay(seam).gain >= physics::decay(std::nextafter(seam, 1.0)).gain);
+  CHECK(physics::decay(seam).keep >= physics::decay(std::nextafter(seam, 1.0)).keep);
+}
+
 TEST_CASE("no damping keeps the velocity and the whole kick") {
   const physics::Decay d = physics::decay(0);
   CHECK(d.keep == 1);

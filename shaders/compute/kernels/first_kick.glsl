@@ -26,7 +26,8 @@ void first_kick(uint i) {
   uint b = uint(rest_position[i].w);
   if (status[b].activity != moving || is_still(status[b])) return;
   // all axes are loaded before one is stored, so that loads overlap
-  Kicked x = first_kick_of(i, 0u, b, body[b]), y = first_kick_of(i, 1u, b, body[b]), z = first_kick_of(i, 2u, b, body[b]);
+  Decay d = first_decay(i, body[b]);
+  Kicked x = first_kick_of(i, 0u, b, body[b], d), y = first_kick_of(i, 1u, b, body[b], d), z = first_kick_of(i, 2u, b, body[b], d);
   store_first_kick(i, 0u, body[b], x);
   store_first_kick(i, 1u, body[b], y);
   store_first_kick(i, 2u, body[b], z);

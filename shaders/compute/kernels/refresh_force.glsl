@@ -23,7 +23,17 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   return p;
 }
 
-double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
+struct Damping {  // it does not damp
+  bool nothing;
+};
+
+Damping damping_by(IN(Share) s, double force_squared) {
+  Damping d;
+  d.nothing = true;
+  return d;
+}
+
+double after_force(uint i, uint k, IN(Share) s, double spring_force, IN(Damping) d, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
   return double(0);
 }

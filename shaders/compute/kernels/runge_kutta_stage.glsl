@@ -153,10 +153,19 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   return before_force_with(i, k, c, sum_earlier(i, k, next_row(s), c.gravity));
 }
 
-double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
-  double rate = damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared);
+struct Damping {
+  double rate;  // [1/s]
+};
+
+Damping damping_by(IN(Share) s, double force_squared) {
+  Damping d;
+  d.rate = damping_rate(damping_law, s.body.damping, s.body.inverse_mass, force_squared);
+  return d;
+}
+
+double after_force(uint i, uint k, IN(Share) s, double spring_force, IN(Damping) d, IN(Pending) p) {
   EXACT double undamped = all_force(i, k, spring_force) * s.body.inverse_mass + p.course.gravity;
-  EXACT double damped = undamped - rate * p.stage_velocity;
+  EXACT double damped = undamped - d.rate * p.stage_velocity;
   double a = damping_law != damping_none ? damped : undamped;
   acceleration[accelerations_of(stage_index, i) + k] = a;
   EXACT double displacement = p.displacement + p.course.position_weight * a;

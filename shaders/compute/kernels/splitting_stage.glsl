@@ -70,10 +70,21 @@ Pending before_force(uint i, uint k, IN(Share) s) {
   return p;
 }
 
-double after_force(uint i, uint k, IN(Share) s, double spring_force, double force_squared, IN(Pending) p) {
+struct Damping {
+  Decay of_kick;
+};
+
+Damping damping_by(IN(Share) s, double force_squared) {
+  Damping d;
+  d.of_kick.keep = d.of_kick.gain = double(1);
+  if (stage_index != refresh_stage) d.of_kick = decay_in_kick(s.body, force_squared, kick_time());
+  return d;
+}
+
+double after_force(uint i, uint k, IN(Share) s, double spring_force, IN(Damping) d, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
   if (stage_index == refresh_stage) return double(0);
-  double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), force_squared, p.velocity, kick_time());
+  double velocity = kicked(s.body, p.gravity, all_force(i, k, spring_force), d.of_kick, p.velocity, kick_time());
   EXACT double displacement = p.displacement + drift_time() * velocity;
   place(is_last() ? start_slot : slot_after_stage(stage_index), i, k, s.body.inverse_unit, p.rest, displacement - p.reference);
   end_step(i, k, s, displacement, velocity, p.reference);

@@ -30,7 +30,7 @@ struct Decay { double keep; double gain; };
 
 FN Decay decay(double z) {
   Decay result;
-  if (z == double(0)) {  // the series gives the same, but takes a dozen divisions
+  if (z == double(0)) {  // the series gives the same, but takes longer
     result.keep = double(1);
     result.gain = double(1);
     return result;
@@ -49,7 +49,9 @@ FN Decay decay(double z) {
   // Divisions are slow on GPUs, but compilers fold these constants.
 #define TERM(n) EXACT double term##n = double(1) - (double(1) / double(n)) * y * result.gain; result.gain = term##n;
   result.gain = double(1);
-  TERM(13) TERM(12) TERM(11) TERM(10) TERM(9) TERM(8) TERM(7) TERM(6) TERM(5) TERM(4) TERM(3) TERM(2)
+  // for smaller y these change the gain by less than y^7 / 8! = 6e-18
+  if (abs(y) > double(1) / double(64)) { TERM(13) TERM(12) TERM(11) TERM(10) TERM(9) TERM(8) }
+  TERM(7) TERM(6) TERM(5) TERM(4) TERM(3) TERM(2)
 #undef TERM
   EXACT double left = double(1) - y * result.gain;
   result.keep = left;

@@ -8,13 +8,17 @@ struct Kicked {
   double velocity;      // [m/s]
 };
 
-Kicked first_kick_of(uint i, uint k, uint b, IN(Body) material) {
-  uint before = in_half(from_half, vertex_count, i);
+Decay first_decay(uint i, IN(Body) material) {
   dvec3 spring_force = LOAD3(kept_force, force_of(i));
+  return decay_in_kick(material, ordered_dot(spring_force, spring_force), part_of_step() * first_kick_time);
+}
+
+Kicked first_kick_of(uint i, uint k, uint b, IN(Body) material, IN(Decay) d) {
+  uint before = in_half(from_half, vertex_count, i);
   double displacement = motion[displacement_of(before) + k];
   Kicked done;
-  done.velocity = kicked(material, gravity_of(b, k), all_force(i, k, spring_force[int(k)]), ordered_dot(spring_force, spring_force),
-                         motion[velocity_of(before) + k], part_of_step() * first_kick_time);
+  done.velocity = kicked(material, gravity_of(b, k), all_force(i, k, kept_force[force_of(i) + k]), d, motion[velocity_of(before) + k],
+                         part_of_step() * first_kick_time);
   EXACT double relative = (displacement - first_displacement(material.first_vertex, k)) +
                           part_of_step() * first_drift_time * (done.velocity - first_velocity(material.first_vertex, k));
   EXACT double drifted = displacement + part_of_step() * first_drift_time * done.velocity;

@@ -1,5 +1,6 @@
 // What force kernels share. For each share that runs(), the frame around them sums the springs of its vertices. It takes the placements
-// in placement_slot(), and counts the sum once a body. For each vertex and axis it also calls these:
+// in placement_slot(), and counts the sum once a body. For each vertex it calls damping_by(), with the square of the springs' net force
+// [N^2]; threads that serve an axis each all do. For each vertex and axis it also calls these:
 // - before_force(), whose loads hide behind the sum
 // - after_force(), which returns the coordinate it came to
 // - settle() with all three coordinates, if the kernel settles()
