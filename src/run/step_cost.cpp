@@ -5,8 +5,9 @@
 #include <chrono>
 #include <tuple>
 #include <utility>
+#include <vector>
 
-#include "device/cpu/spring_sums.hpp"
+#include "device/cpu/cpu_device.hpp"
 #include "mesh/generators.hpp"
 #include "model/deform.hpp"
 
@@ -86,10 +87,10 @@ double seconds_per_step(const PreparedRun& run) {
 std::size_t bytes_of_run(const PreparedRun& run) {
   std::size_t bytes = run.device->allocated_bytes();
   if (run.device->info().kind != DeviceKind::cpu) return bytes;
+  std::vector<std::uint32_t> vertex_counts;
   for (const ModelBody& body : run.start.model.bodies)
-    bytes += run.device->precision() == 64 ? cpu::SpringSums<double>::scratch_bytes_of(body.vertex_count)
-                                           : cpu::SpringSums<float>::scratch_bytes_of(body.vertex_count);
-  return bytes;
+    if (!body.is_static) vertex_counts.push_back(body.vertex_count);
+  return bytes + cpu::spring_scratch_bytes(vertex_counts, run.device->precision());
 }
 
 }  // namespace pliant

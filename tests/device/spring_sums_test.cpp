@@ -231,9 +231,24 @@ TEMPLATE_TEST_CASE("a placement that is not finite shows in the vertex's sum", "
       }
 }
 
-// A spinning sphere, one that keeps its shape, and a smaller one that spins.
-std::vector<BodySetup> three_spheres() {
+TEMPLATE_TEST_CASE("a small body's sums on one thread are those on all, bit for bit", "", float, double) {
+  for (const Isa isa : available_isas())
+    for (const std::size_t count : {1u, 8u, 15u, 16u, 17u, 42u, 162u, 255u, 256u}) {
+      CAPTURE(name_of(isa), count);
+      Sample<TestType> on_all = random_sample<TestType>(count, 0.1), on_one = on_all;
+      sum(isa, on_all);
+      SpringSums<TestType>(isa).sum_alone(on_one.body());
+      CHECK(on_one.sums == on_all.sums);
+    }
+}
+
+// A spinning sphere, one that keeps its shape, and a smaller one that spins. Behind them more, that spin too.
+std::vector<BodySetup> spheres(std::size_t more) {
   std::vector<BodySetup> bodies = {sphere(3), sphere(1), sphere(2)};
+  for (std::size_t k = 0; k < more; ++k) {
+    bodies.push_back(sphere(k % 2 == 0 ? 1 : 2));
+    bodies.back().description.spin = {0, 2, 1};
+  }
   bodies[0].description.spin = {1, 2, 3};
   bodies[1].description.velocity = {0, 1, 0};
   bodies[2].description.spin = {-3, 0, 0};
@@ -245,12 +260,13 @@ std::vector<BodySetup> three_spheres() {
   return bodies;
 }
 
-// The motions after some steps by one of the device's ways of summing.
-std::vector<double> motion_after(unsigned threads, int precision, std::string_view variant, std::string_view integrator) {
+// The motions of the first three spheres after some steps by one of the device's ways of summing.
+std::vector<double> motion_after(unsigned threads, int precision, std::string_view variant, std::string_view integrator,
+                                 std::size_t more = 0) {
   const auto device = make_cpu_device(threads, precision);
   const auto found = std::ranges::find(device->force_variants(), variant, &ForceVariant::name);
   REQUIRE(found != device->force_variants().end());
-  const ModelAndState start = build_model(three_spheres(), glm::dvec3(0));
+  const ModelAndState start = build_model(spheres(more), glm::dvec3(0));
   DeviceBodies bodies(*device, start.model, start.state, static_cast<std::size_t>(found - device->force_variants().begin()));
   const Stepper stepper(bodies, start.model, find_integrator(integrator), DampingLaw::none, 0.01);
   device->run(stepper.first_passes());
@@ -259,7 +275,12 @@ std::vector<double> motion_after(unsigned threads, int precision, std::string_vi
   CHECK(tallies[0].force_evaluations > 0);
   CHECK(tallies[1].force_evaluations == 0);
   CHECK(tallies[2].force_evaluations > 0);
-  return bodies.motions.download();
+  const std::uint32_t end = start.model.bodies[2].first_vertex + start.model.bodies[2].vertex_count;
+  std::vector<double> motion = bodies.motions.download(0, std::size_t{physics::motion_size} * end);
+  const std::vector<double> other_half = bodies.motions.download(std::size_t{physics::motion_size} * bodies.first_of_half(1),
+                                                                 std::size_t{physics::motion_size} * end);
+  motion.insert(motion.end(), other_half.begin(), other_half.end());
+  return motion;
 }
 
 TEMPLATE_TEST_CASE("what earlier bodies have left in scratch memory counts for none", "", float, double) {
@@ -291,6 +312,20 @@ TEST_CASE("every way of summing moves bodies as the plain one does, bit for bit 
         double largest = 0;
         for (std::size_t i = 0; i < motion.size(); ++i) largest = larger(largest, std::abs(motion[i] - plain[i]));
         CHECK(largest < (precision == 32 ? 1e-6 : 1e-14));
+      }
+    }
+}
+
+TEST_CASE("bodies move as in a scene of their own, bit for bit, where each of many small ones has a thread") {
+  for (const int precision : {32, 64})
+    for (const std::string_view integrator : {"rk4", "verlet"}) {
+      CAPTURE(precision, integrator);
+      const std::vector<double> plain = motion_after(1, precision, "plain", integrator);
+      CHECK(motion_after(2, precision, "plain", integrator, 14) == plain);
+      for (const Isa isa : available_isas()) {
+        CAPTURE(name_of(isa));
+        const std::vector<double> few = motion_after(1, precision, name_of(isa), integrator);
+        for (const unsigned threads : {1u, 3u}) CHECK(motion_after(threads, precision, name_of(isa), integrator, 14) == few);
       }
     }
 }

@@ -41,6 +41,15 @@ std::string title_of(cpu::Isa isa) {
 }
 
 constexpr std::uint32_t whole_bodies = 0xffffffffu;
+constexpr std::uint32_t most_vertices_alone = cpu::SpringSums<float>::most_vertices_alone;
+
+// If there are so many shares, the small ones have a thread each, from their springs to their vertices' places. Of fewer shares
+// all threads serve each.
+constexpr std::size_t many_shares = 16;
+
+constexpr bool has_own_thread(std::size_t share_count, std::uint32_t vertex_count) {
+  return share_count >= many_shares && vertex_count <= most_vertices_alone;
+}
 
 // Bytes that begin as zero. Large ones take no memory, and no time, before they are used: so a list may have room for the worst
 // case.
@@ -184,11 +193,13 @@ class CpuDevice final : public Device {
   void run_forces(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
                   std::uint32_t share_count) {
     tasks_.clear();
+    if (share_count < many_shares)
+      for (std::uint32_t share = 0; share < share_count; ++share) tasks_.push_back(force.task(arguments, share));
+    else
+      serve_small_shares(force, variant, arguments, share_count);
     std::size_t vertex_count = 0;
-    for (std::uint32_t share = 0; share < share_count; ++share) {
-      tasks_.push_back(force.task(arguments, share));
-      vertex_count += tasks_.back().vertex_count;
-    }
+    for (const cpu::ShareTask& task : tasks_) vertex_count += task.runs ? task.vertex_count : 0;
+    if (vertex_count == 0) return;
     sums_.assign(vertex_count, glm::dvec3(0.0));
     if (variant == 0)
       sum_plainly();
@@ -199,29 +210,70 @@ class CpuDevice final : public Device {
     finish_forces(force, arguments);
   }
 
+  // Leaves the tasks of the others in `tasks_`.
+  void serve_small_shares(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
+                          std::uint32_t share_count) {
+    tasks_.resize(share_count);
+    const std::uint32_t grain = std::clamp(share_count / (8 * pool_.size()), 1u, 16u);
+    pool_.for_ranges(share_count, grain, [&](std::uint32_t first, std::uint32_t end) {
+      for (std::uint32_t share = first; share < end; ++share) {
+        const cpu::ShareTask task = force.task(arguments, share);
+        const bool is_small = has_own_thread(share_count, task.vertex_count);
+        if (is_small && task.runs) serve_alone(force, variant, arguments, share, task);
+        tasks_[share] = is_small ? cpu::ShareTask() : task;
+      }
+    });
+  }
+
+  // Makes all of a force kernel for one share on the calling thread. What one part leaves in the caches, the next one finds
+  // there.
+  void serve_alone(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
+                   std::uint32_t share, const cpu::ShareTask& task) const {
+    std::array<glm::dvec3, most_vertices_alone> sums;
+    if (!task.deformed)
+      std::fill_n(sums.begin(), task.vertex_count, glm::dvec3(0.0));
+    else if (variant == 0)
+      plain_sum()(task, sums.data(), 0, task.vertex_count);
+    else if (precision_ == 64)
+      sums_64_[variant - 1].sum_alone(spring_body<double>(task, sums.data()));
+    else
+      sums_32_[variant - 1].sum_alone(spring_body<float>(task, sums.data()));
+    for (std::uint32_t first = 0; first < task.vertex_count; first += cpu::longest_range)
+      force.finish(arguments, share, sums.data(), first, std::min(first + cpu::longest_range, task.vertex_count));
+  }
+
   // Calls `visit` with every share that runs, and its sums.
   template <class F>
   void for_shares(F&& visit) {
     glm::dvec3* sums = sums_.data();
-    for (std::uint32_t share = 0; share < tasks_.size(); sums += tasks_[share++].vertex_count)
-      if (tasks_[share].runs) visit(share, tasks_[share], sums);
+    for (std::uint32_t share = 0; share < tasks_.size(); ++share) {
+      if (!tasks_[share].runs) continue;
+      visit(share, tasks_[share], sums);
+      sums += tasks_[share].vertex_count;
+    }
   }
+
+  cpu::PlainSum plain_sum() const { return precision_ == 64 ? cpu::sum_plainly_64 : cpu::sum_plainly_32; }
 
   void sum_plainly() {
     for_shares([&](std::uint32_t, const cpu::ShareTask& task, glm::dvec3* sums) {
-      const cpu::PlainSum sum = precision_ == 64 ? cpu::sum_plainly_64 : cpu::sum_plainly_32;
       if (!task.deformed) return;
-      pool_.for_ranges(task.vertex_count, 16, [&](std::uint32_t first, std::uint32_t end) { sum(task, sums, first, end); });
+      pool_.for_ranges(task.vertex_count, 16,
+                       [&](std::uint32_t first, std::uint32_t end) { plain_sum()(task, sums, first, end); });
     });
+  }
+
+  template <class Real>
+  static cpu::SpringBody<Real> spring_body(const cpu::ShareTask& task, glm::dvec3* sums) {
+    return {static_cast<const glm::vec<4, Real>*>(task.positions), static_cast<const glm::vec<4, Real>*>(task.displacements),
+            task.vertex_count, sums};
   }
 
   template <class Real>
   void sum_in_vectors(cpu::SpringSums<Real>& spring_sums) {
     std::vector<cpu::SpringBody<Real>> bodies;
     for_shares([&](std::uint32_t, const cpu::ShareTask& task, glm::dvec3* sums) {
-      if (task.deformed)
-        bodies.push_back({static_cast<const glm::vec<4, Real>*>(task.positions),
-                          static_cast<const glm::vec<4, Real>*>(task.displacements), task.vertex_count, sums});
+      if (task.deformed) bodies.push_back(spring_body<Real>(task, sums));
     });
     spring_sums.sum(pool_, bodies);
   }
@@ -277,6 +329,14 @@ class CpuDevice final : public Device {
 }  // namespace
 
 std::string cpu::device_name() { return processor_name() + ", " + title_of(available_isas().back()); }
+
+std::size_t cpu::spring_scratch_bytes(std::span<const std::uint32_t> vertex_counts, int precision) {
+  std::size_t bytes = 0;
+  for (const std::uint32_t count : vertex_counts)
+    if (!has_own_thread(vertex_counts.size(), count))
+      bytes += precision == 64 ? SpringSums<double>::scratch_bytes_of(count) : SpringSums<float>::scratch_bytes_of(count);
+  return bytes;
+}
 
 std::unique_ptr<Device> make_cpu_device(unsigned threads, int precision) {
   PLIANT_EXPECT(precision == 32 || precision == 64);

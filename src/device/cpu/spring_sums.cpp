@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint32_t shortest_block = 256;  // block lengths are multiples, so that a row takes whole rounds of its loop
 constexpr std::uint32_t most_blocks = 32;
 constexpr std::uint32_t chunk_length = 256;
+static_assert(SpringSums<float>::most_vertices_alone <= shortest_block &&
+              SpringSums<double>::most_vertices_alone <= shortest_block);
 
 constexpr std::uint32_t ratio_up(std::uint32_t count, std::uint32_t length) { return (count + length - 1) / length; }
 
@@ -80,12 +82,33 @@ void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> b
   if (!std::ranges::equal(bodies, layouts_, same_size)) plan(bodies);
   const auto chunk_count = static_cast<std::uint32_t>(chunks_.size());
   pool.for_ranges(chunk_count, 8, [&](std::uint32_t first, std::uint32_t end) {
-    for (; first < end; ++first) pack(bodies[chunks_[first].body], layouts_[chunks_[first].body], chunks_[first]);
+    for (const Chunk& chunk : std::span(chunks_).subspan(first, end - first)) {
+      const Layout& layout = layouts_[chunk.body];
+      pack(bodies[chunk.body], layout, chunk.first, chunk.end, places(layout));
+    }
   });
-  pool.for_ranges(static_cast<std::uint32_t>(tasks_.size()), 1, [&](std::uint32_t task, std::uint32_t) { run(tasks_[task]); });
+  pool.for_ranges(static_cast<std::uint32_t>(tasks_.size()), 1, [&](std::uint32_t t, std::uint32_t) {
+    const Task& task = tasks_[t];
+    const Layout& layout = layouts_[task.body];
+    run(layout, task.row_block, task.column_block, places(layout), sums(layout));
+  });
   pool.for_ranges(chunk_count, 2, [&](std::uint32_t first, std::uint32_t end) {
-    for (; first < end; ++first) unpack(bodies[chunks_[first].body], layouts_[chunks_[first].body], chunks_[first]);
+    for (const Chunk& chunk : std::span(chunks_).subspan(first, end - first)) {
+      const Layout& layout = layouts_[chunk.body];
+      unpack(bodies[chunk.body], layout, chunk.first, chunk.end, sums(layout));
+    }
   });
+}
+
+template <class Real>
+void SpringSums<Real>::sum_alone(const SpringBody<Real>& body) const {
+  PLIANT_EXPECT(body.vertex_count <= most_vertices_alone);
+  const Layout layout = layout_of(body.vertex_count);
+  alignas(64) std::array<Real, 6 * most_vertices_alone> places;
+  std::array<double, 3 * most_vertices_alone> sums;
+  pack(body, layout, 0, body.vertex_count, places.data());
+  run(layout, 0, 0, places.data(), sums.data());
+  unpack(body, layout, 0, body.vertex_count, sums.data());
 }
 
 template <class Real>
@@ -138,43 +161,43 @@ void SpringSums<Real>::add_tasks(std::uint32_t body) {
 }
 
 template <class Real>
-void SpringSums<Real>::pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
-  Real* const position = places(layout) + layout.padding;
+void SpringSums<Real>::pack(const SpringBody<Real>& body, const Layout& layout, std::uint32_t first, std::uint32_t end,
+                            Real* places) {
+  Real* const position = places + layout.padding;
   Real* const half_displacement = position + 3 * std::size_t{layout.stride};
-  for (std::uint32_t i = chunk.first; i < chunk.end; ++i)
+  for (std::uint32_t i = first; i < end; ++i)
     for (std::uint32_t k = 0; k < 3; ++k) {
       position[k * std::size_t{layout.stride} + i] = body.positions[i][static_cast<int>(k)];
       half_displacement[k * std::size_t{layout.stride} + i] = Real(0.5) * body.displacements[i][static_cast<int>(k)];
     }
-  if (chunk.first > 0) return;
-  for (std::uint32_t k = 0; k < 6; ++k) std::fill_n(places(layout) + k * std::size_t{layout.stride}, layout.padding, Real(0));
+  if (first > 0) return;
+  for (std::uint32_t k = 0; k < 6; ++k) std::fill_n(places + k * std::size_t{layout.stride}, layout.padding, Real(0));
 }
 
 template <class Real>
-void SpringSums<Real>::run(const Task& task) {
-  const Layout& layout = layouts_[task.body];
+void SpringSums<Real>::run(const Layout& layout, std::uint32_t row_block, std::uint32_t column_block, Real* places,
+                           double* sums) const {
   const std::size_t vector = 3 * std::size_t{layout.stride};
-  Real* const position = places(layout);
-  Real* const half_displacement = position + vector;
-  double* const sums = sums_.data() + layout.first_sum;
-  const std::uint32_t row = layout.begin_of(task.row_block), column = layout.begin_of(task.column_block);
-  sum_tile_({.row_position = position + row,
+  Real* const half_displacement = places + vector;
+  const std::uint32_t row = layout.begin_of(row_block), column = layout.begin_of(column_block);
+  sum_tile_({.row_position = places + row,
              .row_half_displacement = half_displacement + row,
-             .column_position = position + column,
+             .column_position = places + column,
              .column_half_displacement = half_displacement + column,
-             .row_sum = sums + task.column_block * vector + row,
-             .column_sum = sums + task.row_block * vector + column,
+             .row_sum = sums + column_block * vector + row,
+             .column_sum = sums + row_block * vector + column,
              .stride = layout.stride,
-             .row_count = layout.begin_of(task.row_block + 1) - row,
-             .column_count = layout.begin_of(task.column_block + 1) - column,
+             .row_count = layout.begin_of(row_block + 1) - row,
+             .column_count = layout.begin_of(column_block + 1) - column,
              .padding = row == 0 ? layout.padding : 0});
 }
 
 template <class Real>
-void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk) {
+void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout, std::uint32_t first, std::uint32_t end,
+                              const double* sums) {
   const std::size_t vector = 3 * std::size_t{layout.stride};
-  for (std::uint32_t i = chunk.first; i < chunk.end; ++i) {
-    const double* sum = sums_.data() + layout.first_sum + layout.padding + i;
+  for (std::uint32_t i = first; i < end; ++i) {
+    const double* sum = sums + layout.padding + i;
     glm::dvec3 total(0.0);
     for (std::uint32_t block = 0; block < layout.block_count; ++block, sum += vector)
       total += glm::dvec3(sum[0], sum[layout.stride], sum[2 * std::size_t{layout.stride}]);

@@ -38,11 +38,16 @@ struct SpringBody {
 template <class Real>
 class SpringSums {
  public:
+  /// The most vertices of a body that sum_alone() takes.
+  static constexpr std::uint32_t most_vertices_alone = 256;
+
   /// Expects an instruction set that is available.
   explicit SpringSums(Isa isa);
 
   /// Gives the same bits for any number of threads. Sums of a body add up to zero but for rounding.
   void sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies);
+  /// Sums one body's springs on the calling thread, to the same bits and without scratch memory.
+  void sum_alone(const SpringBody<Real>& body) const;
   /// Returns the scratch memory that a body of so many vertices takes [bytes].
   [[nodiscard]] static std::size_t scratch_bytes_of(std::uint32_t vertex_count);
   /// Returns the scratch memory of the latest sum [bytes].
@@ -75,10 +80,13 @@ class SpringSums {
   [[nodiscard]] static Layout layout_of(std::uint32_t vertex_count);  // at the beginning of scratch
   void plan(std::span<const SpringBody<Real>> bodies);
   void add_tasks(std::uint32_t body);
-  void pack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk);
-  void run(const Task& task);
-  void unpack(const SpringBody<Real>& body, const Layout& layout, const Chunk& chunk);
+  // These take where the body's places and sums stand.
+  static void pack(const SpringBody<Real>& body, const Layout& layout, std::uint32_t first, std::uint32_t end, Real* places);
+  void run(const Layout& layout, std::uint32_t row_block, std::uint32_t column_block, Real* places, double* sums) const;
+  static void unpack(const SpringBody<Real>& body, const Layout& layout, std::uint32_t first, std::uint32_t end,
+                     const double* sums);
   [[nodiscard]] Real* places(const Layout& layout) { return places_.data()->numbers + layout.first_place; }
+  [[nodiscard]] double* sums(const Layout& layout) { return sums_.data() + layout.first_sum; }
 
   TileFunction<Real> sum_tile_;
   std::vector<Layout> layouts_;
