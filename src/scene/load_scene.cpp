@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <span>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -212,15 +214,19 @@ void expect_still(const TableReader& table) {
       throw Error(table.where(key), "a static body neither moves nor changes its shape", fmt::format("remove {}, or kind", key));
 }
 
+constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", "vertex_mass",
+                                               "total_mass", "damping",         "pressure_law"};
+
+// Returns why such a key changes nothing for the body, or nothing if it does.
+std::string_view why_idle(const BodyDescription& body, std::string_view key) {
+  if (key == "pressure_law") return body.pressure == 0 ? "without pressure" : "";
+  return body.kind == BodyKind::immovable ? "on a static body" : "";
+}
+
 void note_idle(const TableReader& table, BodyDescription& body) {
-  const auto note = [&](std::initializer_list<const char*> keys, std::string_view why) {
-    std::vector<Origin> found;
-    table.note(keys, found);
-    for (Origin& where : found) body.idle_keys.push_back({std::move(where), why});
-  };
-  if (body.kind == BodyKind::immovable)
-    note({"stiffness", "total_stiffness", "vertex_mass", "total_mass", "damping"}, "on a static body");
-  if (body.pressure == 0) note({"pressure_law"}, "without pressure");
+  for (const char* key : keys_of_some_bodies)
+    if (const std::string_view why = why_idle(body, key); table.peek(key) != nullptr && !why.empty())
+      body.idle_keys.push_back({table.where(key), why});
 }
 
 // If one of the bodies in rows is static, what the others do means nothing for it.
@@ -299,9 +305,12 @@ class BodyReader {
     expect_few(table, path, rows.count);
     for (const auto& [key, node] : table)
       if (key.str().starts_with('[')) expect_one_of(rows.count, key.str(), node, path);
+    const std::size_t first = bodies_.size();
     for (std::uint32_t x = 0; x < rows.count.x; ++x)
       for (std::uint32_t y = 0; y < rows.count.y; ++y)
         for (std::uint32_t z = 0; z < rows.count.z; ++z) read_in_row(table, name, {x, y, z}, rows.spacing);
+    for (BodyDescription& body : std::span(bodies_).subspan(first))
+      std::erase_if(body.idle_keys, [&](const IdleKey& key) { return heeded_.contains(key.where.place); });
   }
 
   void read_in_row(const toml::table& table, const std::string& name, const glm::uvec3& place, const glm::dvec3& spacing) {
@@ -314,6 +323,8 @@ class BodyReader {
     body.name = name + key;
     if (!reader.is_in_front("position")) body.position += glm::dvec3(place) * spacing;
     take_name(table, body.name);
+    for (const char* of_some : keys_of_some_bodies)
+      if (reader.peek(of_some) != nullptr && why_idle(body, of_some).empty()) heeded_.insert(reader.where(of_some).place);
     bodies_.push_back(std::move(body));
   }
 
@@ -368,6 +379,7 @@ class BodyReader {
 
   std::vector<BodyDescription>& bodies_;
   std::unordered_set<std::string> names_;
+  std::set<std::string> heeded_;  // places of keys. A key of rows has an effect if it has one on any of their bodies
 };
 
 void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {

@@ -73,6 +73,24 @@ TEST_CASE("a static one of bodies in rows has none of what the others do") {
   check_override_error(rows + "\"[1,0,0]\" = { kind = \"static\", spin = [0, 1, 0] }\n", "body.ball.spin=[1,2,3]", {"static"});
 }
 
+TEST_CASE("a key of rows is idle only if it is for all of their bodies") {
+  const std::string rows =
+      "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\nkind = \"static\"\n"
+      "total_mass = 5\npressure_law = \"constant\"\n";
+  for (const BodyDescription& body : load_text(rows).bodies) CHECK(body.idle_keys.size() == 2);
+  const SceneDescription mixed = load_text(rows + "\"[1,0,0]\" = { kind = \"soft\", pressure = 2 }\n");
+  for (const BodyDescription& body : mixed.bodies) CHECK(body.idle_keys.empty());
+  const SceneDescription own = load_text(rows + "\"[0,0,0]\" = { damping = 2 }\n\"[1,0,0]\" = { kind = \"soft\" }\n");
+  REQUIRE(own.bodies[0].idle_keys.size() == 2);
+  CHECK_THAT(own.bodies[0].idle_keys[0].where.place, Catch::Contains("damping"));
+  CHECK_THAT(own.bodies[0].idle_keys[1].where.place, Catch::Contains("pressure_law"));
+  const SceneDescription replaced = load_text(rows + "\"[1,0,0]\" = { total_mass = 6 }\n");
+  CHECK_THAT(replaced.bodies[0].idle_keys[0].where.place, Catch::Contains("body.ball.total_mass"));
+  const std::string soft =
+      "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\npressure_law = \"constant\"\n";
+  CHECK(load_text(soft + "\"[1,0,0]\" = { kind = \"static\" }\n").bodies[0].idle_keys.size() == 1);
+}
+
 TEST_CASE("bodies in rows that can't be are an error that says what to write") {
   const std::string body = "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\n",
                     rows = body + "count = [2, 1, 1]\nspacing = [3, 0, 0]\n";
