@@ -17,6 +17,12 @@ class List {
   std::vector<Pass> passes_;
 };
 
+// What a response may do itself.
+std::vector<Pass> restating_passes(const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
+  if (collider.response_row().follows_frames) return {};
+  return {stepper.restating_pass(from_half)};
+}
+
 // Frames follow their bodies while search passes run that do not use the changed arrays.
 void add_search_while_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
   const std::uint32_t half = physics::other_half(from_half);
@@ -24,13 +30,13 @@ void add_search_while_following(List& step, const Stepper& stepper, const Collid
   step.add(collider.refitting_passes(half));
   step.add(beside_next(stepper.following_pass(from_half)));
   step.add(collider.finding_passes());
-  step.add(beside_next(stepper.restating_pass(from_half)));
+  for (const Pass& pass : restating_passes(stepper, collider, from_half)) step.add(beside_next(pass));
   step.add(collider.testing_passes(half));
 }
 
-void add_following(List& step, const Stepper& stepper, std::uint32_t from_half) {
+void add_following(List& step, const Stepper& stepper, const Collider& collider, std::uint32_t from_half) {
   step.add(stepper.following_pass(from_half));
-  step.add(stepper.restating_pass(from_half));
+  step.add(restating_passes(stepper, collider, from_half));
 }
 
 }  // namespace
@@ -54,13 +60,13 @@ std::vector<Pass> step_passes(const DeviceBodies& bodies, const Stepper& stepper
     if (searches) step.add(pacer->contact_pass(from_half));
     step.add(pacer->judging_passes(from_half));
     if (response != nullptr && !searches) step.add(response->after_step(from_half));
-    add_following(step, stepper, from_half);
+    add_following(step, stepper, collider, from_half);
   } else if (searches && collider.uses_trees()) {
     add_search_while_following(step, stepper, collider, from_half);
   } else {
     if (searches) step.add(collider.search_passes(half));
     if (response != nullptr && !searches) step.add(response->after_step(from_half));
-    add_following(step, stepper, from_half);
+    add_following(step, stepper, collider, from_half);
   }
   // answer contacts
   if (searches) step.add(response->after_step(from_half));

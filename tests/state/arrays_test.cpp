@@ -80,6 +80,7 @@ TEST_CASE("parameters go by name, and each has the kernel's type") {
   bodies.arrays.make<double>("kept_force", 3 * start.model.vertex_count());
   bodies.arrays.make<std::uint32_t>("mark", start.model.vertex_count());
   bodies.make_placements(physics::slots_of_stages);
+  bodies.arrays.set_parameter("keeps_force", 1u);
   const auto record = [&](Parameters parameters) { return make_pass(bodies.arrays, "reflect", parameters, 1); };
   CHECK_NOTHROW(record({{"elasticity", 0.9}, {"from_half", 0u}}));
   CHECK(record({{"elasticity", 0.9}, {"from_half", 1u}}).call.parameters ==

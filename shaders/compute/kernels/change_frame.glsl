@@ -1,5 +1,4 @@
-// One thread serves one vertex. If the body's frame has turned, it restates the motion of both halves, the kept force and the placement
-// in the new frame. World positions stay as stored. A body that falls asleep ends in both halves where it is, without motion.
+// One thread serves one vertex. It follows the body's frame. A body that falls asleep ends in both halves where it is, without motion.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 READ(body)
@@ -13,10 +12,8 @@ WRITE(status)
 WRITE(world_position)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, from_half)
-PARAMETER(uint, keeps_force)  // 1: the method keeps spring forces for the next step
 #include "parts/place.glsl"
-#include "parts/restate.glsl"
-#include "parts/restate_force.glsl"
+#include "parts/follow_frame.glsl"
 
 void fall_asleep(uint i) {
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
@@ -29,8 +26,7 @@ void fall_asleep(uint i) {
 
 void change_frame(uint i) {
   uint b = uint(rest_position[i].w);
-  if (frame_change[b].turned != 0u) restate(i, b, body[b].inverse_unit);
-  if (frame_change[b].turned != 0u && keeps_force != 0u) restate_force(i, b);
+  follow_frame(i, b);
   if (status[b].falls_asleep == 0u) return;
   fall_asleep(i);
   if (i == body[b].first_vertex) status[b].asleep = 1u;

@@ -20,6 +20,6 @@ std::unique_ptr<Response> make_reflect(const ResponseSetting& setting) { return 
 
 }  // namespace
 
-ResponseRow reflect_row() { return {.name = "reflect", .make = make_reflect}; }
+ResponseRow reflect_row() { return {.name = "reflect", .make = make_reflect, .follows_frames = true}; }
 
 }  // namespace pliant

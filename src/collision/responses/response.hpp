@@ -93,6 +93,7 @@ struct ResponseRow {
   bool gives_impulses = false;   // contact_impulses() says what contacts gave
   bool reads_surfaces = false;   // friction, restitution and gap, and the elasticity of each body, change what it does
   bool answers_touching = true;  // after_step() answers triangles that touch at the step's end, so the step looks for them
+  bool follows_frames = false;   // and restates what bodies have in frames that turned. Not if it lets bodies sleep
 };
 
 /// Returns all rows but "none".
