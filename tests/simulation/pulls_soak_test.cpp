@@ -16,7 +16,7 @@
 
 #include "core/bytes.hpp"
 #include "core/stopwatch.hpp"
-#include "device/cpu/spring_sums.hpp"
+#include "device/cpu/cpu_device.hpp"
 #include "gl/context.hpp"
 #include "model/load_bodies.hpp"
 #include "output/checkpoint_file.hpp"
@@ -239,12 +239,14 @@ void Soak::judge(const test::Window& window) {
 
 // A grip has as many vertices as it reaches. The CPU has room for the bodies whose springs it summed last.
 std::size_t Soak::play_in_memory() const {
-  std::size_t largest_grip = 0, sums = 0;
+  std::size_t largest_grip = 0;
+  std::vector<std::uint32_t> vertex_counts;
   for (const ModelBody& body : start_.model.bodies) {
     largest_grip = std::max(largest_grip, body.vertex_count * sizeof(physics::GripVertex));
-    sums += cpu::SpringSums<float>::scratch_bytes_of(body.vertex_count);
+    if (!body.is_static) vertex_counts.push_back(body.vertex_count);
   }
-  return 2 * largest_grip + (device_.info().kind == DeviceKind::cpu ? sums : 0);
+  const bool is_cpu = device_.info().kind == DeviceKind::cpu;
+  return 2 * largest_grip + (is_cpu ? cpu::spring_scratch_bytes(vertex_counts, device_.precision()) : 0);
 }
 
 void Soak::judge_health() {
@@ -257,7 +259,7 @@ void Soak::judge_health() {
 }
 
 void Soak::note_memory() {
-  resident_.push_back(test::resident_memory());
+  resident_.push_back(test::trimmed_resident_memory());
   allocated_.push_back(device_.allocated_bytes());
 }
 
@@ -306,7 +308,7 @@ std::string Soak::table() {
          row("contacts that did not settle", fmt::to_string(report.unsettled_contacts)) +
          row("energy that sleep took [J]", fmt::format("{:.4g}", report.energy_slept)) +
          row("device memory [bytes]", fmt::to_string(device_.allocated_bytes())) +
-         row("resident memory [MiB]", fmt::format("{:.1f}", test::resident_memory())) +
+         row("resident memory [MiB]", fmt::format("{:.1f}", test::trimmed_resident_memory())) +
          row("its growth over half of the piece [MiB]", fmt::format("{:.1f}", growth())) +
          row("this piece: wall time of its steps [s]", fmt::format("{:.1f}", stepping_.seconds())) +
          row("this piece: wall time with all looks [s]", fmt::format("{:.1f}", all_.seconds()));
