@@ -19,7 +19,6 @@
 #include "physics/collision/grid.glsl"
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
-#include "physics/contact/impact.glsl"
 #include "physics/contact/part_sums.glsl"
 #include "physics/contact/parts.glsl"
 #include "physics/contact/surface.glsl"
@@ -50,6 +49,7 @@ inline constexpr std::string_view element_name{};
 PLIANT_ELEMENT(double, "double")
 PLIANT_ELEMENT(std::uint32_t, "uint")
 PLIANT_ELEMENT(glm::vec4, "vec4")
+PLIANT_ELEMENT(glm::vec2, "vec2")
 PLIANT_ELEMENT(glm::uvec2, "uvec2")
 PLIANT_ELEMENT(glm::uvec4, "uvec4")
 PLIANT_ELEMENT(glm::dvec2, "dvec2")
@@ -74,7 +74,6 @@ PLIANT_ELEMENT(physics::StepParts, "StepParts")
 PLIANT_ELEMENT(physics::ContactList, "ContactList")
 PLIANT_ELEMENT(physics::Debt, "Debt")
 PLIANT_ELEMENT(physics::Cluster, "Cluster")
-PLIANT_ELEMENT(physics::Impact, "Impact")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::QuietBody, "QuietBody")
 PLIANT_ELEMENT(physics::QuietSteps, "QuietSteps")

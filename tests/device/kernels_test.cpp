@@ -155,8 +155,6 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     check_structs<physics::Debt>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-9);
   } else if (name == "cluster") {
     check_structs<physics::Cluster>(cpu, gpu, a, b, cpu.bodies.body_count + 1, 1e-6);
-  } else if (name == "impact") {
-    check_structs<physics::Impact>(cpu, gpu, a, b, physics::impact_count(cpu.bodies.body_count), 1e-6);
   } else if (name == "triangle_pair") {
     const auto count = cpu.bodies.arrays.get<physics::ContactList>("contact_list").download().front().triangle_pair_count;
     CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));

@@ -64,8 +64,8 @@ inline std::vector<double> numbers_of(const physics::Moments& moments) {
 inline std::vector<double> numbers_of(const physics::PartSums& sums) {
   std::vector<double> numbers = numbers_of(sums.moments);
   numbers.insert(numbers.end(), std::begin(sums.lost_turning), std::end(sums.lost_turning));
-  numbers.insert(numbers.end(),
-                 {sums.deformation, sums.rigid, sums.missed, sums.gained, double(sums.cuts), double(sums.involvement)});
+  numbers.insert(numbers.end(), {sums.deformation, sums.rigid, sums.missed, sums.gained, double(sums.cuts),
+                                 double(sums.involvement), double(sums.parts_too_fast)});
   return numbers;
 }
 
@@ -135,8 +135,6 @@ inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
                  {cluster.mass, cluster.means.deformation, cluster.means.rigid, cluster.means.missed, cluster.means.due});
   return numbers;
 }
-
-inline std::vector<double> numbers_of(const physics::Impact& impact) { return {impact.approach, double(impact.parts_too_fast)}; }
 
 inline std::vector<double> numbers_of(const physics::StepParts& parts) {
   return {parts.full, parts.last, double(parts.left), double(parts.steps), double(parts.parts)};

@@ -3,6 +3,7 @@
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
+#include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/exact_sum.glsl"
 #include "../physics/contact/surface.glsl"
@@ -32,6 +33,8 @@ PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/flight.glsl"
 #include "parts/quantum.glsl"
 #include "parts/is_left_alone.glsl"
+#include "parts/store_vertex_box.glsl"
+#include "parts/load_vertex_box.glsl"
 
 bool was_made() { return control[0].time_step > double(0); }
 
@@ -72,8 +75,7 @@ void bound_way(uint i, uint b, dvec3 from, dvec3 together, dvec3 own) {
   dvec3 farthest = max(abs(lower), abs(upper));
   double far = rounded_from(double(2) * sum_of_sizes(farthest), sum_of_sizes(LOAD3(pose[b].origin, 0u)), largest_body);
   dvec3 slack = farthest * double(1.2e-7) + dvec3(double(32) * double(1.1e-16) * far);
-  cage[way_box_of(i)] = vec4(vec3(lower - slack), 0);
-  cage[way_box_of(i) + 1u] = vec4(vec3(upper + slack), 0);
+  store_vertex_box(way_box_of(i), vec3(lower - slack), vec3(upper + slack));
 }
 
 void take_kick_back(uint i) {
@@ -97,8 +99,8 @@ void expect_cuts(uint i) {
   dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? flight_in_step(b, from) : dvec3(0), own = gone - together;
   STORE3(way, force_of(i), own)
   double part = double(1);
-  for (int k = 0; k < 3; ++k)
-    part = min(part, part_to(from[k] + together[k], own[k], double(cage[cage_of(i)][k]), double(cage[cage_of(i) + 1u][k])));
+  PaddedBox room = load_vertex_box(cage_of(i));
+  for (int k = 0; k < 3; ++k) part = min(part, part_to(from[k] + together[k], own[k], double(room.lower[k]), double(room.upper[k])));
   for (uint g = 0u; g < ground_count; ++g)
     if (is_movable) part = min(part, part_above(g, from + together, own, gap_above(ground[g], surface[b])));
   bound_way(i, b, from, together, part * own);

@@ -27,6 +27,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
 #include "parts/bound.glsl"
 #include "parts/flight.glsl"
+#include "parts/store_vertex_box.glsl"
 
 void empty_lists() {
   contact_list[0].triangle_pair_count = 0u;
@@ -80,13 +81,9 @@ dvec3 expected_velocity(uint i, double time_step) {
   return LOAD3(start, start_velocity_of(i)) + time_step * LOAD3(surplus, expected_surplus_of(i));
 }
 
-void keep_cage(uint i, uint b, dvec3 lower, dvec3 upper) {
-  cage[cage_of(i)] = vec4(vec3(lower), 0);
-  cage[cage_of(i) + 1u] = vec4(vec3(upper), 0);
-  for (uint k = 0u; k < 3u; ++k) {
-    bound(i, b, k, float(lower[int(k)]));
-    bound(i, b, k, float(upper[int(k)]));
-  }
+void keep_cage(uint i, uint b, vec3 lower, vec3 upper) {
+  store_vertex_box(cage_of(i), lower, upper);
+  for (uint k = 0u; k < 3u; ++k) bound(i, b, k, lower[int(k)], upper[int(k)]);
 }
 
 void expect_motion(uint i) {
@@ -107,10 +104,9 @@ void expect_motion(uint i) {
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7), near = dvec3(surface[b].nearness) + slack;
-  cage[way_box_of(i)] = vec4(vec3(min(position, end) - near), 0);
-  cage[way_box_of(i) + 1u] = vec4(vec3(max(position, end) + near), 0);
+  store_vertex_box(way_box_of(i), vec3(min(position, end) - near), vec3(max(position, end) + near));
   contact_weight[i] = 0u;
   STORE3(expected, force_of(i), mean)
   if (is_at_rest) return;  // all else still stands, but the way that it went has been in the place of this box
-  keep_cage(i, b, lower - slack, upper + slack);
+  keep_cage(i, b, vec3(lower - slack), vec3(upper + slack));
 }

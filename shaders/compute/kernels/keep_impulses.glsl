@@ -17,7 +17,7 @@ PARAMETER(uint, contacts_at_once)
 void note(uvec4 key, uint c) {
   uint entry = stamp() << kept_index_bits | c;
   uint slot = first_slot_of(key);
-  while (true) {
+  for (uint k = 0u; k < kept_slot_count; ++k) {
     uint before = ATOMIC_LOAD(kept_slot[slot]);
     if (is_of_this_step(before))
       slot = slot_after(slot);

@@ -39,8 +39,8 @@ void leave_island(uint b) {
 // What falls asleep loses its motion. The forces on it still act, so what is expected of them is kept for when it wakes. Bounds of its
 // motion do not have that in the step that wakes it: as in a first step, reaches allow for forces (play_of() in reach.glsl).
 void forget_end(uint i) {
-  STORE3(surplus, end_surplus_of(vertex_count, i), dvec3(0))
-  if (share_of_lead != double(0)) STORE3(surplus, surplus_lead_of(vertex_count, i), dvec3(0))
+  STORE3(surplus, end_surplus_of(vertex_count, i), real3(0))
+  if (share_of_lead != double(0)) STORE3(surplus, surplus_lead_of(vertex_count, i), real3(0))
 }
 
 // All else that a step finds of a body at rest still stands.

@@ -20,8 +20,9 @@ READ(vertex_part)
 READ(vertex_part_range)
 SHARED_WRITE(contact_list)
 SHARED_WRITE(part_sum)
+SHARED_WRITE(impact_partner)
 SHARED_WRITE(impact_sum)
-SHARED_WRITE(impact)
+SHARED_WRITE(impact_approach)
 SHARED_WRITE(impact_part)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
@@ -32,10 +33,10 @@ PARAMETER(double, gravity_size)
 
 const uint last_round = 2u;
 
-bool goes_on_at(uint at) { return impact_part[at] != 0u && step_parts[0].parts - impact_part[at] < impact_ends_after; }
-// The last entry has the latest part of all. One part more ends the impacts.
+bool goes_on_at(uint at) { return step_parts[0].parts - impact_part[at] < impact_ends_after; }
+// One part more ends the impacts.
 bool is_needed() {
-  uint latest = impact_part[impact_count(body_count)];
+  uint latest = impact_part[latest_of_all(body_count)];
   return latest != 0u && step_parts[0].parts - latest <= impact_ends_after;
 }
 uint items_in_a_round() { return is_needed() ? part_count : 0u; }
@@ -45,8 +46,6 @@ bool goes_on(uint number) { return number < last_round; }
 uint moments_half() { return from_half; }
 #include "parts/rigid_motion_by_parts.glsl"
 #include "parts/impact_unit.glsl"
-
-bool is_movable(uint b) { return inverse_vertex_mass(b) > double(0); }
 
 // The mean velocity of a body's vertices in the world [m/s]. Static bodies and grounds have none.
 dvec3 mean_velocity(uint b) {
@@ -69,45 +68,51 @@ double speed_of_rest(uint a, uint b) {
   return double(2) * gravity_size * longest;
 }
 
-void judge_impact(uint a, uint b) {
-  uint at = impact_of(a, b, body_count);
-  if (!goes_on_at(at)) {
-    if (impact_part[at] == 0u) return;
-    for (uint k = 0u; k < 3u; ++k) impact_sum[3u * at + k] = uvec2(0u);
-    impact_part[at] = 0u;
-    impact[at].approach = double(0);
-    impact[at].parts_too_fast = 0u;
-    return;
-  }
+void end_impact(uint at) {
+  for (uint k = 0u; k < 3u; ++k) impact_sum[3u * at + k] = uvec2(0u);
+  impact_partner[at] = impact_part[at] = 0u;
+  impact_approach[at] = double(0);
+}
+
+// The note stands in the body's first part.
+void note_parting(uint b) {
+  if (is_movable(b)) ATOMIC_STORE(part_sum[vertex_part_range[b].x].parts_too_fast, 1u);
+}
+
+// The velocity is a's.
+void judge_impact(uint a, uint b, uint at, dvec3 velocity) {
   double restitution = restitution_of_pair(restitution_of(a), restitution_of(b));
   dvec3 given = impact_unit(a, b) *
                 dvec3(whole_of(impact_sum[3u * at]), whole_of(impact_sum[3u * at + 1u]), whole_of(impact_sum[3u * at + 2u]));
   double size = length(given);
   if (restitution < double(0) || size == double(0)) return;
-  double parts_at = dot(given / size, mean_velocity(a) - mean_velocity(b));
-  if (impact[at].approach == double(0)) impact[at].approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
-  impact[at].approach = max(impact[at].approach, -parts_at);
-  impact[at].parts_too_fast = parts_at > max(restitution * impact[at].approach, speed_of_rest(a, b)) ? 1u : 0u;
+  double parts_at = dot(given / size, velocity - mean_velocity(b));
+  double approach = impact_approach[at];
+  if (approach == double(0)) approach = size * (inverse_mass_of(a) + inverse_mass_of(b));
+  approach = max(approach, -parts_at);
+  impact_approach[at] = approach;
+  if (approach == double(0) || parts_at <= max(restitution * approach, speed_of_rest(a, b))) return;
+  note_parting(a);
+  note_parting(b);
 }
 
-void judge_impacts(uint a) {
-  for (uint b = 0u; b <= body_count; ++b) {
-    if (b == a || (is_movable(b) && b < a)) continue;
-    judge_impact(min(a, b), max(a, b));
+// A body that lacked a place begins anew: which of its impacts have got one depends on threads.
+void judge_impacts(uint keeper) {
+  uint lacks = lack_of_places_of(keeper, body_count);
+  dvec3 velocity = mean_velocity(keeper);
+  for (uint place = 0u; place < impact_places; ++place) {
+    uint at = impact_at(keeper, place), partner = impact_partner[at];
+    if (partner == 0u) continue;
+    if (impact_part[lacks] != 0u || !goes_on_at(at))
+      end_impact(at);
+    else
+      judge_impact(keeper, partner - 1u, at, velocity);
   }
-}
-
-bool parts_too_fast(uint a) {
-  bool does = false;
-  for (uint b = 0u; b <= body_count; ++b) {
-    uint at = impact_of(min(a, b), max(a, b), body_count);
-    if (b != a && goes_on_at(at) && impact[at].approach > double(0)) does = does || impact[at].parts_too_fast != 0u;
-  }
-  return does;
+  impact_part[lacks] = 0u;
 }
 
 void take_deformation(uvec4 part) {
-  if (!parts_too_fast(part.x)) return;
+  if (part_sum[vertex_part_range[part.x].x].parts_too_fast == 0u) return;
   RigidMotion rigid = rigid_motion_of_body(part.x);
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 velocity = velocity_at(rigid, place_of(i));
@@ -117,7 +122,10 @@ void take_deformation(uvec4 part) {
 
 void restore_impacts(uint item, uint number) {
   uvec4 part = vertex_part[item];
-  if (number == 0u) sum_moments_of(part, item);
+  if (number == 0u) {
+    sum_moments_of(part, item);
+    part_sum[item].parts_too_fast = 0u;
+  }
   if (number == 1u && item == vertex_part_range[part.x].x) judge_impacts(part.x);
   if (number == 2u && status[part.x].activity == moving) take_deformation(part);
 }

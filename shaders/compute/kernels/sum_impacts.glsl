@@ -15,6 +15,7 @@ READ(contact_vertex)
 READ_AS(contact, real4, contact_row)
 READ_AS(contact_impulse, real4, impulse_row)
 READ(contact_list)
+SHARED_WRITE(impact_partner)
 WRITE(impact_sum)
 WRITE(impact_part)
 PARAMETER(uint, body_count)
@@ -25,19 +26,39 @@ PARAMETER(double, least_speed)
 #include "parts/full_lists.glsl"
 #include "parts/impact_unit.glsl"
 
+// Where the keeper has its impact with the partner, from now on if there was none. Places that are taken stay so in this kernel, so that
+// all threads come to the same one. If there is none left, it returns no_place.
+uint find_impact(uint keeper, uint partner) {
+  uint wanted = partner + 1u;
+  for (uint k = 0u; k < impact_places; ++k) {
+    uint at = impact_at(keeper, (partner + k) % impact_places);
+    if (ATOMIC_LOAD(impact_partner[at]) == wanted) return at;
+  }
+  for (uint k = 0u; k < impact_places; ++k) {
+    uint at = impact_at(keeper, (partner + k) % impact_places), before = atomicCompSwap(impact_partner[at], 0u, wanted);
+    if (before == 0u || before == wanted) return at;
+  }
+  return no_place;
+}
+
 void sum_impact(uint c) {
   uvec4 who = contact_vertex[c];
   real4 weight = contact_row[contact_rows * c + 1u], impulse = impulse_row[c];
   if (impulse.x == real(0)) return;
   uint a = uint(rest_position[who.x].w), b = body_count;
   if (who.y != no_vertex) b = uint(rest_position[weight.y * weight.x > real(0) ? who.z : who.y].w);
-  real side = (weight.x > real(0)) == (a < b) ? real(1) : real(-1);  // on the body that comes first
+  uint keeper = keeper_of_impact(a, b);
+  real side = (weight.x > real(0)) == (a == keeper) ? real(1) : real(-1);
   real3 given = impulse.x * real3(contact_row[contact_rows * c]) + real3(impulse.y, impulse.z, impulse.w);
   dvec3 all = dvec3(real3(side * given)) / impact_unit(a, b);
-  uint at = impact_of(min(a, b), max(a, b), body_count);
+  ATOMIC_STORE(impact_part[latest_of_all(body_count)], step_parts[0].parts + 1u);
+  uint at = find_impact(keeper, keeper == a ? b : a);
+  if (at == no_place) {
+    ATOMIC_STORE(impact_part[lack_of_places_of(keeper, body_count)], 1u);
+    return;
+  }
   for (uint k = 0u; k < 3u; ++k) ADD_EXACTLY(impact_sum[3u * at + k], nearest_whole(all[int(k)]))
   ATOMIC_STORE(impact_part[at], step_parts[0].parts + 1u);
-  ATOMIC_STORE(impact_part[impact_count(body_count)], step_parts[0].parts + 1u);
 }
 
 void sum_impacts(uint item) {

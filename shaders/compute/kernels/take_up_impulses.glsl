@@ -24,7 +24,8 @@ PARAMETER(uint, contacts_at_once)
 // The last impulse of the contact, scaled to this step's length, or nothing [Ns].
 real4 kept_impulse_of(uvec4 key) {
   real growth = real(growth_of_kick(contact_list[0].last_part, control[0].time_step));
-  for (uint slot = first_slot_of(key); is_of_this_step(kept_slot[slot]); slot = slot_after(slot)) {
+  uint slot = first_slot_of(key);
+  for (uint k = 0u; k < kept_slot_count && is_of_this_step(kept_slot[slot]); ++k, slot = slot_after(slot)) {
     uint c = index_of(kept_slot[slot]);
     if (c < contact_list[0].latest_count && kept_vertex[c] == key) return growth * kept_row[c];
   }

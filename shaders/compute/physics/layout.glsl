@@ -54,9 +54,9 @@ FN uint corner_of(uint t, uint k) { return 3u * t + k; }
 FN uint lower_of(uint n) { return 2u * n; }
 FN uint upper_of(uint n) { return 2u * n + 1u; }
 
-// `cage` has two boxes a vertex, of two corners each. `triangle_around` has four numbers a triangle: one for each edge, and one of its own.
-FN uint cage_of(uint i) { return 4u * i; }
-FN uint way_box_of(uint i) { return 4u * i + 2u; }
+// `cage` has two boxes a vertex, of three pairs of numbers each: lower.xy, lower.z and upper.x, upper.yz. `triangle_around` has four numbers a triangle: one for each edge, and one of its own.
+FN uint cage_of(uint i) { return 6u * i; }
+FN uint way_box_of(uint i) { return 6u * i + 3u; }
 FN uint across_edge_of(uint t, uint k) { return 4u * t + k; }
 FN uint owned_features_of(uint t) { return 4u * t + 3u; }
 // Marks the second triangle of a pair in `triangle_pair` if the boxes of the expected ways meet, too.

@@ -8,7 +8,8 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t near_pairs_of_body = 64, fewest_near_pairs = 1u << 19;
+// Balls of one size in a grid, with their boxes a little larger than they are, have 13 near pairs each.
+constexpr std::uint32_t near_pairs_of_body = 24, fewest_near_pairs = 1u << 19;
 // With fewer bodies comparing each with each takes less time (docs/benchmarks). A GPU has passes to start for a grid.
 std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind == DeviceKind::gpu ? 2048 : 32; }
 

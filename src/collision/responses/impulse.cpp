@@ -85,7 +85,7 @@ std::uint32_t room_for_triangle_pairs(const Model& model) {
 // All that may be found, if they are not too many.
 std::uint32_t room_for_contacts(const Model& model, std::size_t triangles) {
   const std::uint64_t all = features_of_pair * room_for_triangle_pairs(model) + model.grounds.size() * model.vertex_count();
-  return static_cast<std::uint32_t>(std::min(all, std::clamp<std::uint64_t>(triangles / 2, fewest_contacts, most_contacts)));
+  return static_cast<std::uint32_t>(std::min(all, std::clamp<std::uint64_t>(triangles / 4, fewest_contacts, most_contacts)));
 }
 
 class Impulse final : public Response {
@@ -295,8 +295,8 @@ class Impulse final : public Response {
     arrays.make<double>("start", 6 * vertices);
     arrays.make<double>("unkicked_velocity", divides_steps_ ? 1 : 3 * vertices);
     arrays.make<double>("expected", 3 * vertices);
-    arrays.make<double>("surplus", (keeps_leads_ ? 9 : 6) * vertices);
-    arrays.make<glm::vec4>("cage", 4 * vertices);
+    arrays.make_reals("surplus", (keeps_leads_ ? 9 : 6) * vertices);
+    arrays.make<glm::vec2>("cage", 6 * vertices);
     arrays.make<double>("way", 3 * vertices);
     arrays.make<std::uint32_t>("cut", physics::flight_stop_of(bodies_.vertex_count, 2 * bodies_.body_count));
     arrays.make<std::uint32_t>("last_cut", vertices);
@@ -339,10 +339,12 @@ class Impulse final : public Response {
   }
 
   void make_impacts() {
-    const std::size_t pairs = physics::impact_count(bodies_.body_count);
-    bodies_.arrays.make<glm::uvec2>("impact_sum", 3 * pairs);
-    bodies_.arrays.make<physics::Impact>("impact", pairs);
-    bodies_.arrays.make<std::uint32_t>("impact_part", pairs + 1);
+    Arrays& arrays = bodies_.arrays;
+    const std::size_t impacts = physics::impact_count(bodies_.body_count);
+    arrays.make<std::uint32_t>("impact_partner", impacts);
+    arrays.make<glm::uvec2>("impact_sum", 3 * impacts);
+    arrays.make<double>("impact_approach", impacts);
+    arrays.make<std::uint32_t>("impact_part", physics::latest_of_all(bodies_.body_count) + 1);
     restores_ = true;
   }
 
@@ -374,7 +376,7 @@ class Impulse final : public Response {
   bool keeps_impulses() const { return has_pairs_ || ground_count_ > 1; }
 
   // A power of two. Entries of a step that had the same number may still stand beside those of this one.
-  std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(4 * contact_capacity_) : 1; }
+  std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(2 * contact_capacity_) : 1; }
 
   Pass round_pass(std::string_view name, const Parameters& parameters) const {
     Device& device = bodies_.arrays.device();

@@ -216,10 +216,12 @@ TEST_CASE("no contact bounces by more than what stopped it and the elasticity's 
   CHECK(seen.most_energy < 1e-3);
 }
 
+// In fp32 rounding makes the momentum walk at random, and walks differ: a mean counts.
 TEST_CASE("steps that a tolerance governs keep bodies apart, too, and a kick is undone with its step") {
   for (const int precision : {64, 32}) {
     const auto device = make_cpu_device(1, precision);
-    for (const double speed : {0.02, 0.5, 10.0}) {
+    double change = 0, change_alone = 0;
+    for (const double speed : {0.02, 0.5, 8.0, 9.0, 10.0, 10.5, 11.0, 12.0}) {
       CAPTURE(precision, speed);
       const ModelAndState start = meeting_spheres(1, speed, 0.5 / omega);
       const Adaptive method{.tolerance = precision == 64 ? 1e-9 : 1e-5};
@@ -228,9 +230,15 @@ TEST_CASE("steps that a tolerance governs keep bodies apart, too, and a kick is 
       CHECK(seen.inside == 0);
       CHECK(seen.report.contact_steps > 0);
       if (speed > 1) CHECK(seen.report.adaptive->rejected > 0);  // slow ones foresee all
-      CHECK(seen.momentum_change < (precision == 64 ? 1e-14 : 2 * momentum_change_alone(*device, start, seen, method)));
       CHECK(seen.most_energy < 1e-3);
+      if (precision == 64) CHECK(seen.momentum_change < 1e-14);
+      if (precision == 64) continue;
+      const double alone_change = momentum_change_alone(*device, start, seen, method);
+      CHECK(seen.momentum_change < 5 * alone_change);
+      change += seen.momentum_change * speed;  // as momenta
+      change_alone += alone_change * speed;
     }
+    CHECK(change <= 1.5 * change_alone);
   }
 }
 

@@ -1,7 +1,11 @@
 // What bodies keep of their approach where a scene asks for restitution.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <set>
 
+#include "physics/contact/impact.glsl"
 #include "support/impulse_scene.hpp"
 
 namespace pliant {
@@ -136,6 +140,96 @@ TEST_CASE("impacts with restitution give the same bits on any number of threads,
   const ModelAndState start = spheres_in_flight(0.2, total_stiffness, 0.5, 0.3);
   const SavedRun run = check_same_bits(start, {"verlet", 0.3 / omega}, by_impulses, 20, 60);
   CHECK(run.saved.contact_steps > 5);
+}
+
+// Directions that are spread evenly.
+std::vector<glm::dvec3> directions(std::size_t count) {
+  std::vector<glm::dvec3> all;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double y = 1 - 2 * (static_cast<double>(k) + 0.5) / static_cast<double>(count),
+                 angle = 2.39996323 * static_cast<double>(k);
+    all.emplace_back(std::sqrt(1 - y * y) * std::cos(angle), y, std::sqrt(1 - y * y) * std::sin(angle));
+  }
+  return all;
+}
+
+// Bodies of one mesh that come from all sides to the middle, with their origins in this distance.
+void add_comers(std::vector<BodySetup>& setups, const TriangleMesh& mesh, std::size_t count, double distance, double mass,
+                std::optional<double> restitution = 0.5) {
+  for (const glm::dvec3& direction : directions(count)) {
+    BodySetup& setup = setups.emplace_back(soft(mesh, ""));
+    setup.description.name = "comer " + std::to_string(setups.size());
+    setup.description.position = distance * direction;
+    setup.description.velocity = -direction;
+    const double turned = std::acos(direction.y) * 180 / M_PI, heading = std::atan2(direction.x, direction.z) * 180 / M_PI;
+    setup.description.rotation = {turned, heading, 0};  // its y axis points outward
+    setup.description.total_mass = mass;
+    setup.description.total_stiffness = mass * total_stiffness;
+    setup.description.restitution = restitution;
+  }
+}
+
+// The number of bodies that the first one touches.
+std::size_t partners_of_first(Simulation& simulation, const Model& model) {
+  std::set<std::uint32_t> partners;
+  for (const ContactImpulse& contact : simulation.contact_impulses())
+    for (int k = 0; k < 4; ++k)
+      if (contact.vertex[k] != physics::no_vertex) partners.insert(model.body_index(contact.vertex[k]));
+  partners.erase(0);
+  return partners.size();
+}
+
+struct Leaving {
+  std::vector<double> speeds;  // of small balls, away from the large one
+  std::size_t most_partners = 0;
+};
+
+Leaving leave_large_ball(std::size_t count, std::optional<double> restitution) {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:3"), "large")};
+  setups[0].description.total_mass = 1000;
+  setups[0].description.total_stiffness = 1e6;
+  TriangleMesh small = generate_mesh("icosphere:1");
+  for (glm::dvec3& place : small.positions) place *= 0.08;
+  add_comers(setups, small, count, 1.12, 0.001, restitution);
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.1 / omega}),
+                        {.response = {"impulse"}, .elasticity = 1});
+  Leaving leaving;
+  for (int k = 0; k < 100; ++k) {
+    simulation.advance(3);
+    leaving.most_partners = std::max(leaving.most_partners, partners_of_first(simulation, start.model));
+  }
+  const State state = simulation.state();
+  for (std::size_t b = 1; b < setups.size(); ++b)
+    leaving.speeds.push_back(
+        glm::dot(mean_velocity(start.model, state, start.model.bodies[b]), glm::normalize(setups[b].description.position)));
+  return leaving;
+}
+
+TEST_CASE("a hundred small balls leave a large one, each with what its restitution asks for") {
+  const Leaving leaving = leave_large_ball(100, 0.5), without = leave_large_ball(100, {});
+  CHECK(leaving.most_partners > physics::impact_places);
+  for (const double speed : leaving.speeds) CHECK(speed == Approx(0.5).margin(0.1));
+  CHECK(std::accumulate(without.speeds.begin(), without.speeds.end(), 0.0) / 100 > 0.65);
+}
+
+TEST_CASE("a body that touches more large ones than it has places for gives the same bits on any number of threads") {
+  const std::vector<glm::dvec3> corners = {{0, 0, 0}, {0.06, 3, 0}, {-0.03, 3, 0.05}, {-0.03, 3, -0.05}};
+  const TriangleMesh spike{corners, {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:2"), "ball")};
+  add_comers(setups, spike, 90, 1.04, 0.1);
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const Method method{"verlet", 0.1 / omega};
+  check_same_bits(start, method, by_impulses, 20, 60);
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(method), by_impulses);
+  std::size_t most = 0;
+  for (int k = 0; k < 60; ++k) {
+    simulation.advance(1);
+    most = std::max(most, partners_of_first(simulation, start.model));
+  }
+  CHECK(most > physics::impact_places);
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
-// Impacts of two bodies, or of a body and the grounds: how fast the two came, and what restitution leaves of it.
+// Impacts of two bodies, or of a body and the grounds. The smaller of two bodies keeps their impact. Only so many of its size or larger fit
+// around it, while a large body may touch thousands that are smaller. One that has no place left for an impact ends all of its impacts.
 #ifndef IMPACT_GLSL
 #define IMPACT_GLSL
 #include "surface.glsl"
 SHARED_BEGIN
 
-// Where the impact of two bodies stands, with a < b. b may be body_count, which stands for all grounds.
-FN uint impact_of(uint a, uint b, uint body_count) { return a * (body_count + 1u) + b; }
-FN uint impact_count(uint body_count) { return body_count * (body_count + 1u); }
+const uint impact_places = 64u;
+const uint no_place = 0xffffffffu;
+FN uint impact_at(uint keeper, uint place) { return impact_places * keeper + place; }
+FN uint impact_count(uint body_count) { return impact_places * body_count; }
 
-struct Impact {
-  double approach;      // the largest speed at which the centres of mass came [m/s], 0: none yet
-  uint parts_too_fast;  // 1: the two part faster than their restitution lets them
-  uint padding;
-};
+// Behind the impacts `impact_part` says for each body whether it lacked a place, and then what it says of all.
+FN uint lack_of_places_of(uint b, uint body_count) { return impact_count(body_count) + b; }
+FN uint latest_of_all(uint body_count) { return impact_count(body_count) + body_count; }
 
 // An impact ends after so many parts of steps without an impulse.
 const uint impact_ends_after = 16u;

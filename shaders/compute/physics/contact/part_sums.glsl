@@ -23,7 +23,9 @@ struct PartSums {
   double missed;           // the part of it that cuts kept from moving anything [J]
   double gained;           // energy that cuts added to springs, and that the returned spin adds [J]
   uint cuts;               // bits, as above
-  uint involvement;        // of the body. Its first part says so
+  uint involvement;        // of the body: only its first part has it
+  uint parts_too_fast;     // 1: the body parts from another one faster than their restitution lets them; only its first part has it
+  uint padding;
 };
 
 SHARED_END
