@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "bench/collision/report.hpp"
 #include "bench/common/step_cases.hpp"
 #include "bench/contact/report.hpp"
 #include "bench/draw/report.hpp"
@@ -118,6 +119,11 @@ int measure_contact(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_contact);
 }
 
+int measure_collision(const BenchOptions& options) {
+  const bench::CollisionOptions asked{.devices = selection_of(options), .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_collision);
+}
+
 int measure_draw(const BenchOptions& options) {
   bench::expect_scenes(options.scenes);
   const bench::DrawOptions asked{.gpu_index = options.gpu_index.value_or(0),
@@ -141,6 +147,8 @@ int bench(const BenchOptions& options) {
       return measure_stability(options);
     case BenchSuite::contact:
       return measure_contact(options);
+    case BenchSuite::collision:
+      return measure_collision(options);
     case BenchSuite::draw:
       break;
   }

@@ -210,9 +210,10 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite
   suite->callback([&options, which] { options.suite = which; });
   suite->add_option("--gpu", options.gpu_index, "Which GPU, as `pliant info` numbers them")->transform(whole_number(0, 1000000));
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
-  suite->add_flag("--quick", options.quick,
-                  "Measure roughly: seconds for forces, contact and draw, one to three minutes for precision and stability. The "
-                  "suite steps leaves out what takes over a second");
+  suite->add_flag(
+      "--quick", options.quick,
+      "Measure roughly: seconds for forces, contact, collision and draw, one to three minutes for precision and stability. The "
+      "suite steps leaves out what takes over a second");
   return suite;
 }
 
@@ -242,7 +243,7 @@ void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
 
 void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* bench = program.add_subcommand(
-      "bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, draw");
+      "bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, collision, draw");
   bench->require_subcommand(1);
   CLI::App* forces = add_device_suite(*bench, options, app::BenchSuite::forces, "forces",
                                       "Spring forces by size of the body, beside what the hardware allows");
@@ -264,6 +265,8 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
                                {"rest", app::BenchStudy::rest},
                                {"cost", app::BenchStudy::cost}},
                               "One study alone");
+  add_device_suite(*bench, options, app::BenchSuite::collision, "collision",
+                   "Finding all pairs of triangles that touch, beside other libraries' trees");
   add_draw_suite(*bench, options);
 }
 

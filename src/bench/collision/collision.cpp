@@ -1,0 +1,223 @@
+#include "bench/collision/collision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "bench/collision/tree_peers.hpp"
+#include "bench/common/timing.hpp"
+#include "collision/collider.hpp"
+#include "core/stopwatch.hpp"
+#include "mesh/generators.hpp"
+#include "physics/collision/certified_triangles.glsl"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
+constexpr int rounds = 7, quick_rounds = 3;
+
+struct Overlap {
+  const char* name;
+  glm::dvec3 apart;  // of the spheres' centres, in radii
+};
+
+// Spheres that are apart have boxes that overlap. Others overlap by this part of their diameter.
+const std::array<Overlap, 3> overlaps = {Overlap{"apart", {1.2, 1.2, 1.2}}, Overlap{"5 %", {1.9, 0, 0}},
+                                         Overlap{"50 %", {1, 0, 0}}};
+
+ModelAndState two_spheres(int level, const glm::dvec3& apart) {
+  std::vector<BodySetup> setups(2);
+  for (BodySetup& setup : setups) {
+    setup.mesh = generate_mesh(fmt::format("icosphere:{}", level));
+    setup.description.rotation = {10, 20, 30};  // no edge lies along an axis
+  }
+  setups[0].description.name = "first";
+  setups[1].description.name = "second";
+  setups[1].description.rotation = {40, 15, 70};
+  setups[1].description.position = apart;
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TwoMeshes meshes_of(const ModelAndState& start) {
+  TwoMeshes meshes;
+  for (const glm::dvec3& place : start.state.world_positions(start.model)) meshes.positions.emplace_back(glm::vec3(place), 1.0f);
+  meshes.triangles = start.model.triangles;
+  meshes.first_count = start.model.bodies[0].triangle_count;
+  return meshes;
+}
+
+bool touch(const TwoMeshes& meshes, glm::uvec2 pair) {
+  const auto corner = [&](std::uint32_t triangle, std::uint32_t k) { return glm::vec3(meshes.corner(triangle, k)); };
+  const glm::vec3 p[3] = {corner(pair.x, 0), corner(pair.x, 1), corner(pair.x, 2)};
+  const glm::vec3 q[3] = {corner(pair.y, 0), corner(pair.y, 1), corner(pair.y, 2)};
+  return physics::triangles_may_touch(p, q);
+}
+
+struct Found {
+  std::uint64_t pairs = 0;
+  std::vector<bool> touched;  // vertices
+
+  bool operator==(const Found&) const = default;
+};
+
+// One size and overlap. The first row says what others have to find.
+class Case {
+ public:
+  Case(const Overlap& overlap, int level, bool quick, CollisionResult& into)
+      : overlap_(overlap),
+        start_(two_spheres(level, overlap.apart)),
+        meshes_(meshes_of(start_)),
+        rounds_(quick ? quick_rounds : rounds),
+        into_(into) {}
+
+  [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
+
+  void measure(const Place& place, ContactSearch search) {
+    const auto device = open(place);
+    CollisionDescription description;
+    description.search = search;
+    description.response = {"none"};
+    Stopwatch building;
+    building.start();
+    DeviceBodies bodies(*device, start_.model, start_.state);
+    Collider collider(bodies, start_.model, description, {});
+    device->finish();
+    building.stop();
+    device->run(std::array{collider.bounding_pass(0)});
+    const Pass end = make_pass(bodies.arrays, "finish_step", {}, physics::counter_count);
+    Found found;
+    std::vector<double> refits, queries;
+    for (int round = 0; round < rounds_; ++round) {
+      std::map<std::string_view, double> refit, query;
+      device->run(collider.pairing_passes(0));
+      run_timed(*device, collider.refitting_passes(0), refit);
+      run_timed(*device, collider.finding_passes(), query);
+      run_timed(*device, collider.testing_passes(0), query);
+      if (round == 0) found = what_it_found(bodies, collider);
+      device->run(std::array{end});
+      refits.push_back(sum_of(refit));
+      queries.push_back(sum_of(query));
+    }
+    add(search == ContactSearch::tree ? "pliant" : "brute force", place.device, place.threads,
+        {building.seconds(), median(refits), median(queries)}, found);
+  }
+
+  void measure(const TreeLibrary& library) {
+    Stopwatch building;
+    building.start();
+    const std::unique_ptr<TreePeer> peer = library.build(meshes_);
+    building.stop();
+    Found found;
+    std::vector<double> refits, queries;
+    TrianglePairs candidates;
+    for (int round = 0; round < rounds_; ++round) {
+      Stopwatch refit, query;
+      refit.time([&] { peer->refit(); });
+      query.time([&] {
+        candidates.clear();
+        peer->find(candidates);
+        if (!library.tests_triangles) std::erase_if(candidates, [&](glm::uvec2 pair) { return !touch(meshes_, pair); });
+      });
+      if (round == 0) found = what_it_found(candidates);
+      refits.push_back(refit.seconds());
+      queries.push_back(query.seconds());
+    }
+    add(library.name, DeviceKind::cpu, 1, {building.seconds(), median(refits), median(queries)}, found);
+  }
+
+ private:
+  static double sum_of(const std::map<std::string_view, double>& seconds) {
+    double sum = 0;
+    for (const auto& [pass, taken] : seconds) sum += taken;
+    return sum;
+  }
+
+  static Found what_it_found(const DeviceBodies& bodies, const Collider& collider) {
+    const physics::Control control = bodies.control.download().front();
+    Found found{control.count[physics::contact_pairs], {}};
+    for (const std::uint32_t step : collider.touching().marks()) found.touched.push_back(step == control.step);
+    return found;
+  }
+  [[nodiscard]] Found what_it_found(const TrianglePairs& pairs) const {
+    Found found{pairs.size(), std::vector<bool>(meshes_.positions.size())};
+    for (const glm::uvec2& pair : pairs)
+      for (const std::uint32_t triangle : {pair.x, pair.y})
+        for (const std::uint32_t vertex : meshes_.triangles[triangle]) found.touched[vertex] = true;
+    return found;
+  }
+
+  struct Seconds {
+    double build, refit, query;
+  };
+  void add(const std::string& engine, DeviceKind device, unsigned threads, const Seconds& seconds, const Found& found) {
+    if (!first_) first_ = found;
+    into_.rows.push_back({.engine = engine,
+                          .device = device,
+                          .threads = threads,
+                          .overlap = overlap_.name,
+                          .triangles = triangles(),
+                          .build_seconds = seconds.build,
+                          .refit_seconds = seconds.refit,
+                          .query_seconds = seconds.query,
+                          .pairs = found.pairs,
+                          .same_pairs = found == *first_});
+  }
+
+  const Overlap& overlap_;
+  ModelAndState start_;
+  TwoMeshes meshes_;
+  int rounds_;
+  CollisionResult& into_;
+  std::optional<Found> first_;
+};
+
+std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
+  std::vector<TreeLibrary> all;
+  for (const auto& [name, libraries] : {std::pair("Embree", embree_trees()), {"FCL", fcl_trees()}, {"Bullet", bullet_trees()}}) {
+    all.insert(all.end(), libraries.begin(), libraries.end());
+    if (libraries.empty())
+      notes.push_back(fmt::format("{}: left out, as the build did not find it; `tools/build comparisons` adds it", name));
+  }
+  return all;
+}
+
+bool is_short_enough(const Case& what, bool quick) {
+  return double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
+}
+
+}  // namespace
+
+CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress) {
+  constexpr int precisions[] = {32};
+  CollisionResult result;
+  const std::vector<Place> places = places_of(options.devices, precisions);
+  const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
+  const int finest = options.quick ? 4 : 7;
+  const int cases = (finest - 2) * static_cast<int>(overlaps.size());
+  int done = 0;
+  for (int level = 3; level <= finest; ++level)
+    for (const Overlap& overlap : overlaps) {
+      Case what(overlap, level, options.quick, result);
+      const std::string size = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
+      const auto tell = [&](const std::string& engine) {
+        if (!result.interrupted) result.interrupted = !progress(double(done) / cases, size + ", " + engine);
+        return !result.interrupted;
+      };
+      for (const Place& place : places) {
+        if (tell(name_of(place))) what.measure(place, ContactSearch::tree);
+        if (is_short_enough(what, options.quick) && tell("brute force, " + name_of(place))) what.measure(place, ContactSearch::brute_force);
+      }
+      for (const TreeLibrary& library : libraries)
+        if (tell(library.name)) what.measure(library);
+      if (result.interrupted) return result;
+      ++done;
+    }
+  progress(1, "");
+  return result;
+}
+
+}  // namespace pliant::bench

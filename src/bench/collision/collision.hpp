@@ -1,0 +1,42 @@
+// The suite `collision`. It measures how long it takes to find all pairs of triangles that touch between two bodies, beside other
+// libraries' trees.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/common/place.hpp"
+
+namespace pliant::bench {
+
+struct CollisionOptions {
+  Selection devices;
+  bool quick = false;
+};
+
+/// The members' names are the keys of the file.
+struct CollisionRow {
+  std::string engine;  // "pliant", "brute force", or a library and its version
+  DeviceKind device = DeviceKind::cpu;
+  unsigned threads = 1;         // of the CPU; null in the file for the GPU
+  std::string overlap;          // "apart", "5 %" or "50 %"
+  std::uint32_t triangles = 0;  // of each of the two bodies
+  double build_seconds = 0;     // the trees of both
+  double refit_seconds = 0;     // the median of some refits of both
+  double query_seconds = 0;     // the median: all pairs whose boxes overlap, and the exact test of each
+  std::uint64_t pairs = 0;      // that touch
+  bool same_pairs = true;       // as those of the size's first row
+
+  [[nodiscard]] double refit_and_query_seconds() const { return refit_seconds + query_seconds; }
+};
+
+struct CollisionResult {
+  std::vector<CollisionRow> rows;
+  std::vector<std::string> notes;  // what was left out, and why
+  bool interrupted = false;        // by Progress
+};
+
+/// Two spheres, from 1,280 triangles each to 327,680. Other libraries run on one thread. Throws Error (device).
+[[nodiscard]] CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress);
+
+}  // namespace pliant::bench

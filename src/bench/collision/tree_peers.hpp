@@ -1,0 +1,34 @@
+// Other libraries' trees over two meshes, where the build found them: Embree, FCL and Bullet.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/collision/two_meshes.hpp"
+
+namespace pliant::bench {
+
+class TreePeer {
+ public:
+  virtual ~TreePeer() = default;
+  /// Fits both trees to where the vertices stand.
+  virtual void refit() = 0;
+  /// Adds all pairs that may touch to `found`: those whose boxes overlap, or those that touch if the row says so.
+  virtual void find(TrianglePairs& found) = 0;
+};
+
+struct TreeLibrary {
+  std::string name;        // with its version, such as "Embree 3.13.5"
+  bool tests_triangles;    // find() finds those that touch, by the library's own test
+  std::size_t most = ~0u;  // more triangles a body it does not take in reasonable time
+  /// The meshes must outlive what it returns.
+  std::function<std::unique_ptr<TreePeer>(const TwoMeshes&)> build;
+};
+
+/// Each of these is empty if the build did not find the package.
+[[nodiscard]] std::vector<TreeLibrary> embree_trees();
+[[nodiscard]] std::vector<TreeLibrary> fcl_trees();
+[[nodiscard]] std::vector<TreeLibrary> bullet_trees();
+
+}  // namespace pliant::bench

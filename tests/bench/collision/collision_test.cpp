@@ -1,0 +1,65 @@
+// The suite `collision`: every engine finds the same pairs, and every row is told. How fast they are is no matter here.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "bench/collision/report.hpp"
+#include "bench/collision/tree_peers.hpp"
+#include "support/has.hpp"
+
+namespace pliant::bench {
+namespace {
+
+std::vector<CollisionRow> quick_rows(const Selection& devices) {
+  std::vector<double> done;
+  const CollisionResult result = bench_collision({.devices = devices, .quick = true}, [&](double part, std::string_view) {
+    done.push_back(part);
+    return true;
+  });
+  CHECK(std::ranges::is_sorted(done));
+  CHECK(done.back() == 1);
+  const std::string table = to_table(result);
+  for (const CollisionRow& row : result.rows) {
+    CAPTURE(row.engine, row.overlap, row.triangles);
+    CHECK(row.same_pairs);
+    CHECK((row.pairs == 0) == (row.overlap == "apart"));
+    CHECK((std::isfinite(row.refit_and_query_seconds()) && row.query_seconds > 0));
+    CHECK_THAT(table, Catch::Contains(row.engine) && Catch::Contains(std::to_string(row.triangles)));
+  }
+  return result.rows;
+}
+
+std::size_t rows_of(const std::vector<CollisionRow>& rows, const std::string& engine) {
+  return static_cast<std::size_t>(std::ranges::count(rows, engine, &CollisionRow::engine));
+}
+
+TEST_CASE("pliant and other libraries find the same pairs of triangles, on one thread and all") {
+  const std::vector<CollisionRow> rows = quick_rows({.threads = 2});
+  constexpr std::size_t cases = 2 * 3;  // sizes and overlaps
+  CHECK(rows_of(rows, "pliant") == 2 * cases);
+  CHECK(rows_of(rows, "brute force") == 2 * cases / 2);  // small ones alone
+  for (const auto& libraries : {embree_trees(), fcl_trees(), bullet_trees()}) {
+    if (libraries.empty()) WARN("a library is left out, because the build did not find it");
+    for (const TreeLibrary& library : libraries) CHECK(rows_of(rows, library.name) == cases);
+  }
+  std::set<std::uint64_t> pairs;
+  for (const CollisionRow& row : rows) pairs.insert(row.pairs);
+  CHECK(pairs.size() == 1 + 2 * 2);  // 0 apart, and other numbers for each size and overlap
+}
+
+TEST_CASE("the GPU finds the same pairs of triangles as other libraries", "[gl]") {
+  if (test::lacks_gl()) return;
+  CHECK(rows_of(quick_rows({.cpu = false, .gpu = true}), "pliant") == 6);
+}
+
+TEST_CASE("a measurement of collisions that is told to end has the rows that were finished") {
+  int told = 0;
+  const CollisionResult result =
+      bench_collision({.devices = {.threads = 1}, .quick = true}, [&](double, std::string_view) { return ++told <= 2; });
+  CHECK(result.interrupted);
+  CHECK(result.rows.size() == 2);
+}
+
+}  // namespace
+}  // namespace pliant::bench
