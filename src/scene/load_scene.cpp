@@ -141,7 +141,8 @@ const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tre
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
 const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
-const std::vector<Choice<bool>> splits = {{"centre", true}};  // so far there is nothing to choose
+const std::vector<Choice<TreeSplit>> splits = {
+    {"centre", TreeSplit::centre}, {"median", TreeSplit::median}, {"surface_area", TreeSplit::surface_area}};
 const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
 const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts", Marks::contacts}};
 
@@ -163,8 +164,7 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
 }
 
 void read_table(TableReader& table, TreeDescription& tree) {
-  bool is_at_centre = true;
-  table.read("split", is_at_centre, splits);
+  table.read("split", tree.split, splits);
   table.read("max_depth", tree.max_depth, tree_depth);
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }

@@ -53,9 +53,17 @@ struct IdleKey {
   std::string_view why;
 };
 
+/// How a node's triangles are shared out between its children (collision/trees/split.hpp).
+enum class TreeSplit {
+  centre,        // at the centre of the longest axis of their box, by centroids, as in the paper
+  median,        // half of them each, along the axis on which the children's boxes have the least surface together
+  surface_area,  // where the children's surfaces, each times its number of triangles, are least together
+};
+
 struct TreeDescription {
-  std::optional<unsigned> max_depth;  // the root has depth 0. If empty, it grows with the triangle count
-  unsigned leaf_size = 4;             // triangles
+  TreeSplit split = TreeSplit::centre;
+  std::optional<unsigned> max_depth = {};  // the root has depth 0. If empty, it grows with the triangle count
+  unsigned leaf_size = 4;                  // triangles
 };
 
 struct CollisionDescription {

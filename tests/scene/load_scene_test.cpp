@@ -222,7 +222,7 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
                     {"\"strong\" is no choice", "none, constant, adaptive, internal"});
   check_input_error("[collision]\nsearch = \"grid\"\n" + smallest, 2, {"tree, brute_force"});
   check_input_error("[collision]\ntriangle_test = \"exact\"\n" + smallest, 2, {"certified, moller"});
-  check_input_error("[collision.tree]\nsplit = \"median\"\n" + smallest, 2, {"centre"});
+  check_input_error("[collision.tree]\nsplit = \"middle\"\n" + smallest, 2, {"centre", "median", "surface_area"});
   check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
   check_input_error("[output]\nmarks = \"boxes\"\n" + smallest, 2, {"none, contacts"});
 }

@@ -67,6 +67,16 @@ struct Found {
   bool operator==(const Found&) const = default;
 };
 
+// One of pliant's own.
+struct Way {
+  const char* name;
+  ContactSearch search = ContactSearch::tree;
+  TreeSplit split = TreeSplit::centre;
+};
+const std::array<Way, 4> ways = {Way{"pliant"}, Way{"pliant, median", ContactSearch::tree, TreeSplit::median},
+                                 Way{"pliant, surface area", ContactSearch::tree, TreeSplit::surface_area},
+                                 Way{"brute force", ContactSearch::brute_force}};
+
 // One size and overlap. The first row says what others have to find.
 class Case {
  public:
@@ -79,10 +89,11 @@ class Case {
 
   [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
 
-  void measure(const Place& place, ContactSearch search) {
+  void measure(const Place& place, const Way& way) {
     const auto device = open(place);
     CollisionDescription description;
-    description.search = search;
+    description.search = way.search;
+    description.tree.split = way.split;
     description.response = {"none"};
     Stopwatch building;
     building.start();
@@ -105,8 +116,7 @@ class Case {
       refits.push_back(sum_of(refit));
       queries.push_back(sum_of(query));
     }
-    add(search == ContactSearch::tree ? "pliant" : "brute force", place.device, place.threads,
-        {building.seconds(), median(refits), median(queries)}, found);
+    add(way.name, place.device, place.threads, {building.seconds(), median(refits), median(queries)}, found);
   }
 
   void measure(const TreeLibrary& library) {
@@ -210,10 +220,10 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
         if (!result.interrupted) result.interrupted = !progress(double(done) / cases, size + ", " + engine);
         return !result.interrupted;
       };
-      for (const Place& place : places) {
-        if (tell(name_of(place))) what.measure(place, ContactSearch::tree);
-        if (is_short_enough(what, options.quick) && tell("brute force, " + name_of(place))) what.measure(place, ContactSearch::brute_force);
-      }
+      for (const Place& place : places)
+        for (const Way& way : ways)
+          if (way.search == ContactSearch::tree || is_short_enough(what, options.quick))
+            if (tell(fmt::format("{}, {}", way.name, name_of(place)))) what.measure(place, way);
       for (const TreeLibrary& library : libraries)
         if (tell(library.name)) what.measure(library);
       if (result.interrupted) return result;

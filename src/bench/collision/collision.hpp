@@ -16,7 +16,7 @@ struct CollisionOptions {
 
 /// The members' names are the keys of the file.
 struct CollisionRow {
-  std::string engine;  // "pliant", "brute force", or a library and its version
+  std::string engine;  // "pliant", with how its trees are split, "brute force", or a library and its version
   DeviceKind device = DeviceKind::cpu;
   unsigned threads = 1;         // of the CPU; null in the file for the GPU
   std::string overlap;          // "apart", "5 %" or "50 %"

@@ -2,65 +2,23 @@
 
 #include <algorithm>
 #include <bit>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <utility>
 
+#include "collision/trees/split.hpp"
 #include "core/expect.hpp"
 
 namespace pliant {
 namespace {
 
-struct Box {
-  glm::dvec3 lower{std::numeric_limits<double>::infinity()};
-  glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
-
-  void add(const Box& other) {
-    lower = glm::min(lower, other.lower);
-    upper = glm::max(upper, other.upper);
-  }
-};
-
-/// What a split needs to know of a triangle.
-struct Item {
-  std::uint32_t triangle;
-  glm::dvec3 centroid;
-  Box box;
-};
-
-using Items = std::span<Item>;
-
-Item make_item(const Model& model, std::span<const glm::vec4> positions, std::uint32_t triangle) {
-  Item item{triangle, glm::dvec3(0.0), {}};
+TreeItem make_item(const Model& model, std::span<const glm::vec4> positions, std::uint32_t triangle) {
+  TreeItem item{triangle, glm::dvec3(0.0), {}};
   for (const std::uint32_t vertex : model.triangles[triangle]) {
     const glm::dvec3 corner(positions[vertex]);
     item.centroid += corner / 3.0;
     item.box.add({corner, corner});
   }
   return item;
-}
-
-Box bounds(Items items) {
-  Box box;
-  for (const Item& item : items) box.add(item.box);
-  return box;
-}
-
-int longest_axis(const glm::dvec3& extent) {
-  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
-  return extent.y >= extent.z ? 1 : 2;
-}
-
-/// Splits as the paper does, at the centre of the box's longest axis. Reorders the items in two halves and returns the size of
-/// the first.
-std::size_t split_at_centre(Items items) {
-  const Box box = bounds(items);
-  const int axis = longest_axis(box.upper - box.lower);
-  const double centre = 0.5 * (box.lower[axis] + box.upper[axis]);
-  const auto right =
-      std::stable_partition(items.begin(), items.end(), [&](const Item& item) { return item.centroid[axis] < centre; });
-  return static_cast<std::size_t>(right - items.begin());
 }
 
 /// Returns the depth of even splits and slack for uneven ones. Beyond it no leaf of the bunny or the teapot splits any further:
@@ -72,7 +30,7 @@ unsigned default_depth(std::size_t triangle_count, unsigned leaf_size) {
 
 class BodyTree {
  public:
-  BodyTree(Forest& forest, const TreeDescription& description, std::vector<Item> items)
+  BodyTree(Forest& forest, const TreeDescription& description, std::vector<TreeItem> items)
       : forest_(forest),
         description_(description),
         items_(std::move(items)),
@@ -91,7 +49,7 @@ class BodyTree {
     }
   }
 
-  [[nodiscard]] const std::vector<Item>& items() const { return items_; }
+  [[nodiscard]] const std::vector<TreeItem>& items() const { return items_; }
 
  private:
   void append(std::uint32_t parent, std::size_t begin, std::size_t end) {
@@ -103,7 +61,8 @@ class BodyTree {
     const std::size_t begin = forest_.nodes[node].z - first_triangle_;
     const std::size_t end = forest_.nodes[node].w - first_triangle_;
     if (end - begin <= description_.leaf_size || depth >= max_depth_) return;
-    const std::size_t middle = begin + split_at_centre(Items(items_).subspan(begin, end - begin));
+    const std::size_t middle =
+        begin + split_items(description_.split, std::span(items_).subspan(begin, end - begin), description_.leaf_size);
     if (middle == begin || middle == end) return;
     forest_.nodes[node].x = static_cast<std::uint32_t>(forest_.nodes.size());
     append(static_cast<std::uint32_t>(node), begin, middle);
@@ -112,7 +71,7 @@ class BodyTree {
 
   Forest& forest_;
   const TreeDescription& description_;
-  std::vector<Item> items_;
+  std::vector<TreeItem> items_;
   std::uint32_t first_triangle_;
   unsigned max_depth_;
 };
@@ -131,12 +90,12 @@ void add_tree(Forest& forest, const Model& model, std::uint32_t body, std::span<
   const auto first_node = static_cast<std::uint32_t>(forest.nodes.size());
   forest.roots.push_back(range.triangle_count > 0 ? first_node : no_node);
   if (range.triangle_count > 0) {
-    std::vector<Item> items;
+    std::vector<TreeItem> items;
     for (std::uint32_t i = 0; i < range.triangle_count; ++i)
       items.push_back(make_item(model, positions, range.first_triangle + i));
     BodyTree tree(forest, description, std::move(items));
     tree.build();
-    for (const Item& item : tree.items()) {
+    for (const TreeItem& item : tree.items()) {
       forest.triangles.push_back(model.triangles[item.triangle]);
       forest.triangle_ids.push_back(item.triangle);
     }

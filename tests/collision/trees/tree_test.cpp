@@ -50,6 +50,8 @@ Forest build(const Model& model, const TreeDescription& description = {}) {
   return build_forest(model, model.rest_positions, description);
 }
 
+constexpr std::array all_splits = {TreeSplit::centre, TreeSplit::median, TreeSplit::surface_area};
+
 bool is_leaf(const glm::uvec4& node) { return node.x == 0; }
 unsigned size(const glm::uvec4& node) { return node.w - node.z; }
 
@@ -84,33 +86,37 @@ double centroid(const Model& model, const std::array<std::uint32_t, 3>& corners,
 
 TEST_CASE("every triangle is in exactly one leaf of its own body's tree") {
   const Model model = three_bodies();
-  const Forest forest = build(model);
-  std::vector<int> seen(model.triangles.size());
-  for (const glm::uvec2& leaf : forest.leaves) {
-    const glm::uvec4 node = forest.nodes[leaf.x];
-    REQUIRE(is_leaf(node));
-    const ModelBody& body = model.bodies[leaf.y];
-    for (std::uint32_t t = node.z; t < node.w; ++t) {
-      const std::uint32_t triangle = forest.triangle_ids[t];
-      ++seen[triangle];
-      CHECK(forest.triangles[t] == model.triangles[triangle]);
-      CHECK(triangle - body.first_triangle < body.triangle_count);
+  for (const TreeSplit split : all_splits) {
+    const Forest forest = build(model, {.split = split});
+    std::vector<int> seen(model.triangles.size());
+    for (const glm::uvec2& leaf : forest.leaves) {
+      const glm::uvec4 node = forest.nodes[leaf.x];
+      REQUIRE(is_leaf(node));
+      const ModelBody& body = model.bodies[leaf.y];
+      for (std::uint32_t t = node.z; t < node.w; ++t) {
+        const std::uint32_t triangle = forest.triangle_ids[t];
+        ++seen[triangle];
+        CHECK(forest.triangles[t] == model.triangles[triangle]);
+        CHECK(triangle - body.first_triangle < body.triangle_count);
+      }
     }
+    CHECK(std::all_of(seen.begin(), seen.end(), [](int count) { return count == 1; }));
   }
-  CHECK(std::all_of(seen.begin(), seen.end(), [](int count) { return count == 1; }));
 }
 
 TEST_CASE("children share their parent's triangles out between them and stand next to each other behind it") {
-  const Forest forest = build(three_bodies());
-  for (std::uint32_t i = 0; i < forest.nodes.size(); ++i) {
-    const glm::uvec4 node = forest.nodes[i];
-    CHECK(size(node) > 0);
-    if (is_leaf(node)) continue;
-    REQUIRE(node.x > i);
-    const glm::uvec4 left = forest.nodes[node.x], right = forest.nodes[node.x + 1];
-    CHECK((left.y == i && right.y == i));
-    CHECK((left.z == node.z && left.w == right.z && right.w == node.w));
-    CHECK((size(left) > 0 && size(right) > 0));
+  for (const TreeSplit split : all_splits) {
+    const Forest forest = build(three_bodies(), {.split = split});
+    for (std::uint32_t i = 0; i < forest.nodes.size(); ++i) {
+      const glm::uvec4 node = forest.nodes[i];
+      CHECK(size(node) > 0);
+      if (is_leaf(node)) continue;
+      REQUIRE(node.x > i);
+      const glm::uvec4 left = forest.nodes[node.x], right = forest.nodes[node.x + 1];
+      CHECK((left.y == i && right.y == i));
+      CHECK((left.z == node.z && left.w == right.z && right.w == node.w));
+      CHECK((size(left) > 0 && size(right) > 0));
+    }
   }
 }
 
@@ -129,6 +135,49 @@ TEST_CASE("a split separates centroids about the centre of the longest axis of t
       CHECK((t < middle ? distance <= 1e-12 : distance >= -1e-12));
     }
   }
+}
+
+TEST_CASE("a split at the median leaves halves that fill whole leaves, and parts centroids along one axis") {
+  const Model model = three_bodies();
+  for (const unsigned leaf_size : {1u, 4u, 7u}) {
+    const Forest forest = build(model, {.split = TreeSplit::median, .leaf_size = leaf_size});
+    for (const glm::uvec4& node : forest.nodes) {
+      CHECK(is_leaf(node) == (size(node) <= leaf_size));
+      if (is_leaf(node)) continue;
+      const std::uint32_t middle = forest.nodes[node.x].w, first = middle - node.z, second = node.w - middle;
+      CHECK(first % leaf_size == 0);
+      CHECK(std::max(first, second) - std::min(first, second) <= leaf_size);
+      bool parts = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        double most = -1e30, least = 1e30;
+        for (std::uint32_t t = node.z; t < node.w; ++t) {
+          const double at = centroid(model, forest.triangles[t], axis);
+          (t < middle ? most : least) = t < middle ? std::max(most, at) : std::min(least, at);
+        }
+        parts = parts || most <= least + 1e-12;
+      }
+      CHECK(parts);
+    }
+  }
+}
+
+// What a search looks at, roughly: the surface of each node, times its triangles if it is a leaf.
+double expected_work(const Model& model, const Forest& forest) {
+  double sum = 0;
+  for (const glm::uvec4& node : forest.nodes) {
+    const Bounds box = bounds(model, forest, node);
+    const glm::dvec3 extent = box.upper - box.lower;
+    const double surface = extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+    sum += surface * (is_leaf(node) ? size(node) : 1);
+  }
+  return sum;
+}
+
+TEST_CASE("a split by surface area leaves a search less to look at than one at the centre, where triangles have all sizes") {
+  Model soup;
+  add_body(soup, triangle_soup(700));
+  const auto work_of = [&](TreeSplit split) { return expected_work(soup, build(soup, {.split = split})); };
+  CHECK(work_of(TreeSplit::surface_area) < 0.9 * work_of(TreeSplit::centre));
 }
 
 TEST_CASE("a tree's nodes are contiguous, level by level, and its leaves are listed in their order") {
@@ -186,9 +235,11 @@ TEST_CASE("triangles with one common centroid stay in one leaf") {
   stack.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   stack.triangles.assign(20, {0, 1, 2});
   add_body(model, stack);
-  const Forest forest = build(model);
-  CHECK(forest.nodes.size() == 1);
-  CHECK(forest.leaves == std::vector{glm::uvec2(0, 0)});
+  for (const TreeSplit split : all_splits) {
+    const Forest forest = build(model, {.split = split});
+    CHECK(forest.nodes.size() == 1);
+    CHECK(forest.leaves == std::vector{glm::uvec2(0, 0)});
+  }
 }
 
 TEST_CASE("by default the depth follows the triangle count, so that leaves of a sphere fill up to leaf_size") {
@@ -228,6 +279,8 @@ TEST_CASE("a search starts from the highest nodes of a body that are small enoug
 
 TEST_CASE("the same model gives the same trees, and a body's tree does not depend on the other bodies") {
   const Model model = three_bodies();
+  for (const TreeSplit split : all_splits)
+    CHECK(build(model, {.split = split}).triangle_ids == build(model, {.split = split}).triangle_ids);
   const Forest first = build(model), second = build(model);
   CHECK(first.nodes == second.nodes);
   CHECK(first.triangle_ids == second.triangle_ids);
