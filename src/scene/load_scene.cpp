@@ -219,8 +219,8 @@ constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", 
 
 // Returns why such a key changes nothing for the body, or nothing if it does.
 std::string_view why_idle(const BodyDescription& body, std::string_view key) {
-  if (key == "pressure_law") return body.pressure == 0 ? "without pressure" : "";
-  return body.kind == BodyKind::immovable ? "on a static body" : "";
+  if (body.kind == BodyKind::immovable) return "on a static body";
+  return key == "pressure_law" && body.pressure == 0 ? "without pressure" : "";
 }
 
 void note_idle(const TableReader& table, BodyDescription& body) {

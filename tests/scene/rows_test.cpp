@@ -84,6 +84,7 @@ TEST_CASE("a key of rows is idle only if it is for all of their bodies") {
   REQUIRE(own.bodies[0].idle_keys.size() == 2);
   CHECK_THAT(own.bodies[0].idle_keys[0].where.place, Catch::Contains("damping"));
   CHECK_THAT(own.bodies[0].idle_keys[1].where.place, Catch::Contains("pressure_law"));
+  for (const IdleKey& key : own.bodies[0].idle_keys) CHECK(key.why == "on a static body");
   const SceneDescription replaced = load_text(rows + "\"[1,0,0]\" = { total_mass = 6 }\n");
   CHECK_THAT(replaced.bodies[0].idle_keys[0].where.place, Catch::Contains("body.ball.total_mass"));
   const std::string soft =
