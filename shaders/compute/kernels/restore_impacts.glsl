@@ -45,7 +45,7 @@ bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return from_half; }
 #include "parts/rigid_motion_by_parts.glsl"
-#include "parts/impact_unit.glsl"
+#include "parts/impact_pair.glsl"
 
 // The mean velocity of a body's vertices in the world [m/s]. Static bodies and grounds have none.
 dvec3 mean_velocity(uint b) {

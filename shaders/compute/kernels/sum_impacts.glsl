@@ -24,7 +24,7 @@ PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contacts_at_once)
 PARAMETER(double, least_speed)
 #include "parts/full_lists.glsl"
-#include "parts/impact_unit.glsl"
+#include "parts/impact_pair.glsl"
 
 // Where the keeper has its impact with the partner, from now on if there was none. Places that are taken stay so in this kernel, so that
 // all threads come to the same one. If there is none left, it returns no_place.

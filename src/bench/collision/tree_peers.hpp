@@ -19,9 +19,8 @@ class TreePeer {
 };
 
 struct TreeLibrary {
-  std::string name;        // with its version, such as "Embree 3.13.5"
-  bool tests_triangles;    // find() finds those that touch, by the library's own test
-  std::size_t most = ~0u;  // more triangles a body it does not take in reasonable time
+  std::string name;      // with its version, such as "Embree 3.13.5"
+  bool tests_triangles;  // find() finds those that touch, by the library's own test
   /// The meshes must outlive what it returns.
   std::function<std::unique_ptr<TreePeer>(const TwoMeshes&)> build;
 };
