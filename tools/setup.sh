@@ -1,5 +1,5 @@
 # Sourced by the other tools: installs the Debian packages of a purpose, and builds what it needs.
-# Purposes: program (with the viewer), bench, comparisons (bench beside SUNDIALS and Boost), tests.
+# Purposes: program (with the viewer), bench, comparisons (bench beside other libraries), tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 purposes=(program bench comparisons tests)

@@ -55,8 +55,8 @@ struct IdleKey {
 
 /// How a node's triangles are shared out between its children (collision/trees/split.hpp).
 enum class TreeSplit {
-  centre,        // at the centre of the longest axis of their box, by centroids, as in the paper
-  median,        // half of them each, along the axis on which the children's boxes have the least surface together
+  centre,  // at the centre of the longest axis of their box, by centroids, as in the paper
+  median,  // half of them each, but for a leaf, along the axis on which the children's boxes have the least surface together
   surface_area,  // where the children's surfaces, each times its number of triangles, are least together
 };
 

@@ -96,8 +96,12 @@ TEST_CASE("on every shipped scene the trees find the pairs that brute force find
     CAPTURE(scene.file.string());
     CHECK(all.size() > 20);
     for (const TestDevice& test : all_devices()) {
-      CAPTURE(test.name);
-      CHECK(pairs_by_tree(*test.device, start, scene.collision, positions) == all);
+      for (const TreeSplit split : {TreeSplit::centre, TreeSplit::median, TreeSplit::surface_area}) {
+        CAPTURE(test.name, split);
+        CollisionDescription collision = scene.collision;
+        collision.tree.split = split;
+        CHECK(pairs_by_tree(*test.device, start, collision, positions) == all);
+      }
     }
   }
 }

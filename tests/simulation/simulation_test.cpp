@@ -166,14 +166,18 @@ TEST_CASE("marked vertices are those of the triangles that brute force finds", "
   }
 }
 
-TEST_CASE("searching trees and searching all pairs simulate the same") {
+TEST_CASE("searching trees, however they are split, and searching all pairs simulate the same") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
-  const Outcome by_tree = collide(*device, start, usual, 30, reflected);
   const Outcome by_force = collide(*device, start, usual, 30, reflected_by(ContactSearch::brute_force));
-  CHECK(by_tree.state.motion == by_force.state.motion);
-  CHECK(by_tree.report.contact_pairs_max == by_force.report.contact_pairs_max);
-  CHECK(by_tree.report.triangle_tests == by_force.report.triangle_tests);  // those whose boxes overlap
+  for (const TreeSplit split : {TreeSplit::centre, TreeSplit::median, TreeSplit::surface_area}) {
+    CollisionDescription collision = reflected;
+    collision.tree.split = split;
+    const Outcome by_tree = collide(*device, start, usual, 30, collision);
+    CHECK(by_tree.state.motion == by_force.state.motion);
+    CHECK(by_tree.report.contact_pairs_max == by_force.report.contact_pairs_max);
+    CHECK(by_tree.report.triangle_tests == by_force.report.triangle_tests);  // those whose boxes overlap
+  }
 }
 
 TEST_CASE("both searches count the same contacts in the step that a body elsewhere goes non-finite") {

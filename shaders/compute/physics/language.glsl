@@ -27,7 +27,9 @@
   #endif
   #define REAL_BEGIN namespace REAL_NAMESPACE { using real3 = glm::vec<3, real>; using real4 = glm::vec<4, real>;
   #define REAL_END }
-  #define FN static inline  // each file has its own, at its own level of optimization: a linker could take a slow one for all
+  // Each file has its own, at its own level of optimization: a linker could take a slow one for all. It still takes one of an
+  // inline function in a header that calls these.
+  #define FN static inline
   #define IN(T) const T&
   #define OUT(T) T&
   #define INOUT(T) T&

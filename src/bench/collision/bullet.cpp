@@ -11,7 +11,7 @@ namespace pliant::bench {
 
 namespace {
 
-// Trees and refits as Bullet's soft bodies have them for their faces.
+// Trees as btDbvt builds them from the top, and refits as Bullet's soft bodies make them.
 class Bullet final : public TreePeer {
  public:
   explicit Bullet(const TwoMeshes& meshes) : meshes_(meshes) {

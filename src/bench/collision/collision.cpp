@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 
 #include "bench/collision/tree_peers.hpp"
@@ -19,7 +18,31 @@ namespace pliant::bench {
 namespace {
 
 constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
-constexpr int rounds = 7, quick_rounds = 3;
+
+// Rounds are repeated until both have passed.
+struct Rounds {
+  std::size_t least;
+  double least_seconds;
+};
+constexpr Rounds all_rounds{15, 0.3}, quick_rounds{3, 0.01};
+
+struct Seconds {
+  double refit, query;
+};
+
+// Returns medians. The first round warms up.
+template <class Round>
+Seconds repeated(const Rounds& rounds, const Round& round) {
+  round();
+  std::vector<double> refits, queries;
+  for (double passed = 0; refits.size() < rounds.least || passed < rounds.least_seconds;) {
+    const Seconds taken = round();
+    refits.push_back(taken.refit);
+    queries.push_back(taken.query);
+    passed += taken.refit + taken.query;
+  }
+  return {median(refits), median(queries)};
+}
 
 struct Overlap {
   const char* name;
@@ -51,7 +74,7 @@ TwoMeshes meshes_of(const ModelAndState& start) {
   return meshes;
 }
 
-// Libraries that have several triangles in a leaf give all pairs of two leaves.
+// Embree gives all pairs of triangles of two leaves, so boxes are tested first.
 bool touch(const TwoMeshes& meshes, glm::uvec2 pair) {
   const auto corner = [&](std::uint32_t triangle, std::uint32_t k) { return glm::vec3(meshes.corner(triangle, k)); };
   const glm::vec3 p[3] = {corner(pair.x, 0), corner(pair.x, 1), corner(pair.x, 2)};
@@ -67,15 +90,15 @@ struct Found {
   bool operator==(const Found&) const = default;
 };
 
-// One of pliant's own.
-struct Way {
+// How pliant searches: a row of the result.
+struct Search {
   const char* name;
-  ContactSearch search = ContactSearch::tree;
+  ContactSearch method = ContactSearch::tree;
   TreeSplit split = TreeSplit::centre;
 };
-const std::array<Way, 4> ways = {Way{"pliant"}, Way{"pliant, median", ContactSearch::tree, TreeSplit::median},
-                                 Way{"pliant, surface area", ContactSearch::tree, TreeSplit::surface_area},
-                                 Way{"brute force", ContactSearch::brute_force}};
+const std::array<Search, 4> searches = {Search{"pliant"}, Search{"pliant, median", ContactSearch::tree, TreeSplit::median},
+                                        Search{"pliant, surface area", ContactSearch::tree, TreeSplit::surface_area},
+                                        Search{"brute force", ContactSearch::brute_force}};
 
 // One size and overlap. The first row says what others have to find.
 class Case {
@@ -84,39 +107,37 @@ class Case {
       : overlap_(overlap),
         start_(two_spheres(level, overlap.apart)),
         meshes_(meshes_of(start_)),
-        rounds_(quick ? quick_rounds : rounds),
+        rounds_(quick ? quick_rounds : all_rounds),
         into_(into) {}
 
   [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
 
-  void measure(const Place& place, const Way& way) {
+  void measure(const Place& place, const Search& search) {
     const auto device = open(place);
     CollisionDescription description;
-    description.search = way.search;
-    description.tree.split = way.split;
+    description.search = search.method;
+    description.tree.split = search.split;
     description.response = {"none"};
-    Stopwatch building;
-    building.start();
+    const bool has_trees = search.method == ContactSearch::tree;
     DeviceBodies bodies(*device, start_.model, start_.state);
     Collider collider(bodies, start_.model, description, {});
-    device->finish();
-    building.stop();
     device->run(std::array{collider.bounding_pass(0)});
     const Pass end = make_pass(bodies.arrays, "finish_step", {}, physics::counter_count);
-    Found found;
-    std::vector<double> refits, queries;
-    for (int round = 0; round < rounds_; ++round) {
-      std::map<std::string_view, double> refit, query;
+    std::optional<Found> found;
+    const Seconds seconds = repeated(rounds_, [&] {
       device->run(collider.pairing_passes(0));
-      run_timed(*device, collider.refitting_passes(0), refit);
-      run_timed(*device, collider.finding_passes(), query);
-      run_timed(*device, collider.testing_passes(0), query);
-      if (round == 0) found = what_it_found(bodies, collider);
+      device->mark_time();
+      device->run(collider.refitting_passes(0));
+      device->mark_time();
+      device->run(collider.finding_passes());
+      device->run(collider.testing_passes(0));
+      device->mark_time();
+      const std::vector<double> at = device->take_times();
+      if (!found) found = what_it_found(bodies, collider);
       device->run(std::array{end});
-      refits.push_back(sum_of(refit));
-      queries.push_back(sum_of(query));
-    }
-    add(way.name, place.device, place.threads, {building.seconds(), median(refits), median(queries)}, found);
+      return Seconds{at[1] - at[0], at[2] - at[1]};
+    });
+    add(search.name, place.device, place.threads, has_trees ? seconds_of_build(description.tree) : 0, seconds, *found);
   }
 
   void measure(const TreeLibrary& library) {
@@ -124,29 +145,25 @@ class Case {
     building.start();
     const std::unique_ptr<TreePeer> peer = library.build(meshes_);
     building.stop();
-    Found found;
-    std::vector<double> refits, queries;
-    TrianglePairs candidates;
-    for (int round = 0; round < rounds_; ++round) {
+    TrianglePairs pairs;
+    const Seconds seconds = repeated(rounds_, [&] {
       Stopwatch refit, query;
       refit.time([&] { peer->refit(); });
       query.time([&] {
-        candidates.clear();
-        peer->find(candidates);
-        if (!library.tests_triangles) std::erase_if(candidates, [&](glm::uvec2 pair) { return !touch(meshes_, pair); });
+        pairs.clear();
+        peer->find(pairs);
+        if (!library.tests_triangles) std::erase_if(pairs, [&](glm::uvec2 pair) { return !touch(meshes_, pair); });
       });
-      if (round == 0) found = what_it_found(candidates);
-      refits.push_back(refit.seconds());
-      queries.push_back(query.seconds());
-    }
-    add(library.name, DeviceKind::cpu, 1, {building.seconds(), median(refits), median(queries)}, found);
+      return Seconds{refit.seconds(), query.seconds()};
+    });
+    add(library.name, DeviceKind::cpu, 1, building.seconds(), seconds, what_it_found(pairs));
   }
 
  private:
-  static double sum_of(const std::map<std::string_view, double>& seconds) {
-    double sum = 0;
-    for (const auto& [pass, taken] : seconds) sum += taken;
-    return sum;
+  [[nodiscard]] double seconds_of_build(const TreeDescription& description) const {
+    Stopwatch building;
+    building.time([&] { (void)build_forest(start_.model, start_.model.rest_positions, description); });
+    return building.seconds();
   }
 
   static Found what_it_found(const DeviceBodies& bodies, const Collider& collider) {
@@ -163,27 +180,25 @@ class Case {
     return found;
   }
 
-  struct Seconds {
-    double build, refit, query;
-  };
-  void add(const std::string& engine, DeviceKind device, unsigned threads, const Seconds& seconds, const Found& found) {
+  void add(const std::string& engine, DeviceKind device, unsigned threads, double build, const Seconds& seconds,
+           const Found& found) {
     if (!first_) first_ = found;
     into_.rows.push_back({.engine = engine,
                           .device = device,
                           .threads = threads,
                           .overlap = overlap_.name,
                           .triangles = triangles(),
-                          .build_seconds = seconds.build,
+                          .build_seconds = build,
                           .refit_seconds = seconds.refit,
                           .query_seconds = seconds.query,
                           .pairs = found.pairs,
-                          .same_pairs = found == *first_});
+                          .agrees = found == *first_});
   }
 
   const Overlap& overlap_;
   ModelAndState start_;
   TwoMeshes meshes_;
-  int rounds_;
+  Rounds rounds_;
   CollisionResult& into_;
   std::optional<Found> first_;
 };
@@ -221,9 +236,9 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
         return !result.interrupted;
       };
       for (const Place& place : places)
-        for (const Way& way : ways)
-          if (way.search == ContactSearch::tree || is_short_enough(what, options.quick))
-            if (tell(fmt::format("{}, {}", way.name, name_of(place)))) what.measure(place, way);
+        for (const Search& search : searches)
+          if (search.method == ContactSearch::tree || is_short_enough(what, options.quick))
+            if (tell(fmt::format("{}, {}", search.name, name_of(place)))) what.measure(place, search);
       for (const TreeLibrary& library : libraries)
         if (tell(library.name)) what.measure(library);
       if (result.interrupted) return result;

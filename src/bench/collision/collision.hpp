@@ -21,11 +21,11 @@ struct CollisionRow {
   unsigned threads = 1;         // of the CPU; null in the file for the GPU
   std::string overlap;          // "apart", "5 %" or "50 %"
   std::uint32_t triangles = 0;  // of each of the two bodies
-  double build_seconds = 0;     // the trees of both
+  double build_seconds = 0;     // the trees of both, on one thread; null in the file without trees
   double refit_seconds = 0;     // the median of some refits of both
   double query_seconds = 0;     // the median: all pairs whose boxes overlap, and the exact test of each
   std::uint64_t pairs = 0;      // that touch
-  bool same_pairs = true;       // as those of the size's first row
+  bool agrees = true;           // as many pairs, at the same vertices, as the first row of this size and overlap
 
   [[nodiscard]] double refit_and_query_seconds() const { return refit_seconds + query_seconds; }
 };

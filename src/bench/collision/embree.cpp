@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "core/error.hpp"
 #endif
 
 namespace pliant::bench {
@@ -16,6 +18,7 @@ namespace {
 class Embree final : public TreePeer {
  public:
   explicit Embree(const TwoMeshes& meshes) : meshes_(meshes), device_(rtcNewDevice("threads=1")) {
+    if (device_ == nullptr) fail();
     const auto second = static_cast<std::uint32_t>(meshes.triangles.size()) - meshes.first_count;
     sides_[0] = {&meshes_, 0};
     sides_[1] = {&meshes_, meshes.first_count};
@@ -34,6 +37,7 @@ class Embree final : public TreePeer {
       rtcCommitGeometry(geometries_[k]);
       rtcCommitScene(scenes_[k]);
     }
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) fail();
   }
   void find(TrianglePairs& found) override {
     Found into{&found, meshes_.first_count};
@@ -49,6 +53,10 @@ class Embree final : public TreePeer {
     TrianglePairs* pairs;
     std::uint32_t first_of_second;
   };
+
+  [[noreturn]] static void fail() {
+    throw Error(ErrorKind::device, "Embree", "cannot make or refit its trees", "measure in a build without libembree-dev");
+  }
 
   static void bound(const RTCBoundsFunctionArguments* asked) {
     const auto& side = *static_cast<const Side*>(asked->geometryUserPtr);

@@ -1,6 +1,7 @@
 #include "bench/collision/tree_peers.hpp"
 #ifdef PLIANT_FCL
 #include <fcl/fcl.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fmt/format.h>
 
 #include <limits>
@@ -14,47 +15,49 @@ namespace {
 
 class Fcl final : public TreePeer {
  public:
-  explicit Fcl(const TwoMeshes& meshes) : meshes_(meshes) {
+  explicit Fcl(const TwoMeshes& meshes) : first_count_(meshes.first_count) {
+    for (const glm::vec4& at : meshes.positions) vertices_.emplace_back(at.x, at.y, at.z);
     make(*first_, meshes.first());
     make(*second_, meshes.second());
   }
 
   void refit() override {
-    update(*first_, meshes_.first());
-    update(*second_, meshes_.second());
+    for (Tree* tree : {first_.get(), second_.get()}) {
+      tree->beginReplaceModel();
+      tree->replaceSubModel(vertices_);
+      tree->endReplaceModel(true, true);
+    }
   }
+  // fcl::collide would copy both trees with each call. Contacts are not asked for, as each pair might have two.
   void find(TrianglePairs& found) override {
-    const fcl::CollisionRequest<double> request(std::numeric_limits<int>::max(), true);
+    const fcl::CollisionRequest<double> request(std::numeric_limits<int>::max(), false);
     fcl::CollisionResult<double> result;
-    const fcl::Transform3<double> stays = fcl::Transform3<double>::Identity();
-    fcl::collide(first_.get(), stays, second_.get(), stays, request, result);
+    fcl::Transform3<double> of_first = fcl::Transform3<double>::Identity(), of_second = of_first;
+    fcl::detail::MeshCollisionTraversalNode<Box> traversal;
+    fcl::detail::initialize(traversal, *first_, of_first, *second_, of_second, request, result);
+    fcl::detail::collide(&traversal);
     for (std::size_t k = 0; k < result.numContacts(); ++k) {
       const fcl::Contact<double>& contact = result.getContact(k);
-      found.emplace_back(contact.b1, meshes_.first_count + static_cast<std::uint32_t>(contact.b2));
+      found.emplace_back(contact.b1, first_count_ + static_cast<std::uint32_t>(contact.b2));
     }
   }
 
  private:
-  using Tree = fcl::BVHModel<fcl::AABB<double>>;
+  using Box = fcl::AABB<double>;
+  using Tree = fcl::BVHModel<Box>;
 
-  fcl::Vector3<double> corner(const Triangle& triangle, std::uint32_t k) const {
-    const glm::vec4& at = meshes_.positions[triangle[k]];
-    return {at.x, at.y, at.z};
-  }
-  // Triangles have corners of their own, in the order in which they are updated.
+  // Either tree has the vertices of both meshes, and triangles of its own.
   void make(Tree& tree, std::span<const Triangle> triangles) const {
-    tree.beginModel(static_cast<int>(triangles.size()), static_cast<int>(3 * triangles.size()));
-    for (const Triangle& t : triangles) tree.addTriangle(corner(t, 0), corner(t, 1), corner(t, 2));
+    std::vector<fcl::Triangle> corners;
+    for (const Triangle& t : triangles) corners.emplace_back(t[0], t[1], t[2]);
+    tree.beginModel(static_cast<int>(corners.size()), static_cast<int>(vertices_.size()));
+    tree.addSubModel(vertices_, corners);
     tree.endModel();
   }
-  void update(Tree& tree, std::span<const Triangle> triangles) const {
-    tree.beginUpdateModel();
-    for (const Triangle& t : triangles) tree.updateTriangle(corner(t, 0), corner(t, 1), corner(t, 2));
-    tree.endUpdateModel(true, true);
-  }
 
-  const TwoMeshes& meshes_;
-  std::shared_ptr<Tree> first_ = std::make_shared<Tree>(), second_ = std::make_shared<Tree>();
+  std::uint32_t first_count_;
+  std::vector<fcl::Vector3<double>> vertices_;
+  std::unique_ptr<Tree> first_ = std::make_unique<Tree>(), second_ = std::make_unique<Tree>();
 };
 
 }  // namespace

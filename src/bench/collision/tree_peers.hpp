@@ -14,7 +14,7 @@ class TreePeer {
   virtual ~TreePeer() = default;
   /// Fits both trees to where the vertices stand.
   virtual void refit() = 0;
-  /// Adds all pairs that may touch to `found`: those whose boxes overlap, or those that touch if the row says so.
+  /// Adds all pairs that may touch to `found`, or just those that touch if TreeLibrary::tests_triangles.
   virtual void find(TrianglePairs& found) = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "core/expect.hpp"
+
 namespace pliant {
 namespace {
 
@@ -30,13 +32,13 @@ std::size_t split_at_centre(Items items) {
   return static_cast<std::size_t>(right - items.begin());
 }
 
-// Both parts fill whole leaves, as far as they can.
+// The first part fills whole leaves.
 std::size_t middle_of(std::size_t count, unsigned leaf_size) {
   const std::size_t leaves = (count + leaf_size - 1) / leaf_size;
-  return std::min(leaves / 2 * leaf_size, count - 1);
+  return leaves / 2 * leaf_size;
 }
 
-void sort_about(Items items, std::size_t middle, int axis) {
+void part_at(Items items, std::size_t middle, int axis) {
   const auto key = [axis](const TreeItem& item) { return std::pair(item.centroid[axis], item.triangle); };
   std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(middle), {}, key);
 }
@@ -51,12 +53,12 @@ std::size_t split_at_median(Items items, unsigned leaf_size) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    sort_about(items, middle, axis);
+    part_at(items, middle, axis);
     const double surface = bounds(items.first(middle)).half_surface() + bounds(items.subspan(middle)).half_surface();
     if (surface < least) best = axis;
     least = std::min(least, surface);
   }
-  sort_about(items, middle, best);
+  part_at(items, middle, best);
   return middle;
 }
 
@@ -72,12 +74,12 @@ int bin_of(double centroid, double lower, double upper) {
   return std::clamp(static_cast<int>(bin_count * (centroid - lower) / (upper - lower)), 0, bin_count - 1);
 }
 
-struct Cut {
+struct Place {
   double cost = std::numeric_limits<double>::infinity();
   int axis = 0, first_of_second = 0;  // bin
 };
 
-Cut best_cut(const std::array<Bin, bin_count>& bins, int axis) {
+Place best_place(const std::array<Bin, bin_count>& bins, int axis) {
   std::array<Bin, bin_count> from;  // from each bin on
   for (int k = bin_count - 1; k >= 0; --k) {
     from[k] = bins[k];
@@ -85,7 +87,7 @@ Cut best_cut(const std::array<Bin, bin_count>& bins, int axis) {
     from[k].box.add(from[k + 1].box);
     from[k].count += from[k + 1].count;
   }
-  Cut best;
+  Place best;
   Bin before;
   for (int k = 1; k < bin_count; ++k) {
     before.box.add(bins[k - 1].box);
@@ -101,7 +103,7 @@ Cut best_cut(const std::array<Bin, bin_count>& bins, int axis) {
 std::size_t split_by_surface(Items items) {
   TreeBox centroids;
   for (const TreeItem& item : items) centroids.add({item.centroid, item.centroid});
-  Cut best;
+  Place best;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(centroids.upper[axis] > centroids.lower[axis])) continue;
     std::array<Bin, bin_count> bins;
@@ -110,8 +112,8 @@ std::size_t split_by_surface(Items items) {
       bin.box.add(item.box);
       ++bin.count;
     }
-    const Cut cut = best_cut(bins, axis);
-    if (cut.cost < best.cost) best = cut;
+    const Place place = best_place(bins, axis);
+    if (place.cost < best.cost) best = place;
   }
   if (best.first_of_second == 0) return 0;
   const auto right = std::stable_partition(items.begin(), items.end(), [&](const TreeItem& item) {
@@ -133,6 +135,7 @@ double TreeBox::half_surface() const {
 }
 
 std::size_t split_items(TreeSplit split, std::span<TreeItem> items, unsigned leaf_size) {
+  PLIANT_EXPECT(items.size() > leaf_size);
   switch (split) {
     case TreeSplit::centre:
       break;

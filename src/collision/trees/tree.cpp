@@ -22,7 +22,7 @@ TreeItem make_item(const Model& model, std::span<const glm::vec4> positions, std
 }
 
 /// Returns the depth of even splits and slack for uneven ones. Beyond it no leaf of the bunny or the teapot splits any further:
-/// they need 5 and 6 levels more than even splits would. Icospheres need 2.
+/// split at the centre, they need 5 and 6 levels more than even splits would. Icospheres need 2, and other splits fewer.
 unsigned default_depth(std::size_t triangle_count, unsigned leaf_size) {
   constexpr unsigned slack = 6;
   return static_cast<unsigned>(std::bit_width(triangle_count / leaf_size)) + slack;
