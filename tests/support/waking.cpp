@@ -146,7 +146,7 @@ std::uint64_t Window::woken() const {
 
 Stillness stillness_of(const Model& model, double gravity) {
   const double way = sleep_way(model, gravity);
-  return {.in_half_a_second = way, .by_a_pull = way / 10};
+  return {.in_half_a_second = 2 * way, .by_a_pull = way / 10};
 }
 
 Stillness farthest_of_sleepers(const Window& window, const Model& model) {

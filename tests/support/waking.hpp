@@ -36,7 +36,7 @@ struct Window {
 
 /// How far a body may go that rests [m].
 struct Stillness {
-  double in_half_a_second = 0;  // what sleep_way() allows a body that falls asleep
+  double in_half_a_second = 0;  // of two places within sleep_way() of where the slow time began, how far they may be apart
   double by_a_pull = 0;         // of other bodies, in a window
 };
 /// `gravity` is the size of the acceleration [m/s^2].
