@@ -1,5 +1,5 @@
-// The frame around every kernel but force kernels, which have force.comp, and kernels in rounds, which have rounds.comp. It includes the
-// kernel's file by name. One thread calls the kernel's function for one item.
+// The frame around every kernel but force kernels (force.comp), kernels in rounds (rounds.comp) and group kernels (groups.comp). It includes
+// the kernel's file by name. One thread calls the kernel's function for one item.
 #version 450
 #include "subgroups.glsl"
 #include "physics/language.glsl"

@@ -24,14 +24,14 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
       has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies, model, description.broad_phase),
-      trees_(bodies, forest_, description.leaf_pair_capacity, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
+      trees_(bodies, forest_, description, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       response_row_(row_of(description, searches() || !model.grounds.empty())) {
   if (response_row_.make != nullptr)
     response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, steps, sleeps});
 }
 
-bool Collider::searches() const { return body_count_ > 1 && !forest_.leaves.empty(); }
+bool Collider::searches() const { return body_count_ > 1 && !forest_.nodes.empty(); }
 
 bool Collider::uses_trees() const { return description_.search == ContactSearch::tree && searches(); }
 
@@ -44,7 +44,7 @@ std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
 
 std::vector<Pass> Collider::refitting_passes(std::uint32_t half) const {
   if (!uses_trees()) return {};
-  return {trees_.refitting_pass(half)};
+  return trees_.refitting_passes(half);
 }
 
 std::vector<Pass> Collider::finding_passes() const {

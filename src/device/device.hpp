@@ -110,6 +110,8 @@ class Device {
   /// Returns the kernel in the file kernels/NAME.glsl, whose function has the same name. Throws Error (device) if it does not
   /// build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
+  /// Returns a kernel whose items are served by a group of threads each (shaders/compute/groups.comp). On a CPU that is one.
+  [[nodiscard]] virtual KernelId group_kernel(std::string_view name) = 0;
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
   /// most shares_at_once() of them, or one.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 #include <set>
 #include <span>
@@ -108,6 +109,12 @@ class TableReader {
       if (peek(key) != nullptr) found.push_back(where(key));
   }
 
+  /// Returns the key with its tables, such as "collision.tree.split".
+  [[nodiscard]] std::string path_of(std::string_view key) const {
+    const std::string& path = is_in_front(key) ? front_path_ : path_;
+    return fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
+  }
+
   void finish() const {
     for (const auto& [key, node] : table_)
       if (front_path_.empty() || !key.str().starts_with('[')) expect_known(key.str(), node);  // other bodies in the rows
@@ -118,10 +125,6 @@ class TableReader {
  private:
   void expect_known(std::string_view key, const toml::node& node) const {
     if (std::ranges::find(known_, key) == known_.end()) fail(node, path_of(key), "unknown key", suggest(key, known_));
-  }
-  [[nodiscard]] std::string path_of(std::string_view key) const {
-    const std::string& path = is_in_front(key) ? front_path_ : path_;
-    return fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
   }
 
   const toml::table& table_;
@@ -143,6 +146,7 @@ const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", Triangle
 const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
 const std::vector<Choice<TreeSplit>> splits = {
     {"centre", TreeSplit::centre}, {"median", TreeSplit::median}, {"surface_area", TreeSplit::surface_area}};
+const std::vector<Choice<TreeRefit>> refits = {{"bottom_up", TreeRefit::bottom_up}, {"hybrid", TreeRefit::hybrid}};
 const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
 const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts", Marks::contacts}};
 
@@ -165,6 +169,10 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
 
 void read_table(TableReader& table, TreeDescription& tree) {
   table.read("split", tree.split, splits);
+  table.read("fan_out", tree.fan_out, fan_out);
+  if (!std::has_single_bit(tree.fan_out))
+    fail(*table.find("fan_out"), table.path_of("fan_out"), fmt::format("{} is not possible", tree.fan_out), "write 2, 4 or 8");
+  table.read("refit", tree.refit, refits);
   table.read("max_depth", tree.max_depth, tree_depth);
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }

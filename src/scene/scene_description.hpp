@@ -60,9 +60,18 @@ enum class TreeSplit {
   surface_area,  // where the children's surfaces, each times its number of triangles, are least together
 };
 
+/// When nodes' boxes are fitted (collision/trees/tree_search.hpp). Source: T. Larsson, T. Akenine-Möller, "Collision detection
+/// for continuously deforming bodies", Eurographics 2001.
+enum class TreeRefit {
+  bottom_up,  // all of near bodies, before the search
+  hybrid,     // treelets are bounded first, and those that meet one of another body are refitted
+};
+
 struct TreeDescription {
   TreeSplit split = TreeSplit::centre;
-  std::optional<unsigned> max_depth = {};  // the root has depth 0. If empty, it grows with the triangle count
+  unsigned fan_out = 8;                    // children of a node, at most
+  std::optional<TreeRefit> refit = {};     // if empty, what suits the device
+  std::optional<unsigned> max_depth = {};  // splits from the root to a leaf. If empty, it grows with the triangle count
   unsigned leaf_size = 4;                  // triangles
 };
 
@@ -77,8 +86,9 @@ struct CollisionDescription {
   Origin search_where = {};  // of the key `search`
   TriangleTest triangle_test = TriangleTest::certified;
   TreeDescription tree{};
-  std::uint32_t leaf_pair_capacity = 1u << 18;  // of the search's list. No key sets it: what it lacks costs speed alone
-  std::vector<Origin> surface_keys = {};        // given ones that not all responses read
+  // Of the search's lists. No key sets them: what they lack costs speed alone.
+  std::uint32_t leaf_pair_capacity = 1u << 18, treelet_pair_capacity = 1u << 16;
+  std::vector<Origin> surface_keys = {};  // given ones that not all responses read
 };
 
 /// What contacts know of a body or a ground. What is empty is the scene's.

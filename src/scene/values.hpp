@@ -27,6 +27,7 @@ inline constexpr Range coordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
 inline constexpr Range fraction{0, 1, "a number from 0 to 1"};
 inline constexpr Range edge_part{0.01, 0.1, "a number from 0.01 to 0.1"};
 inline constexpr Range view_angle{1, 179, "a number from 1 to 179"};
+inline constexpr Range fan_out{2, 8, "2, 4 or 8"};
 inline constexpr Range tree_depth{1, 64, "a whole number from 1 to 64"};
 inline constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"};
 inline constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};

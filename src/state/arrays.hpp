@@ -17,6 +17,7 @@
 #include "device/device.hpp"
 #include "physics/body.glsl"
 #include "physics/collision/grid.glsl"
+#include "physics/collision/treelet.glsl"
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/part_sums.glsl"
@@ -60,6 +61,7 @@ PLIANT_ELEMENT(physics::FrameChange, "FrameChange")
 PLIANT_ELEMENT(physics::BoxBits, "BoxBits")
 PLIANT_ELEMENT(physics::Status, "Status")
 PLIANT_ELEMENT(physics::GridEntry, "GridEntry")
+PLIANT_ELEMENT(physics::Treelet, "Treelet")
 PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")

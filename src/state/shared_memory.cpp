@@ -13,7 +13,7 @@ namespace {
 // Phases of a step, as bits. In each of them some passes run, one after another.
 using Phases = std::uint32_t;
 constexpr Phases restoring = 1,  // restore_impacts
-    searching = 2,               // from expect_motion or refit to find_contacts, meet_grounds and test_unlisted_pairs
+    searching = 2,               // from expect_motion or a refit to find_contacts, meet_grounds and test_unlisted_pairs
     kicking = 4,                 // take_up_impulses and solve_contacts
     at_stages = 8,               // the passes of forces before a stage, and the stage
     cutting = 16,                // from expect_cuts to pay_dues
@@ -27,16 +27,17 @@ struct Sharing {
 // In each phase the array is written before it is read, for every body whose numbers are read. So an array can't share memory if
 // bodies at rest need what an earlier step wrote there.
 constexpr Sharing sharing[] = {
-    {"expected", searching},          // expect_motion writes it for all bodies
-    {"node_box", searching},          // refit and refit_cages fit the boxes of all bodies with a partner, and no others are read
-    {"leaf_pair", searching},         // the list's length stands in `control`, and nothing beyond it is read
-    {"impulse_sum", kicking},         // take_up_impulses empties what the first round adds to. Each round empties for the next
-    {"added_force", at_stages},       // the first force sets it, and others add to it
-    {"moment", at_stages},            // sum_moments writes it for all bodies that find_rigid_motion looks at
-    {"way", cutting},                 // expect_cuts writes it for all bodies that have a partner or move
-    {"cut", cutting},                 // as above
-    {"quiet_body", at_quiet_steps},   // passes before quiet_steps write what it reads first, unless no step may be quiet
-    {"kept_before", at_quiet_steps},  // quiet_steps writes it for all bodies that move
+    {"expected", searching},            // expect_motion writes it for all bodies
+    {"node_box", searching},            // the passes of a refit write every box that a search reads
+    {"treelet_pair", searching},        // the list's length stands in `control`, and nothing beyond it is read
+    {"leaf_pair", searching},           // as above
+    {"impulse_sum", kicking},           // take_up_impulses empties what the first round adds to. Each round empties for the next
+    {"added_force", at_stages},         // the first force sets it, and others add to it
+    {"moment", at_stages},              // sum_moments writes it for all bodies that find_rigid_motion looks at
+    {"way", cutting},                   // expect_cuts writes it for all bodies that have a partner or move
+    {"cut", cutting},                   // as above
+    {"quiet_body", at_quiet_steps},     // passes before quiet_steps write what it reads first, unless no step may be quiet
+    {"kept_before", at_quiet_steps},    // quiet_steps writes it for all bodies that move
     {"part_sum", restoring | cutting},  // the first round of restore_impacts or pay_dues writes it
 };
 

@@ -15,9 +15,9 @@ void add_box(Lines& lines, const render::SceneBox& box) {
       if ((corner & axis) == 0) add_line(lines, corner_of(box, corner), corner_of(box, corner | axis), box_color);
 }
 
-render::SceneBox box_of(const Forest& forest, const glm::uvec4& node, std::span<const glm::dvec3> positions) {
+render::SceneBox box_of(const Forest& forest, const TreeNode& node, std::span<const glm::dvec3> positions) {
   std::vector<glm::dvec3> corners;
-  for (std::uint32_t t = node.z; t < node.w; ++t)
+  for (std::uint32_t t = node.first_triangle; t < node.end_of_triangles(); ++t)
     for (const std::uint32_t vertex : forest.triangles[t]) corners.push_back(positions[vertex]);
   return render::box_around(corners);
 }
@@ -27,10 +27,9 @@ render::SceneBox box_of(const Forest& forest, const glm::uvec4& node, std::span<
 void add_boxes(Lines& lines, const Forest& forest, std::span<const glm::dvec3> positions, unsigned level) {
   std::vector<unsigned> depth(forest.nodes.size(), 0);  // parents stand before their children
   for (std::size_t n = 0; n < forest.nodes.size(); ++n) {
-    const glm::uvec4& node = forest.nodes[n];
-    if (node.y != no_node) depth[n] = depth[node.y] + 1;
-    const bool is_leaf = node.x == 0;
-    if (depth[n] == level || (is_leaf && depth[n] < level)) add_box(lines, box_of(forest, node, positions));
+    const TreeNode& node = forest.nodes[n];
+    if (node.parent != no_node) depth[n] = depth[node.parent] + 1;
+    if (depth[n] == level || (node.is_leaf() && depth[n] < level)) add_box(lines, box_of(forest, node, positions));
   }
 }
 

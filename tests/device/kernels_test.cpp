@@ -227,7 +227,7 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       CHECK(largest_difference(y, x) < 1e-6);
     } else if (element == "uvec2") {
       const physics::Control control = cpu.bodies.control.download().front();
-      const std::uint32_t count = cpu_pass.name == "pair_bodies" ? control.near_pair_count : control.leaf_pair_count;
+      const std::uint32_t count = name == "treelet_pair" ? control.treelet_pair_count : control.leaf_pair_count;
       CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
     } else if (element == "uint") {
       const auto [x, y] = read_both<std::uint32_t>(cpu, gpu, a, b);
@@ -329,6 +329,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   std::set<std::string_view> seen;
   CollisionDescription tree{.response = {"reflect"}}, brute = tree, grid = tree;
   grid.broad_phase = BroadPhase::grid;
+  grid.tree.refit = TreeRefit::hybrid;
   grid.leaf_pair_capacity = 2000;  // there are more pairs of leaves, but fewer overlap
   brute.search = ContactSearch::brute_force;
   brute.triangle_test = TriangleTest::moller;
@@ -406,9 +407,9 @@ TEST_CASE("many contacts at once get the impulses on the GPU that they get on th
 
 TEST_CASE("a kernel that was built for one caller is not another caller's", "[gl]") {
   const auto device = make_gpu_device(0);
-  const KernelId kernel = device->kernel("refit");
-  CHECK(device->kernel("refit") == kernel);
-  CHECK_THROWS_AS(device->round_kernel("refit"), Error);  // it has no rounds
+  const KernelId kernel = device->kernel("bound_bodies");
+  CHECK(device->kernel("bound_bodies") == kernel);
+  CHECK_THROWS_AS(device->round_kernel("bound_bodies"), Error);  // it has no rounds
 }
 
 TEST_CASE("boxes of trees are the same bits on CPU and GPU, and bound their triangles", "[gl]") {
@@ -429,10 +430,10 @@ TEST_CASE("boxes of trees are the same bits on CPU and GPU, and bound their tria
     const auto boxes = bench->collider.trees().node_boxes();
     std::size_t wrong = 0, kept = 0;
     for (std::size_t n = 0; n < forest.nodes.size(); ++n) {
-      if (!is_kept(forest.nodes[n], bench->collider.trees().triangles_of_a_start())) continue;
+      if (!is_kept(forest.nodes[n], bench->collider.trees().triangles_of_a_treelet())) continue;
       ++kept;
       glm::vec3 lower(1e30f), upper(-1e30f);
-      for (std::uint32_t t = forest.nodes[n].z; t < forest.nodes[n].w; ++t)
+      for (std::uint32_t t = forest.nodes[n].first_triangle; t < forest.nodes[n].end_of_triangles(); ++t)
         for (const std::uint32_t vertex : forest.triangles[t]) {
           lower = glm::min(lower, glm::vec3(positions[vertex]));
           upper = glm::max(upper, glm::vec3(positions[vertex]));

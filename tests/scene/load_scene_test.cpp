@@ -27,6 +27,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   CHECK(scene.collision.triangle_test == TriangleTest::certified);
   CHECK_FALSE(scene.collision.tree.max_depth);
   CHECK(scene.collision.tree.leaf_size == 4);
+  CHECK((scene.collision.tree.fan_out == 8 && !scene.collision.tree.refit));
   CHECK(scene.output.frame_rate == 60.0);
   CHECK(scene.output.size == glm::uvec2(1280, 720));
   CHECK_FALSE(scene.output.camera);
@@ -71,6 +72,8 @@ search = "brute_force"
 triangle_test = "moller"
 [collision.tree]
 split = "centre"
+fan_out = 4
+refit = "hybrid"
 max_depth = 12
 leaf_size = 7
 [output]
@@ -110,6 +113,7 @@ color = [0.1, 0.2, 0.3]
   CHECK(scene.collision.triangle_test == TriangleTest::moller);
   CHECK(scene.collision.tree.max_depth == 12);
   CHECK(scene.collision.tree.leaf_size == 7);
+  CHECK((scene.collision.tree.fan_out == 4 && scene.collision.tree.refit == TreeRefit::hybrid));
   CHECK(scene.output.frame_rate == 24);
   CHECK(scene.output.size == glm::uvec2(640, 480));
   REQUIRE(scene.output.camera);
@@ -157,7 +161,8 @@ TEST_CASE("an unknown key is an error that suggests the known ones that contain 
   check_input_error("[[body]]\nmesh = \"icosphere:1\"\nmass = 4\n", 3, {"did you mean \"vertex_mass\" or \"total_mass\"?"});
   check_input_error("titel = \"x\"\n" + smallest, 1, {"titel", "did you mean \"title\"?"});
   check_input_error("[colision]\n" + smallest, 1, {"colision", "did you mean \"collision\"?"});
-  check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2, {"collision.tree.whatever", "split, max_depth, leaf_size"});
+  check_input_error("[collision.tree]\nwhatever = 1\n" + smallest, 2,
+                    {"collision.tree.whatever", "split, fan_out, refit, max_depth, leaf_size"});
   check_input_error("[simulation]\nwhatever = 1\n" + smallest, 2,
                     {"known here: integrator, time_step, tolerance, duration, damping_law, gravity"});
 }
@@ -223,6 +228,9 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
   check_input_error("[collision]\nsearch = \"grid\"\n" + smallest, 2, {"tree, brute_force"});
   check_input_error("[collision]\ntriangle_test = \"exact\"\n" + smallest, 2, {"certified, moller"});
   check_input_error("[collision.tree]\nsplit = \"middle\"\n" + smallest, 2, {"centre", "median", "surface_area"});
+  check_input_error("[collision.tree]\nrefit = \"lazy\"\n" + smallest, 2, {"bottom_up", "hybrid"});
+  for (const char* fan_out : {"1", "3", "6", "16", "4.0"})
+    check_input_error(std::string("[collision.tree]\nfan_out = ") + fan_out + "\n" + smallest, 2, {"fan_out", "2, 4 or 8"});
   check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
   check_input_error("[output]\nmarks = \"boxes\"\n" + smallest, 2, {"none, contacts"});
 }

@@ -63,6 +63,7 @@ TEST_CASE("the paper's scenes have its stiffness, damping, elasticity, depth and
     CHECK(scene.simulation.integrator.value == "cv8");
     CHECK(scene.collision.elasticity == 0.9);
     CHECK(scene.collision.tree.max_depth == 12u);
+    CHECK((scene.collision.tree.split == TreeSplit::centre && scene.collision.tree.fan_out == 2u));
     for (const BodyDescription& body : scene.bodies) CHECK(body.vertex_mass == 1);
   }
   for (const BodyDescription& body : test::load_shipped_scene("bunnies_overdamped").bodies) CHECK(body.damping == 2000);

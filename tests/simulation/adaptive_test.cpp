@@ -22,8 +22,10 @@ CollisionDescription with_response(Named response) {
 }
 
 struct Run {
+  Run(Device& device, const ModelAndState& start, const Adaptive& adaptive, const CollisionDescription& collision)
+      : simulation(device, start.model, start.state, plan_of(adaptive, start.model), collision) {}
   Run(Device& device, const ModelAndState& start, const Adaptive& adaptive, Named response = Named{"none"})
-      : simulation(device, start.model, start.state, plan_of(adaptive, start.model), with_response(response)) {}
+      : Run(device, start, adaptive, with_response(response)) {}
   Simulation simulation;
 };
 
@@ -424,7 +426,9 @@ TEST_CASE("triangles that touch are found whatever the latest step was") {
 TEST_CASE("every search refits or skips every tree, also of steps that are rejected") {
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
-  Run run(*device, start, {}, Named{"reflect"});
+  CollisionDescription bottom_up = with_response(Named{"reflect"});
+  bottom_up.tree.refit = TreeRefit::bottom_up;
+  Run run(*device, start, {}, bottom_up);
   const StepReport report = run.simulation.advance_to(0.2);
   REQUIRE(report.adaptive->rejected > 0);
   const std::uint64_t searches = report.steps + report.adaptive->rejected;

@@ -13,6 +13,7 @@
 #include "gl/context.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
+#include "support/all_trees.hpp"
 #include "support/evolve.hpp"
 
 namespace pliant {
@@ -58,9 +59,9 @@ PairSet as_set(const std::vector<glm::uvec2>& pairs) {
 }
 
 // Adds every triangle of one leaf with every triangle of the other.
-void add_pairs(PairSet& pairs, const Forest& forest, const glm::uvec4& a, const glm::uvec4& b) {
-  for (std::uint32_t i = a.z; i < a.w; ++i)
-    for (std::uint32_t j = b.z; j < b.w; ++j) {
+void add_pairs(PairSet& pairs, const Forest& forest, const TreeNode& a, const TreeNode& b) {
+  for (std::uint32_t i = a.first_triangle; i < a.end_of_triangles(); ++i)
+    for (std::uint32_t j = b.first_triangle; j < b.end_of_triangles(); ++j) {
       const auto [s, t] = std::minmax(forest.triangle_ids[i], forest.triangle_ids[j]);
       pairs.emplace(s, t);
     }
@@ -96,10 +97,10 @@ TEST_CASE("on every shipped scene the trees find the pairs that brute force find
     CAPTURE(scene.file.string());
     CHECK(all.size() > 20);
     for (const TestDevice& test : all_devices()) {
-      for (const TreeSplit split : {TreeSplit::centre, TreeSplit::median, TreeSplit::surface_area}) {
-        CAPTURE(test.name, split);
+      for (const TreeDescription& tree : test::all_trees()) {
+        CAPTURE(test.name, tree.split, tree.fan_out, tree.refit);
         CollisionDescription collision = scene.collision;
-        collision.tree.split = split;
+        collision.tree = tree;
         CHECK(pairs_by_tree(*test.device, start, collision, positions) == all);
       }
     }

@@ -10,6 +10,7 @@
 
 #include "collision/contacts/oracle.hpp"
 #include "model/load_bodies.hpp"
+#include "support/all_trees.hpp"
 #include "support/collision_scene.hpp"
 #include "support/has.hpp"
 #include "support/scene_text.hpp"
@@ -170,9 +171,11 @@ TEST_CASE("searching trees, however they are split, and searching all pairs simu
   const ModelAndState start = build_model(colliding_spheres(), {0, 0, 0});
   const auto device = make_cpu_device(2, 32);
   const Outcome by_force = collide(*device, start, usual, 30, reflected_by(ContactSearch::brute_force));
-  for (const TreeSplit split : {TreeSplit::centre, TreeSplit::median, TreeSplit::surface_area}) {
+  for (const TreeDescription& tree : test::all_trees()) {
+    CAPTURE(tree.split, tree.fan_out, tree.refit);
     CollisionDescription collision = reflected;
-    collision.tree.split = split;
+    collision.tree = tree;
+    collision.treelet_pair_capacity = tree.fan_out == 2 ? 3 : 1000;  // too short, or long enough
     const Outcome by_tree = collide(*device, start, usual, 30, collision);
     CHECK(by_tree.state.motion == by_force.state.motion);
     CHECK(by_tree.report.contact_pairs_max == by_force.report.contact_pairs_max);
@@ -344,7 +347,7 @@ TEST_CASE("bodies that meet by impulses do no tree work while they are far apart
   CHECK(lone.collider().response() == nullptr);
 }
 
-TEST_CASE("in each part of a step a body's tree is refitted or counted as skipped") {
+TEST_CASE("in each part of a step a body's tree is refitted or counted as skipped, and a hybrid refit leaves boxes alone") {
   auto setups = colliding_spheres();
   for (BodySetup& setup : setups) {
     setup.description.position *= 3;
@@ -352,16 +355,27 @@ TEST_CASE("in each part of a step a body's tree is refitted or counted as skippe
   }
   const ModelAndState start = build_model(setups, {0, 0, 0});
   const auto device = make_cpu_device(1, 32);
-  Simulation simulation(*device, start.model, start.state, plan_of(usual), CollisionDescription{});
-  simulation.advance(20);
-  const StepReport report = simulation.report();
+  const auto run = [&](TreeRefit refit, std::uint32_t treelet_pair_capacity) {
+    CollisionDescription collision;
+    collision.tree.refit = refit;
+    collision.treelet_pair_capacity = treelet_pair_capacity;
+    Simulation simulation(*device, start.model, start.state, plan_of(usual), collision);
+    simulation.advance(20);
+    return std::pair(simulation.report(), nodes_of_a_search(simulation.collider()));
+  };
+  const auto [report, nodes] = run(TreeRefit::bottom_up, 1000);
   const std::uint64_t parts = report.steps + report.substeps;
   CHECK(report.steps == 20);
   CHECK(report.substeps > 0);
   CHECK(report.refits_skipped > 0);
   CHECK(report.refits_skipped % 2 == 0);  // of two bodies either both are another's partner or none is
   CHECK(report.refits_skipped < 2 * parts);
-  CHECK(report.nodes_refitted == nodes_of_a_search(simulation.collider()) * (parts - report.refits_skipped / 2));
+  CHECK(report.nodes_refitted == nodes * (parts - report.refits_skipped / 2));
+  const StepReport hybrid = run(TreeRefit::hybrid, 1000).first, short_list = run(TreeRefit::hybrid, 1).first;
+  CHECK(hybrid.refits_skipped == report.refits_skipped);
+  CHECK((hybrid.nodes_refitted > 0 && hybrid.nodes_refitted < report.nodes_refitted));
+  CHECK(short_list.refits_skipped == report.refits_skipped);
+  CHECK(short_list.nodes_refitted > hybrid.nodes_refitted);
 }
 
 TEST_CASE("a step can be left between its parts, and goes on to the same bits, after saving too") {

@@ -109,8 +109,12 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const bool sums_springs = name.ends_with("_stage") || name == "refresh_force";
     constexpr std::string_view in_rounds[] = {"solve_contacts",  "certify",      "pay_dues",
                                               "restore_impacts", "find_flights", "find_sleepers"};
+    constexpr std::string_view in_groups[] = {"refit",      "refit_cages",         "bound_treelets",     "bound_cage_treelets",
+                                              "find_pairs", "test_unlisted_pairs", "list_unlisted_pairs"};
+    const bool goes_in_groups = std::ranges::find(in_groups, name) != std::end(in_groups);
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     const auto signature = [&](Device& device) {
+      if (goes_in_groups) return device.signature(device.group_kernel(name));
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
       return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000, 1000))
                                            : device.kernel(name));

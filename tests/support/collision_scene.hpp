@@ -24,14 +24,14 @@ inline std::vector<BodySetup> colliding_spheres() {
 }
 
 /// Returns whether a search starts from the node or from one above it.
-inline bool is_kept(const glm::uvec4& node, std::uint32_t triangles_of_a_start) {
-  return node.x == 0 || node.w - node.z <= triangles_of_a_start;
+inline bool is_kept(const TreeNode& node, std::uint32_t triangles_of_a_treelet) {
+  return node.is_leaf() || node.triangle_count <= triangles_of_a_treelet;
 }
 
 /// Returns how many nodes all trees have from where searches start down.
 inline std::uint64_t nodes_of_a_search(const Collider& collider) {
   return static_cast<std::uint64_t>(std::ranges::count_if(
-      collider.forest().nodes, [&](const glm::uvec4& node) { return is_kept(node, collider.trees().triangles_of_a_start()); }));
+      collider.forest().nodes, [&](const TreeNode& node) { return is_kept(node, collider.trees().triangles_of_a_treelet()); }));
 }
 
 }  // namespace pliant

@@ -23,13 +23,20 @@ inline StepTraits traits_of(const Method& method, bool vary_in_length) {
           .damping_law = method.law};
 }
 
+/// Every device has the same trees then, if the scene leaves them to the device.
+inline CollisionDescription with_alike_trees(CollisionDescription collision) {
+  if (!collision.tree.refit) collision.tree.refit = TreeRefit::bottom_up;
+  return collision;
+}
+
 /// A whole simulation's passes on one device, with its objects kept alive.
 struct Bench {
   Bench(std::unique_ptr<Device> on, const ModelAndState& start, const Method& method, const CollisionDescription& collision)
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step),
-        collider(bodies, start.model, collision, traits_of(method, false), 256, true),  // every device cuts its searches alike
+        collider(bodies, start.model, with_alike_trees(collision), traits_of(method, false), 256,
+                 true),  // every device cuts its searches alike
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.run_all_stages(false);  // every device runs stages one by one
@@ -41,7 +48,7 @@ struct Bench {
       : device(std::move(on)),
         bodies(*device, start.model, start.state),
         stepper(bodies, start.model, find_integrator(method.integrator), method.law, method.time_step, Stages::of_estimates),
-        collider(bodies, start.model, collision, traits_of(method, true), 256),
+        collider(bodies, start.model, with_alike_trees(collision), traits_of(method, true), 256),
         grip(bodies, start.model, 1) {
     grip.aim_at({0, 2, 0}, 1e-3);
     bodies.run_all_stages(false);

@@ -59,7 +59,7 @@ TEST_CASE("boxes at deeper levels are more, and each is smaller than that above 
     CHECK(radius < radius_before);
     radius_before = radius;
   }
-  CHECK(before == 24 * scene.forest.leaves.size());
+  CHECK(before == 24 * static_cast<std::size_t>(std::ranges::count_if(scene.forest.nodes, &TreeNode::is_leaf)));
 }
 
 TEST_CASE("velocities are lines from the vertices, as long as a tenth of a second's way") {

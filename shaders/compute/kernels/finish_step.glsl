@@ -16,6 +16,7 @@ void add_count(uint k) {
 
 void move_clock() {
   control[0].near_pair_count = 0u;
+  control[0].treelet_pair_count = 0u;
   control[0].leaf_pair_count = 0u;
   if (control[0].non_finite_step != 0u) return;
   if (control[0].non_finite_vertex != no_vertex) control[0].non_finite_step = control[0].step;

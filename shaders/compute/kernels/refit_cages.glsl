@@ -1,24 +1,24 @@
-// One thread fits one leaf's box, and its part of the boxes above, to the cages of its triangles' corners.
+// A group kernel. It fits the boxes of a treelet's nodes to the cages of the triangles' corners.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
+#include "../physics/collision/treelet.glsl"
 WRITE(control)
-READ(leaf)
+READ(status)
+READ(tree)
+READ(treelet)
+READ(treelet_step)
 READ(node)
 SHARED_WRITE(node_box)
 READ(triangle)
 READ(cage)
-WRITE(arrival)
-READ(status)
+PARAMETER(uint, treelet_pair_capacity)
+
 #include "parts/boxes_in_motion.glsl"
-Box box_of_triangle(uint t) {
-  PaddedBox cages = box_of_cages(t);
-  Box box;
-  box.lower = vec3(cages.lower);
-  box.upper = vec3(cages.upper);
-  return box;
-}
+PaddedBox box_of_triangle(uint t) { return box_of_cages(t); }
+#include "parts/node_boxes.glsl"
+#include "parts/store_node_box.glsl"
 #include "parts/refit.glsl"
 
-void refit_cages(uint item) { refit_tree(item); }
+void refit_cages(uint item) { refit_treelet(item); }

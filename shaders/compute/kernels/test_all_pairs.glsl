@@ -7,7 +7,6 @@
 #include "../physics/collision/moller_triangles.glsl"
 WRITE(control)
 READ(near_pair)
-READ(node)
 READ(triangle)
 READ(world_position)
 WRITE(mark)
@@ -21,11 +20,10 @@ PARAMETER(uint, pairs_at_once)
 
 void test_all_pairs(uint item) {
   for (uint k = item / threads_per_pair; k < control[0].near_pair_count; k += pairs_at_once) {
-    uvec4 first = node[tree[near_pair[k].x].x];
-    uvec4 second = node[tree[near_pair[k].y].x];
+    uvec4 first = tree[near_pair[k].x], second = tree[near_pair[k].y];
     uint s = first.z + item % threads_per_pair;
     if (s >= first.w) continue;
-    Box box = box_of_triangle(s);
+    PaddedBox box = box_of_triangle(s);
     uint tests = 0u;
     for (uint t = second.z; t < second.w; ++t) {
       if (!overlaps(box, box_of_triangle(t))) continue;

@@ -1,5 +1,5 @@
-// One thread tests a sixteenth of the pairs of triangles of two leaves. All threads share the list of leaf pairs in strides. If it was too
-// short, all is left to test_unlisted_pairs.
+// One thread, or sixteen of them, test the pairs of triangles of two leaves. All threads share the list of leaf pairs in strides. If it was
+// too short, all is left to test_unlisted_pairs.
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
@@ -8,6 +8,7 @@
 WRITE(control)
 READ(leaf_pair)
 READ(node)
+READ(node_box)
 READ(triangle)
 READ(world_position)
 WRITE(mark)
@@ -15,11 +16,11 @@ PARAMETER(uint, first_position)
 PARAMETER(uint, triangle_test)
 PARAMETER(uint, leaf_pair_capacity)
 PARAMETER(uint, pairs_at_once)
+PARAMETER(uint, test_width)  // its square is the number of threads of a pair
 #include "parts/test_leaves.glsl"
 
 void test_pairs(uint item) {
-  uint count = control[0].leaf_pair_count, part = item % threads_per_leaf_pair;
+  uint count = control[0].leaf_pair_count, threads = test_width * test_width;
   if (count > leaf_pair_capacity) return;
-  for (uint k = item / threads_per_leaf_pair; k < count; k += pairs_at_once)
-    test_leaves(leaf_pair[k], uvec2(part / 4u, part % 4u), 4u);
+  for (uint k = item / threads; k < count; k += pairs_at_once) test_leaves(leaf_pair[k], item % threads, test_width);
 }

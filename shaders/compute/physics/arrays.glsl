@@ -52,12 +52,14 @@ ARRAY(moment, Moments, part, step, "sums over these vertices, for the body's rig
 ARRAY(rigid_motion, RigidMotion, body, step, "what internal damping leaves alone, at a stage; zeros for bodies without it")
 
 // contacts
-ARRAY(tree, uvec2, body, fixed, "root, number of leaves")
-ARRAY(node, uvec4, node, fixed, "of all trees: left child (0: leaf; the right child is next), parent (none: searches start here), first triangle, end of triangles. Behind them, for each body: index in this array of its first start, number of its starts, 0, 0. Behind these, for each start: its node, 0, 0, 0")
+ARRAY(tree, uvec4, body, fixed, "first treelet, number of treelets, first triangle, end of triangles")
+ARRAY(treelet, Treelet, treelet, fixed, "nodes, and vertices, of a part of a body's tree that is refitted and searched as one; a body's follow each other")
+ARRAY(treelet_vertex, uint, vertex, fixed, "of a treelet's triangles, each once; one number if refits are bottom-up")
+ARRAY(treelet_step, uint, treelet, step, "the latest step in which it overlapped one of another body; one number if refits are bottom-up")
+ARRAY(treelet_pair, uvec2, pair, step, "treelets of near bodies whose boxes overlap; one pair if refits are bottom-up")
+ARRAY(node, uvec4, node, fixed, "of treelets, level by level: first child, one past the last child (both 0: leaf), first triangle, end of triangles")
 ARRAY(node_box, vec4, node, step, "[node][2] lower, upper [m]")
-ARRAY(leaf, uvec2, leaf, fixed, "node, body")
 ARRAY(triangle, uint, triangle, fixed, "[triangle][3] vertex indices, in leaf order")
-ARRAY(arrival, uint, node, step, "children refitted so far, 0 between steps")
 ARRAY(near_pair, uvec4, pair, step, "two bodies, then the next pair of each by its number + 1, or 0; in no fixed order")
 ARRAY(grid_list, uint, list, step, "the first body that stands in a list of the grid, by its number + 1; 0 between steps")
 ARRAY(grid_entry, GridEntry, body, step, "where the body stands in the grid of boxes")

@@ -8,10 +8,8 @@ SHARED_BEGIN
 const uint certified_test = 0u;
 const uint moller_test = 1u;
 
-const uint group_size = 64u;  // threads in a work group of main.comp
+const uint group_size = 64u;  // threads in a work group of main.comp and groups.comp
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
-const uint threads_per_leaf_pair = 16u;  // in test_pairs
-const uint no_node = 0xffffffffu;  // parent of a root, or root of a body without triangles
 
 // What is counted in each step and summed over the run.
 const uint nodes_refitted = 0u;
@@ -36,10 +34,12 @@ struct Control {
   uint contact_steps;      // steps with a contact
   uint contact_pairs_max;  // most triangle pairs in one step
   uint near_pair_count;    // body pairs whose boxes overlap, this step
+  uint treelet_pair_count;  // pairs of treelets whose boxes overlap, this step (can exceed the list's capacity)
   uint leaf_pair_count;    // pairs of leaves whose boxes overlap, this step (can exceed the list's capacity)
   uint count[counter_count];       // this step's, by the names above
   uint total_low[counter_count];   // of all steps before: 64 bits in two halves
   uint total_high[counter_count];
+  uint padding;
 };
 
 FN uint groups_for(uint item_count) { return (item_count + group_size - 1u) / group_size; }

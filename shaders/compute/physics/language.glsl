@@ -46,6 +46,13 @@
   #define CONSTANTS(name, count) const array::name::element* const name = arguments.constants<array::name::element>(#name);
   #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);
   #define PRIVATE(T, name) T name{};
+  // A group kernel (groups.comp) serves an item by THREADS threads, of which each is a THREAD. They MEET, and have NEAR memory in common.
+  // On the CPU that is one thread.
+  #define THREAD 0u
+  #define THREADS 1u
+  #define MEET
+  #define NEAR(T, name, n) T name[n]{};
+  #define NEAR_ADD(before, target, value) const uint before = target; target += (value);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
   #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
 #else
@@ -63,6 +70,11 @@
   #define INOUT(T) inout T
   #define IN_ARRAY(T, name, n) in T name[n]
   #define PRIVATE(T, name) T name;      // each thread has its own
+  #define THREAD gl_LocalInvocationID.x
+  #define THREADS gl_WorkGroupSize.x
+  #define MEET { groupMemoryBarrier(); barrier(); }
+  #define NEAR(T, name, n) shared T name[n];
+  #define NEAR_ADD(before, target, value) uint before = atomicAdd(target, value);
   #define EXACT precise                 // every operation rounds by itself, in the order written
   #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
   #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
@@ -123,7 +135,28 @@ FN vec4 of_lanes(__m128 lanes) {
 }
 FN vec4 min(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_min_ps(lanes(a), lanes(b))); }
 FN vec4 max(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_max_ps(lanes(a), lanes(b))); }
-FN bool any_above_zero(IN(vec4) v) { return _mm_movemask_ps(_mm_cmpgt_ps(lanes(v), _mm_setzero_ps())) != 0; }
+FN vec4 operator+(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_add_ps(lanes(a), lanes(b))); }
+FN vec4 operator-(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_sub_ps(lanes(a), lanes(b))); }
+FN vec4 operator*(IN(vec4) a, IN(vec4) b) { return of_lanes(_mm_mul_ps(lanes(a), lanes(b))); }
+FN vec4 operator*(IN(vec4) a, float b) { return of_lanes(_mm_mul_ps(lanes(a), _mm_set1_ps(b))); }
+FN vec4 abs(IN(vec4) v) { return of_lanes(_mm_andnot_ps(_mm_set1_ps(-0.0f), lanes(v))); }
+// Whether a component of a is above that of b, or one of c above that of d.
+FN bool any_above(IN(vec4) a, IN(vec4) b, IN(vec4) c, IN(vec4) d) {
+  return _mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(lanes(a), lanes(b)), _mm_cmpgt_ps(lanes(c), lanes(d)))) != 0;
+}
+// A bit for each component: whether it is above that of b.
+FN uint bits_above(IN(vec4) a, IN(vec4) b) { return uint(_mm_movemask_ps(_mm_cmpgt_ps(lanes(a), lanes(b)))); }
+FN __m128 halves_swapped(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(1, 0, 3, 2)); }
+FN __m128 pairs_swapped(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(2, 3, 0, 1)); }
+// The smallest and the largest component.
+FN float least_of(IN(vec4) v) {
+  const __m128 two = _mm_min_ps(lanes(v), halves_swapped(lanes(v)));
+  return _mm_cvtss_f32(_mm_min_ps(two, pairs_swapped(two)));
+}
+FN float largest_of(IN(vec4) v) {
+  const __m128 two = _mm_max_ps(lanes(v), halves_swapped(lanes(v)));
+  return _mm_cvtss_f32(_mm_max_ps(two, pairs_swapped(two)));
+}
 #endif
 // GLSL's atomic functions, for threads of the CPU. Each returns the value from before.
 FN uint atomicAdd(uint& target, uint value) { return std::atomic_ref(target).fetch_add(value, std::memory_order_acq_rel); }
@@ -147,14 +180,20 @@ FN uint atomicCompSwap(uint& target, uint expected, uint value) {
   return expected;
 }
 FN uint atomicOr(uint& target, uint bits) { return std::atomic_ref(target).fetch_or(bits, std::memory_order_acq_rel); }
-FN void memoryBarrierBuffer() {}  // atomicAdd orders memory on the CPU
 FN int bitCount(uint bits) { return std::popcount(bits); }
 FN int findLSB(uint bits) { return bits == 0 ? -1 : std::countr_zero(bits); }
 FN uint floatBitsToUint(float value) { return std::bit_cast<uint>(value); }
 FN float uintBitsToFloat(uint bits) { return std::bit_cast<float>(bits); }
 #endif
 #ifndef __SSE__
-FN bool any_above_zero(IN(vec4) v) { return max(max(v.x, v.y), max(v.z, v.w)) > 0.0f; }
+FN bool any_above(IN(vec4) a, IN(vec4) b, IN(vec4) c, IN(vec4) d) {
+  return a.x > b.x || a.y > b.y || a.z > b.z || a.w > b.w || c.x > d.x || c.y > d.y || c.z > d.z || c.w > d.w;
+}
+FN uint bits_above(IN(vec4) a, IN(vec4) b) {
+  return (a.x > b.x ? 1u : 0u) | (a.y > b.y ? 2u : 0u) | (a.z > b.z ? 4u : 0u) | (a.w > b.w ? 8u : 0u);
+}
+FN float least_of(IN(vec4) v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+FN float largest_of(IN(vec4) v) { return max(max(v.x, v.y), max(v.z, v.w)); }
 #endif
 // The dot and the cross product. Every device rounds them in the order written.
 FN float ordered_dot(vec3 a, vec3 b) {

@@ -25,22 +25,24 @@ struct Rounds {
   double least_seconds;
 };
 constexpr Rounds all_rounds{15, 0.3}, quick_rounds{3, 0.01};
+constexpr int rounds_of_a_batch = 8;  // a GPU slows down where it waits after each
 
 struct Seconds {
   double refit, query;
 };
 
-// Returns medians. The first round warms up.
-template <class Round>
-Seconds repeated(const Rounds& rounds, const Round& round) {
-  round();
+// Returns medians. `batch` makes some rounds. Those of the first third of the time warm up.
+template <class Batch>
+Seconds repeated(const Rounds& rounds, const Batch& batch) {
   std::vector<double> refits, queries;
-  for (double passed = 0; refits.size() < rounds.least || passed < rounds.least_seconds;) {
-    const Seconds taken = round();
-    refits.push_back(taken.refit);
-    queries.push_back(taken.query);
-    passed += taken.refit + taken.query;
-  }
+  for (double passed = 0; passed < rounds.least_seconds / 3;)
+    for (const Seconds& taken : batch()) passed += taken.refit + taken.query;
+  for (double passed = 0; refits.size() < rounds.least || passed < rounds.least_seconds;)
+    for (const Seconds& taken : batch()) {
+      refits.push_back(taken.refit);
+      queries.push_back(taken.query);
+      passed += taken.refit + taken.query;
+    }
   return {median(refits), median(queries)};
 }
 
@@ -74,12 +76,17 @@ TwoMeshes meshes_of(const ModelAndState& start) {
   return meshes;
 }
 
+physics::PaddedBox box_of(const TwoMeshes& meshes, std::uint32_t triangle) {
+  const glm::vec4 p = meshes.corner(triangle, 0), q = meshes.corner(triangle, 1), r = meshes.corner(triangle, 2);
+  return {glm::min(glm::min(p, q), r), glm::max(glm::max(p, q), r)};
+}
+
 // Embree gives all pairs of triangles of two leaves, so boxes are tested first.
 bool touch(const TwoMeshes& meshes, glm::uvec2 pair) {
+  if (!physics::overlaps(box_of(meshes, pair.x), box_of(meshes, pair.y))) return false;
   const auto corner = [&](std::uint32_t triangle, std::uint32_t k) { return glm::vec3(meshes.corner(triangle, k)); };
   const glm::vec3 p[3] = {corner(pair.x, 0), corner(pair.x, 1), corner(pair.x, 2)};
   const glm::vec3 q[3] = {corner(pair.y, 0), corner(pair.y, 1), corner(pair.y, 2)};
-  if (!physics::overlaps(physics::triangle_box(p[0], p[1], p[2]), physics::triangle_box(q[0], q[1], q[2]))) return false;
   return physics::triangles_may_touch(p, q);
 }
 
@@ -90,14 +97,18 @@ struct Found {
   bool operator==(const Found&) const = default;
 };
 
-// How pliant searches: a row of the result.
+// How pliant searches: a row of the result. The first has what is best on the device.
 struct Search {
   const char* name;
   ContactSearch method = ContactSearch::tree;
-  TreeSplit split = TreeSplit::centre;
+  TreeDescription tree{};
 };
-const std::array<Search, 4> searches = {Search{"pliant"}, Search{"pliant, median", ContactSearch::tree, TreeSplit::median},
-                                        Search{"pliant, surface area", ContactSearch::tree, TreeSplit::surface_area},
+const std::array<Search, 7> searches = {Search{"pliant"},
+                                        Search{"pliant, bottom-up", ContactSearch::tree, {.refit = TreeRefit::bottom_up}},
+                                        Search{"pliant, fan-out 2", ContactSearch::tree, {.fan_out = 2}},
+                                        Search{"pliant, fan-out 4", ContactSearch::tree, {.fan_out = 4}},
+                                        Search{"pliant, median", ContactSearch::tree, {.split = TreeSplit::median}},
+                                        Search{"pliant, surface area", ContactSearch::tree, {.split = TreeSplit::surface_area}},
                                         Search{"brute force", ContactSearch::brute_force}};
 
 // One size and overlap. The first row says what others have to find.
@@ -116,15 +127,14 @@ class Case {
     const auto device = open(place);
     CollisionDescription description;
     description.search = search.method;
-    description.tree.split = search.split;
+    description.tree = search.tree;
     description.response = {"none"};
     const bool has_trees = search.method == ContactSearch::tree;
     DeviceBodies bodies(*device, start_.model, start_.state);
     Collider collider(bodies, start_.model, description, {});
     device->run(std::array{collider.bounding_pass(0)});
     const Pass end = make_pass(bodies.arrays, "finish_step", {}, physics::counter_count);
-    std::optional<Found> found;
-    const Seconds seconds = repeated(rounds_, [&] {
+    const auto make_round = [&] {
       device->run(collider.pairing_passes(0));
       device->mark_time();
       device->run(collider.refitting_passes(0));
@@ -132,12 +142,22 @@ class Case {
       device->run(collider.finding_passes());
       device->run(collider.testing_passes(0));
       device->mark_time();
+    };
+    make_round();
+    (void)device->take_times();
+    const Found found = what_it_found(bodies, collider);
+    device->run(std::array{end});
+    const Seconds seconds = repeated(rounds_, [&] {
+      for (int round = 0; round < rounds_of_a_batch; ++round) {
+        make_round();
+        device->run(std::array{end});
+      }
       const std::vector<double> at = device->take_times();
-      if (!found) found = what_it_found(bodies, collider);
-      device->run(std::array{end});
-      return Seconds{at[1] - at[0], at[2] - at[1]};
+      std::vector<Seconds> taken;
+      for (std::size_t k = 0; k < at.size(); k += 3) taken.push_back({at[k + 1] - at[k], at[k + 2] - at[k + 1]});
+      return taken;
     });
-    add(search.name, place.device, place.threads, has_trees ? seconds_of_build(description.tree) : 0, seconds, *found);
+    add(search.name, place.device, place.threads, has_trees ? seconds_of_build(search.tree) : 0, seconds, found);
   }
 
   void measure(const TreeLibrary& library) {
@@ -154,15 +174,15 @@ class Case {
         peer->find(pairs);
         if (!library.tests_triangles) std::erase_if(pairs, [&](glm::uvec2 pair) { return !touch(meshes_, pair); });
       });
-      return Seconds{refit.seconds(), query.seconds()};
+      return std::array{Seconds{refit.seconds(), query.seconds()}};
     });
     add(library.name, DeviceKind::cpu, 1, building.seconds(), seconds, what_it_found(pairs));
   }
 
  private:
-  [[nodiscard]] double seconds_of_build(const TreeDescription& description) const {
+  [[nodiscard]] double seconds_of_build(const TreeDescription& tree) const {
     Stopwatch building;
-    building.time([&] { (void)build_forest(start_.model, start_.model.rest_positions, description); });
+    building.time([&] { (void)build_forest(start_.model, start_.model.rest_positions, tree); });
     return building.seconds();
   }
 

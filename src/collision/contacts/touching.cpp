@@ -36,10 +36,15 @@ Parameters Touching::test_parameters(std::uint32_t half) const {
 }
 
 Pass Touching::testing_pass(std::uint32_t half) const {
-  const std::uint32_t pairs = std::clamp(parallel_items_, least_test_threads, most_test_threads) / physics::threads_per_leaf_pair;
+  const Device& device = bodies_.arrays.device();
+  // A GPU waits for the slowest pair.
+  const std::uint32_t width = device.info().kind == DeviceKind::gpu ? 4 : 1, threads = width * width;
+  const std::uint32_t pairs = device.info().kind == DeviceKind::gpu
+                                  ? std::clamp(parallel_items_, least_test_threads, most_test_threads) / threads
+                                  : parallel_items_;
   Parameters parameters = test_parameters(half);
-  parameters.emplace_back("pairs_at_once", pairs);
-  return make_pass(bodies_.arrays, "test_pairs", parameters, pairs * physics::threads_per_leaf_pair);
+  parameters.insert(parameters.end(), {{"pairs_at_once", pairs}, {"test_width", width}});
+  return make_pass(bodies_.arrays, "test_pairs", parameters, pairs * threads);
 }
 
 Pass Touching::brute_force_pass(std::uint32_t half) const {

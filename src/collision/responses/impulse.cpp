@@ -94,7 +94,7 @@ class Impulse final : public Response {
       : bodies_(setting.bodies),
         body_pairs_(setting.body_pairs),
         trees_(setting.trees),
-        has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.leaves.empty()),
+        has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.nodes.empty()),
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),

@@ -7,6 +7,7 @@
 
 #include "collision/trees/split.hpp"
 #include "core/expect.hpp"
+#include "physics/collision/treelet.glsl"
 
 namespace pliant {
 namespace {
@@ -33,6 +34,7 @@ class BodyTree {
   BodyTree(Forest& forest, const TreeDescription& description, std::vector<TreeItem> items)
       : forest_(forest),
         description_(description),
+        splits_of_a_node_(static_cast<unsigned>(std::bit_width(description.fan_out)) - 1),
         items_(std::move(items)),
         first_triangle_(static_cast<std::uint32_t>(forest.triangles.size())),
         max_depth_(description.max_depth.value_or(default_depth(items_.size(), description.leaf_size))) {}
@@ -40,7 +42,7 @@ class BodyTree {
   /// Appends nodes level by level: a node's children go to the end while the nodes before are already settled.
   void build() {
     const std::size_t root = forest_.nodes.size();
-    append(no_node, 0, items_.size());
+    forest_.nodes.push_back({.first_triangle = first_triangle_, .triangle_count = static_cast<std::uint32_t>(items_.size())});
     for (std::size_t level_begin = root, depth = 0; level_begin < forest_.nodes.size(); ++depth) {
       const std::size_t level_end = forest_.nodes.size();
       for (std::size_t node = level_begin; node < level_end; ++node) settle(node, depth);
@@ -52,79 +54,70 @@ class BodyTree {
   [[nodiscard]] const std::vector<TreeItem>& items() const { return items_; }
 
  private:
-  void append(std::uint32_t parent, std::size_t begin, std::size_t end) {
-    forest_.nodes.emplace_back(0, parent, first_triangle_ + begin, first_triangle_ + end);
+  struct Part {
+    std::size_t begin, end;
+  };
+
+  /// Splits what should and can be split, in two.
+  void split(const Part& part, std::vector<Part>& into) {
+    const std::size_t count = part.end - part.begin;
+    std::size_t first = 0;
+    if (count > description_.leaf_size)
+      first = split_items(description_.split, std::span(items_).subspan(part.begin, count), description_.leaf_size);
+    const bool is_split = first > 0 && first < count;
+    if (is_split) into.push_back({part.begin, part.begin + first});
+    into.push_back({is_split ? part.begin + first : part.begin, part.end});
   }
 
-  /// Splits the node if it should and can be split.
+  /// Gives the node its children.
   void settle(std::size_t node, std::size_t depth) {
-    const std::size_t begin = forest_.nodes[node].z - first_triangle_;
-    const std::size_t end = forest_.nodes[node].w - first_triangle_;
-    if (end - begin <= description_.leaf_size || depth >= max_depth_) return;
-    const std::size_t middle =
-        begin + split_items(description_.split, std::span(items_).subspan(begin, end - begin), description_.leaf_size);
-    if (middle == begin || middle == end) return;
-    forest_.nodes[node].x = static_cast<std::uint32_t>(forest_.nodes.size());
-    append(static_cast<std::uint32_t>(node), begin, middle);
-    append(static_cast<std::uint32_t>(node), middle, end);
+    const std::size_t begin = forest_.nodes[node].first_triangle - first_triangle_;
+    std::vector<Part> parts = {{begin, begin + forest_.nodes[node].triangle_count}};
+    const std::size_t splits_before = depth * splits_of_a_node_;
+    for (std::size_t k = splits_before; k < std::min<std::size_t>(splits_before + splits_of_a_node_, max_depth_); ++k) {
+      std::vector<Part> smaller;
+      for (const Part& part : parts) split(part, smaller);
+      parts = std::move(smaller);
+    }
+    if (parts.size() < 2) return;
+    forest_.nodes[node].first_child = static_cast<std::uint32_t>(forest_.nodes.size());
+    forest_.nodes[node].child_count = static_cast<std::uint32_t>(parts.size());
+    for (const Part& part : parts)
+      forest_.nodes.push_back({.parent = static_cast<std::uint32_t>(node),
+                               .first_triangle = first_triangle_ + static_cast<std::uint32_t>(part.begin),
+                               .triangle_count = static_cast<std::uint32_t>(part.end - part.begin)});
   }
 
   Forest& forest_;
   const TreeDescription& description_;
+  unsigned splits_of_a_node_;
   std::vector<TreeItem> items_;
   std::uint32_t first_triangle_;
   unsigned max_depth_;
 };
 
-void list_leaves(Forest& forest, std::uint32_t body, std::uint32_t first_node) {
-  const std::size_t leaves_before = forest.leaves.size();
-  for (std::uint32_t node = first_node; node < forest.nodes.size(); ++node) {
-    if (forest.nodes[node].x == 0) forest.leaves.emplace_back(node, body);
-  }
-  forest.leaf_counts.push_back(static_cast<std::uint32_t>(forest.leaves.size() - leaves_before));
-}
-
 void add_tree(Forest& forest, const Model& model, std::uint32_t body, std::span<const glm::vec4> positions,
               const TreeDescription& description) {
   const ModelBody& range = model.bodies[body];
-  const auto first_node = static_cast<std::uint32_t>(forest.nodes.size());
-  forest.roots.push_back(range.triangle_count > 0 ? first_node : no_node);
-  if (range.triangle_count > 0) {
-    std::vector<TreeItem> items;
-    for (std::uint32_t i = 0; i < range.triangle_count; ++i)
-      items.push_back(make_item(model, positions, range.first_triangle + i));
-    BodyTree tree(forest, description, std::move(items));
-    tree.build();
-    for (const TreeItem& item : tree.items()) {
-      forest.triangles.push_back(model.triangles[item.triangle]);
-      forest.triangle_ids.push_back(item.triangle);
-    }
+  forest.roots.push_back(range.triangle_count > 0 ? static_cast<std::uint32_t>(forest.nodes.size()) : no_node);
+  if (range.triangle_count == 0) return;
+  std::vector<TreeItem> items;
+  for (std::uint32_t i = 0; i < range.triangle_count; ++i) items.push_back(make_item(model, positions, range.first_triangle + i));
+  BodyTree tree(forest, description, std::move(items));
+  tree.build();
+  for (const TreeItem& item : tree.items()) {
+    forest.triangles.push_back(model.triangles[item.triangle]);
+    forest.triangle_ids.push_back(item.triangle);
   }
-  list_leaves(forest, body, first_node);
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> start_nodes(const Forest& forest, std::uint32_t body, std::uint32_t most_triangles) {
-  std::vector<std::uint32_t> starts, open;
-  if (forest.roots[body] != no_node) open.push_back(forest.roots[body]);
-  while (!open.empty()) {
-    const std::uint32_t at = open.back();
-    const glm::uvec4& node = forest.nodes[at];
-    open.pop_back();
-    if (node.x == 0 || node.w - node.z <= most_triangles) {
-      starts.push_back(at);
-    } else {
-      open.push_back(node.x + 1);
-      open.push_back(node.x);
-    }
-  }
-  return starts;
-}
-
 Forest build_forest(const Model& model, std::span<const glm::vec4> positions, const TreeDescription& description) {
   PLIANT_EXPECT(positions.size() == model.rest_positions.size());
-  PLIANT_EXPECT(description.leaf_size > 0);
+  PLIANT_EXPECT(description.leaf_size > 0 && description.max_depth.value_or(1) <= physics::most_splits);
+  PLIANT_EXPECT(std::has_single_bit(description.fan_out) && description.fan_out > 1 &&
+                description.fan_out <= physics::most_children);
   Forest forest;
   for (std::uint32_t body = 0; body < model.bodies.size(); ++body) add_tree(forest, model, body, positions, description);
   return forest;

@@ -1,8 +1,8 @@
 #include "collision/trees/tree_search.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
+#include <utility>
 
 namespace pliant {
 namespace {
@@ -12,14 +12,12 @@ namespace {
 // Mesa's llvmpipe silently stops what has gone through loops 65,535 times.
 constexpr std::uint32_t least_search_threads = 4096;
 
-// Threads that hardly ever have anything to do should be few.
-constexpr std::uint32_t most_unlisted_threads = 16384;
+// Groups are as many as keep the device busy, since those with nothing to do take time, too. Those that hardly ever have anything
+// to do should be few.
+constexpr std::uint32_t most_unlisted_groups = 1024;
+std::uint32_t most_groups_of(std::uint32_t parallel_items) { return std::clamp(parallel_items / 16, 256u, 4096u); }
 
-std::vector<glm::uvec2> trees_of(const Forest& forest) {
-  std::vector<glm::uvec2> trees;
-  for (std::size_t body = 0; body < forest.roots.size(); ++body) trees.emplace_back(forest.roots[body], forest.leaf_counts[body]);
-  return trees;
-}
+constexpr std::uint32_t least_triangles_of_a_treelet = 16;
 
 std::vector<std::uint32_t> corners_of(const Forest& forest) {
   std::vector<std::uint32_t> corners;
@@ -27,57 +25,44 @@ std::vector<std::uint32_t> corners_of(const Forest& forest) {
   return corners;
 }
 
-// Returns how many triangles a subtree has, at most, from which searches start. Subtrees of about one size make threads end
-// together, whatever the sizes of bodies. They are small enough to keep the device busy if each body met another one as large,
-// unless bodies are so many that whole trees do.
-std::uint32_t most_triangles_of_a_start(std::uint32_t parallel_items, const Forest& forest, std::uint32_t body_count) {
-  const auto subtree_pairs = [&](std::uint32_t most_triangles) {
+// Returns how many triangles a treelet has, at most. There are enough of them to keep the device busy if each body met another
+// one as large, unless bodies are so many that whole trees do. Smaller treelets leave less to refit, but make more pairs. As many
+// pairs as a quarter of the triangles is a good compromise.
+std::uint32_t most_triangles_of_a_treelet(std::uint32_t parallel_items, const Forest& forest) {
+  const auto treelet_pairs = [&](std::uint32_t most_triangles) {
     std::uint64_t pairs = 0;
-    for (std::uint32_t body = 0; body < body_count; ++body) {
-      if (forest.roots[body] == no_node) continue;
-      const glm::uvec4& root = forest.nodes[forest.roots[body]];
-      const std::uint64_t subtrees = (root.w - root.z - 1) / most_triangles + 1;
-      pairs += subtrees * subtrees;
+    for (const std::uint32_t root : forest.roots) {
+      if (root == no_node) continue;
+      const std::uint64_t treelets = roots_of_treelets(forest, root, most_triangles).size();
+      pairs += treelets * treelets;
     }
     return pairs;
   };
-  const std::uint64_t enough = std::max(std::uint64_t{4} * parallel_items, std::uint64_t{body_count});
-  std::uint32_t most_triangles = 1;
-  while (subtree_pairs(most_triangles) > enough) most_triangles *= 2;
+  const std::uint64_t enough = std::max<std::uint64_t>({parallel_items, forest.triangles.size() / 4, forest.roots.size()});
+  std::uint32_t most_triangles = least_triangles_of_a_treelet;
+  while (treelet_pairs(most_triangles) > enough) most_triangles *= 2;
   return most_triangles;
 }
 
-// Returns the array `node`. The nodes that searches start from have no parent, so that a refit ends there.
-std::vector<glm::uvec4> cut_nodes(const Forest& forest, std::uint32_t most_triangles) {
-  std::vector<glm::uvec4> nodes = forest.nodes, starts;
-  const std::size_t first_start = forest.nodes.size() + forest.roots.size();
-  for (std::uint32_t body = 0; body < forest.roots.size(); ++body) {
-    const std::vector<std::uint32_t> of_body = start_nodes(forest, body, most_triangles);
-    nodes.emplace_back(first_start + starts.size(), of_body.size(), 0, 0);
-    for (const std::uint32_t start : of_body) {
-      nodes[start].y = no_node;
-      starts.emplace_back(start, 0, 0, 0);
-    }
-  }
-  nodes.insert(nodes.end(), starts.begin(), starts.end());
-  return nodes;
+// Returns how many pairs of treelets there may be to look at.
+std::uint32_t most_treelet_pairs(const Treelets& treelets, std::uint32_t most_near_pairs) {
+  std::uint64_t most_treelets = 1;
+  for (const glm::uvec4& tree : treelets.trees) most_treelets = std::max<std::uint64_t>(most_treelets, tree.y);
+  constexpr std::uint64_t many = 1u << 31;
+  return static_cast<std::uint32_t>(
+      std::min(many, std::min(many, most_treelets * most_treelets) * std::max(most_near_pairs, 1u)));
 }
 
-// More threads than this would have nothing to do.
-std::uint32_t most_subtree_pairs(const std::vector<glm::uvec4>& nodes, const Forest& forest, std::uint32_t most_near_pairs) {
-  std::uint64_t most_starts = 1;
-  for (std::size_t body = 0; body < forest.roots.size(); ++body)
-    most_starts = std::max<std::uint64_t>(most_starts, nodes[forest.nodes.size() + body].y);
-  constexpr std::uint64_t many = 1u << 31;
-  return static_cast<std::uint32_t>(std::min(many, std::min(many, most_starts * most_starts) * std::max(most_near_pairs, 1u)));
-}
+TreeRefit default_refit(DeviceKind device) { return device == DeviceKind::gpu ? TreeRefit::bottom_up : TreeRefit::hybrid; }
 
 // Returns how many pairs there are of two leaves of different bodies.
 std::uint64_t all_leaf_pairs(const Forest& forest) {
-  std::uint64_t leaves = 0, pairs = 0;
-  for (const std::uint32_t of_body : forest.leaf_counts) {
+  std::uint64_t leaves = 0, pairs = 0, of_body = 0;
+  for (std::size_t n = forest.nodes.size(); n-- > 0;) {
+    of_body += forest.nodes[n].is_leaf() ? 1 : 0;
+    if (forest.nodes[n].parent != no_node) continue;
     pairs += leaves * of_body;
-    leaves += of_body;
+    leaves += std::exchange(of_body, 0);
   }
   return pairs;
 }
@@ -88,34 +73,58 @@ std::uint32_t pairs_at_once(std::uint32_t parallel_items, std::uint32_t threads_
   return std::clamp<std::uint32_t>(std::max(parallel_items, least_search_threads) / threads_per_pair, 1, most_pairs);
 }
 
-TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, std::uint32_t leaf_pair_capacity, std::uint32_t parallel_items,
-                       std::uint32_t most_near_pairs)
+TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, const CollisionDescription& description,
+                       std::uint32_t parallel_items, std::uint32_t most_near_pairs)
     : bodies_(bodies),
-      leaf_count_(static_cast<std::uint32_t>(forest.leaves.size())),
-      leaf_pair_capacity_(leaf_pair_capacity),
-      may_lack_room_(all_leaf_pairs(forest) > leaf_pair_capacity),
-      triangles_of_a_start_(most_triangles_of_a_start(parallel_items, forest, bodies.body_count)) {
-  const std::vector<glm::uvec4> nodes = cut_nodes(forest, triangles_of_a_start_);
-  search_threads_ = pairs_at_once(parallel_items, 1, most_subtree_pairs(nodes, forest, most_near_pairs));
+      leaf_pair_capacity_(description.leaf_pair_capacity),
+      may_lack_room_(all_leaf_pairs(forest) > description.leaf_pair_capacity),
+      triangles_of_a_treelet_(most_triangles_of_a_treelet(parallel_items, forest)) {
+  const Device& device = bodies.arrays.device();
+  Treelets treelets = cut_into_treelets(forest, triangles_of_a_treelet_);
+  treelet_count_ = static_cast<std::uint32_t>(treelets.treelets.size());
+  // If each tree is one treelet, all that a search needs is known beforehand.
+  is_hybrid_ = description.tree.refit.value_or(default_refit(device.info().kind)) == TreeRefit::hybrid &&
+               std::ranges::any_of(treelets.trees, [](const glm::uvec4& tree) { return tree.y > 1; });
+  const std::uint32_t treelet_pairs = is_hybrid_ ? description.treelet_pair_capacity : 0;
+  const std::uint32_t most = most_treelet_pairs(treelets, most_near_pairs);
+  const std::uint32_t pairs_of_a_group = device.info().kind == DeviceKind::gpu ? 32 : 1;  // 16 and 64 take an H200 as long
+  search_groups_ = std::clamp(most / pairs_of_a_group, 1u, most_groups_of(parallel_items));
+  pairing_threads_ = pairs_at_once(parallel_items, 1, most);
   Arrays& arrays = bodies.arrays;
-  arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity);
-  arrays.set_parameter("node_count", static_cast<std::uint32_t>(forest.nodes.size()));
-  arrays.make("tree", trees_of(forest));
-  arrays.make("leaf", forest.leaves);
-  arrays.make("node", nodes);
-  arrays.make<glm::vec4>("node_box", 2 * forest.nodes.size());
+  arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity_);
+  arrays.set_parameter("treelet_pair_capacity", treelet_pairs);
+  arrays.make("tree", treelets.trees);
+  arrays.make("treelet", treelets.treelets);
+  arrays.make("node", treelets.nodes);
+  arrays.make<glm::vec4>("node_box", 2 * treelets.nodes.size());
   arrays.make("triangle", corners_of(forest));
-  arrays.make<std::uint32_t>("arrival", forest.nodes.size());
-  arrays.make<glm::uvec2>("leaf_pair", leaf_pair_capacity);
+  arrays.make<glm::uvec2>("leaf_pair", leaf_pair_capacity_);
+  arrays.make("treelet_vertex", is_hybrid_ ? treelets.vertices : std::vector<std::uint32_t>(1));
+  arrays.make<glm::uvec2>("treelet_pair", std::max(treelet_pairs, 1u));
+  arrays.make<std::uint32_t>("treelet_step", is_hybrid_ ? treelet_count_ : 1);
+  in_forest_ = std::move(treelets.in_forest);
 }
 
-Pass TreeSearch::refitting_pass(std::uint32_t half) const {
-  return make_pass(bodies_.arrays, "refit", {{"first_position", bodies_.first_of_half(half)}}, leaf_count_);
+Pass TreeSearch::group_pass(std::string_view kernel, Parameters parameters, std::uint32_t groups) const {
+  return make_pass(bodies_.arrays, kernel, bodies_.arrays.device().group_kernel(kernel), parameters, groups);
 }
 
-Pass TreeSearch::finding_pass() const {
-  return make_pass(bodies_.arrays, "find_pairs", {{"search_threads", search_threads_}}, search_threads_);
+std::vector<Pass> TreeSearch::fitting_passes(std::string_view bounding, std::string_view fitting,
+                                             const Parameters& parameters) const {
+  std::vector<Pass> passes;
+  if (is_hybrid_) {
+    passes.push_back(group_pass(bounding, parameters, treelet_count_));
+    passes.push_back(make_pass(bodies_.arrays, "pair_treelets", {{"search_threads", pairing_threads_}}, pairing_threads_));
+  }
+  passes.push_back(group_pass(fitting, parameters, treelet_count_));
+  return passes;
 }
+
+std::vector<Pass> TreeSearch::refitting_passes(std::uint32_t half) const {
+  return fitting_passes("bound_treelets", "refit", {{"first_position", bodies_.first_of_half(half)}});
+}
+
+Pass TreeSearch::finding_pass() const { return group_pass("find_pairs", {{"search_groups", search_groups_}}, search_groups_); }
 
 std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) const {
   const Device& device = bodies_.arrays.device();
@@ -126,7 +135,8 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
       bodies_.arrays, "list_triangle_pairs",
       {{"triangle_pair_capacity", triangle_pair_capacity}, {"pairs_at_once", leaf_pairs}, {"threads_of_a_pair", threads}},
       threads * leaf_pairs);
-  std::vector<Pass> passes = {make_pass(bodies_.arrays, "refit_cages", {}, leaf_count_), finding_pass()};
+  std::vector<Pass> passes = fitting_passes("bound_cage_treelets", "refit_cages", {});
+  passes.push_back(finding_pass());
   std::ranges::move(
       serving_passes(std::move(listing), "list_unlisted_pairs", {{"triangle_pair_capacity", triangle_pair_capacity}}),
       std::back_inserter(passes));
@@ -135,16 +145,24 @@ std::vector<Pass> TreeSearch::cage_passes(std::uint32_t triangle_pair_capacity) 
 
 std::vector<Pass> TreeSearch::serving_passes(Pass of_list, std::string_view kernel_of_all, Parameters parameters) const {
   if (!may_lack_room_) return {std::move(of_list)};
-  const std::uint32_t threads = std::min(search_threads_, most_unlisted_threads);
-  parameters.emplace_back("search_threads", threads);
-  return {beside_next(std::move(of_list)), make_pass(bodies_.arrays, kernel_of_all, parameters, threads)};
+  const std::uint32_t groups = std::min(search_groups_, most_unlisted_groups);
+  parameters.emplace_back("search_groups", groups);
+  return {beside_next(std::move(of_list)), group_pass(kernel_of_all, std::move(parameters), groups)};
 }
 
 std::vector<glm::uvec2> TreeSearch::leaf_pairs() const {
   const std::uint32_t found = bodies_.control.download().front().leaf_pair_count;
-  return bodies_.arrays.get<glm::uvec2>("leaf_pair").download(0, std::min(found, leaf_pair_capacity_));
+  std::vector<glm::uvec2> pairs = bodies_.arrays.get<glm::uvec2>("leaf_pair").download(0, std::min(found, leaf_pair_capacity_));
+  for (glm::uvec2& pair : pairs) pair = {in_forest_[pair.x], in_forest_[pair.y]};
+  return pairs;
 }
 
-std::vector<glm::vec4> TreeSearch::node_boxes() const { return bodies_.arrays.get<glm::vec4>("node_box").download(); }
+std::vector<glm::vec4> TreeSearch::node_boxes() const {
+  const std::vector<glm::vec4> on_device = bodies_.arrays.get<glm::vec4>("node_box").download();
+  std::vector<glm::vec4> boxes(2 * (in_forest_.empty() ? 0 : std::ranges::max(in_forest_) + 1));
+  for (std::size_t n = 0; n < in_forest_.size(); ++n)
+    for (std::size_t k = 0; k < 2; ++k) boxes[2 * in_forest_[n] + k] = on_device[2 * n + k];
+  return boxes;
+}
 
 }  // namespace pliant

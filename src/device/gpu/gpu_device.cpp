@@ -24,8 +24,8 @@ struct Caller {
   std::string_view file;
   bool items_are_groups;  // or threads
 };
-constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/force.comp", true},
-                 round_caller = {"compute/rounds.comp", true};
+constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/groups.comp", true},
+                 force_caller = {"compute/force.comp", true}, round_caller = {"compute/rounds.comp", true};
 
 // How force.comp cuts its work.
 struct Lanes {
@@ -136,6 +136,7 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override { return build(name, thread_caller); }
+  KernelId group_kernel(std::string_view name) override { return build(name, group_caller); }
   KernelId round_kernel(std::string_view name) override {
     GLint bytes = 0;
     glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
@@ -157,7 +158,7 @@ class GpuDevice final : public Device {
     defines.push_back({of_impulses || span == ForceSpan::quiet_steps ? "QUIET" : "!QUIET", ""});
     defines.push_back({of_impulses ? "IMPULSES" : "!IMPULSES", ""});
     constexpr std::string_view names[] = {"a stage", "a step", "quiet steps", "quiet steps of impulses"};
-    return build(fmt::format("{}, {}, {}", name, variants_[variant].name, names[static_cast<std::size_t>(span)]), group_caller,
+    return build(fmt::format("{}, {}, {}", name, variants_[variant].name, names[static_cast<std::size_t>(span)]), force_caller,
                  defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }

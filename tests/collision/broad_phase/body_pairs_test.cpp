@@ -62,7 +62,10 @@ Pairs oracle_pairs(const Model& model, const std::vector<glm::vec4>& positions) 
   std::vector<physics::Box> boxes(count);
   for (std::size_t b = 0; b < count; ++b) {
     boxes[b] = physics::empty_box();
-    for (std::size_t k = 0; k < 3; ++k) boxes[b] = physics::grow(boxes[b], glm::vec3(positions[3 * b + k]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      boxes[b].lower = glm::min(boxes[b].lower, glm::vec3(positions[3 * b + k]));
+      boxes[b].upper = glm::max(boxes[b].upper, glm::vec3(positions[3 * b + k]));
+    }
   }
   Pairs pairs;
   for (std::uint32_t a = 0; a < count; ++a)

@@ -1,63 +1,103 @@
-// descend_trees() takes some pairs of subtrees, one of either tree of two near bodies. It descends both of a pair together, down to pairs
-// of leaves whose boxes overlap, and hands these to found_leaves(). Many threads serve one pair of bodies.
-PARAMETER(uint, node_count)  // of all trees
+// descend_trees() descends pairs of treelets, one of either tree of two near bodies, down to pairs of leaves whose boxes overlap.
+// It hands these to found_leaves(). Groups share the pairs out between them. The threads of a group have one list of pairs of
+// nodes that overlap and are not opened yet, and open the latest ones, a pair each.
+READ(near_pair)
+READ(tree)
+READ(treelet)
+READ(treelet_pair)
+PARAMETER(uint, search_groups)
+PARAMETER(uint, treelet_pair_capacity)
+NEAR(uvec2, open_pair, most_open_pairs)
+NEAR(uint, open_count, 1)
 
-Box box_of_node(uint n) {
-  Box box;
-  box.lower = vec3(node_box[lower_of(n)]);
-  box.upper = vec3(node_box[upper_of(n)]);
-  return box;
-}
-
-// The wider node opens first. A leaf never opens.
-bool opens_first(uvec4 a, uvec4 b, Box box_a, Box box_b) {
+// Which of the two opens: the wider one, but never a leaf.
+bool first_opens(uvec4 a, uvec4 b, IN(PaddedBox) box_a, IN(PaddedBox) box_b) {
   if (b.x == 0u) return true;
   if (a.x == 0u) return false;
-  vec3 size_a = box_a.upper - box_a.lower;
-  vec3 size_b = box_b.upper - box_b.lower;
+  vec4 size_a = box_a.upper - box_a.lower;
+  vec4 size_b = box_b.upper - box_b.lower;
   return (size_a.x + size_a.y) + size_a.z >= (size_b.x + size_b.y) + size_b.z;
 }
 
-bool nodes_overlap(uvec2 pair) { return overlaps(box_of_node(pair.x), box_of_node(pair.y)); }
+// Takes a pair of nodes whose boxes overlap.
+void meet_nodes(uvec2 pair, bool are_leaves) {
+  if (are_leaves) {
+    found_leaves(pair);
+  } else {
+    NEAR_ADD(at, open_count[0], 1u)
+    open_pair[at] = pair;
+  }
+}
 
-// Starts from two nodes that overlap. Returns how many pairs of nodes it tested, these among them.
-uint descend(uvec2 roots) {
-  uvec2 stack[130];  // a descent opens one node and pushes two, so it needs at most the depths of both trees, 64 each, and one
-  int top = 0;
-  stack[0] = roots;
+// Returns how many pairs of nodes it tested.
+uint open_nodes(uvec2 pair) {
+  uvec4 a = node[pair.x], b = node[pair.y];
+  PaddedBox box_a = box_of_node(pair.x), box_b = box_of_node(pair.y);
+  bool opens_a = first_opens(a, b, box_a, box_b), stays_leaf = (opens_a ? b.x : a.x) == 0u;
+  uint first = opens_a ? a.x : b.x, end = opens_a ? a.y : b.y;
+  PaddedBox stays = box_a;
+  if (opens_a) stays = box_b;
+  for (uint n = first; n < end; ++n)
+    if (overlaps(box_of_node(n), stays)) meet_nodes(opens_a ? uvec2(n, pair.y) : uvec2(pair.x, n), stays_leaf && node[n].x == 0u);
+  return end - first;
+}
+
+// Opens all pairs of the list, and what comes of them.
+uint open_all() {
   uint tests = 0u;
-  while (top >= 0) {
-    uvec2 at = stack[top--];
-    uvec4 a = node[at.x], b = node[at.y];
-    Box box_a = box_of_node(at.x);
-    Box box_b = box_of_node(at.y);
-    ++tests;
-    if (!overlaps(box_a, box_b)) continue;
-    if (a.x == 0u && b.x == 0u) {
-      found_leaves(at);
-    } else if (opens_first(a, b, box_a, box_b)) {
-      stack[++top] = uvec2(a.x, at.y);
-      stack[++top] = uvec2(a.x + 1u, at.y);
-    } else {
-      stack[++top] = uvec2(at.x, b.x);
-      stack[++top] = uvec2(at.x, b.x + 1u);
+  for (;;) {
+    MEET
+    uint count = open_count[0];
+    if (count == 0u) break;
+    uint taken = pairs_to_open(count, THREADS);
+    uvec2 pair = open_pair[count - 1u - min(THREAD, taken - 1u)];
+    MEET
+    if (THREAD == 0u) open_count[0] = count - taken;
+    MEET
+    if (THREAD < taken) tests += open_nodes(pair);
+  }
+  MEET  // all have seen that the list is empty
+  return tests;
+}
+
+uint meet_treelets(uint s, uint t, bool overlap) {
+  uvec2 roots = uvec2(treelet[s].first_node, treelet[t].first_node);
+  if (overlap || overlaps(box_of_node(roots.x), box_of_node(roots.y)))
+    meet_nodes(roots, node[roots.x].x == 0u && node[roots.y].x == 0u);
+  return overlap ? 0u : 1u;
+}
+
+// Of a hybrid refit, if their list was long enough.
+uint descend_listed(uint group) {
+  uint tests = 0u, count = control[0].treelet_pair_count;
+  for (uint first = group; first < count; first += search_groups * THREADS) {
+    uint k = first + THREAD * search_groups;
+    if (k < count) tests += meet_treelets(treelet_pair[k].x, treelet_pair[k].y, true);
+    tests += open_all();
+  }
+  return tests;
+}
+
+uint descend_all(uint group) {
+  uint count = control[0].near_pair_count, of_a_pair = max(search_groups / max(count, 1u), 1u),
+       stride = search_groups / of_a_pair;
+  uint tests = 0u, pair = group / of_a_pair;
+  if (pair >= stride) return 0u;  // left over
+  for (; pair < count; pair += stride) {
+    uvec4 a = tree[near_pair[pair].x], b = tree[near_pair[pair].y];
+    for (uint first = group % of_a_pair; first < a.y * b.y; first += of_a_pair * THREADS) {
+      uint k = first + THREAD * of_a_pair;
+      if (k < a.y * b.y) tests += meet_treelets(a.x + k % a.y, b.x + k / a.y, false);
+      tests += open_all();
     }
   }
   return tests;
 }
 
-// So many threads share the near pairs. For each body `node` says, behind the nodes of all trees, where the body's subtrees begin there and
-// how many they are. Returns how many pairs of nodes this thread tested.
-uint descend_trees(uint item, uint threads) {
-  uint count = control[0].near_pair_count, of_a_pair = max(threads / max(count, 1u), 1u), stride = threads / of_a_pair;
-  uint tests = 0u, pair = item / of_a_pair;
-  if (pair >= stride) return 0u;  // left over
-  for (; pair < count; pair += stride) {
-    uvec4 first = node[node_count + near_pair[pair].x], second = node[node_count + near_pair[pair].y];
-    for (uint s = item % of_a_pair; s < first.y * second.y; s += of_a_pair) {
-      uvec2 roots = uvec2(node[first.x + s % first.y].x, node[second.x + s / first.y].x);
-      tests += nodes_overlap(roots) ? descend(roots) : 1u;
-    }
-  }
-  return tests;
+// Returns how many pairs of nodes this thread tested.
+uint descend_trees(uint group) {
+  if (THREAD == 0u) open_count[0] = 0u;
+  MEET
+  if (treelet_pair_capacity == 0u || control[0].treelet_pair_count > treelet_pair_capacity) return descend_all(group);
+  return descend_listed(group);
 }

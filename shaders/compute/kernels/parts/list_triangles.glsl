@@ -13,6 +13,7 @@ WRITE(triangle_pair)
 WRITE(cluster)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, has_static_bodies)
+#include "node_boxes.glsl"
 #include "boxes_in_motion.glsl"
 
 dvec3 corner_at(uint t, uint k) { return LOAD3(start, start_position_of(triangle[corner_of(t, k)])); }
@@ -49,13 +50,6 @@ void list_pairs(uint s, uint t, uint near, uint meeting) {
   }
 }
 
-PaddedBox box_of_leaf(uint n) {
-  PaddedBox box;
-  box.lower = node_box[lower_of(n)];
-  box.upper = node_box[upper_of(n)];
-  return box;
-}
-
 // Returns those triangles from t on that are set in `among` and whose cages, or expected ways, overlap a box.
 uint overlapping(IN(PaddedBox) box, uint t, uint among, bool by_ways) {
   uint near = 0u;
@@ -69,7 +63,7 @@ uint overlapping(IN(PaddedBox) box, uint t, uint among, bool by_ways) {
 // The leaves' boxes leave out most triangles before they are compared with each other.
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
-  PaddedBox of_first = box_of_leaf(leaves.x), of_second = box_of_leaf(leaves.y);
+  PaddedBox of_first = box_of_node(leaves.x), of_second = box_of_node(leaves.y);
   for (uint t = b.z; t < b.w; t += 32u) {
     uint among = overlapping(of_first, t, 0xffffffffu >> (32u - min(b.w - t, 32u)), false);
     if (among == 0u) continue;

@@ -1,54 +1,45 @@
-// refit_tree() fits one leaf's box to its triangles, then goes up the leaf's subtree. The second of two siblings to arrive goes on to the
-// parent. So no thread ever waits, and one dispatch refits every tree.
+// fit_treelet() fits the boxes of a treelet's nodes. The kernel says what the box of a triangle is.
 
-// The boxes of four triangles from t on, so that their loads overlap. Beyond the last triangle before `end`, its box repeats.
-struct FourBoxes { Box first; Box second; Box third; Box fourth; };
-
-FourBoxes four_boxes(uint t, uint end) {
-  FourBoxes four;
-  four.first = box_of_triangle(t);
-  four.second = box_of_triangle(min(t + 1u, end - 1u));
-  four.third = box_of_triangle(min(t + 2u, end - 1u));
-  four.fourth = box_of_triangle(min(t + 3u, end - 1u));
-  return four;
-}
-
-Box box_of_triangles(uint begin, uint end) {
-  Box box = empty_box();
-  for (uint t = begin; t < end; t += 4u) {
-    FourBoxes four = four_boxes(t, end);
-    box = joined(box, joined(joined(four.first, four.second), joined(four.third, four.fourth)));
-  }
+PaddedBox box_of_triangles(uint begin, uint end) {
+  PaddedBox box = box_of_triangle(begin);
+  for (uint t = begin + 1u; t < end; ++t) box = joined(box, box_of_triangle(t));
   return box;
 }
 
-void store_box(uint n, Box box) {
-  node_box[lower_of(n)] = vec4(box.lower, 0);
-  node_box[upper_of(n)] = vec4(box.upper, 0);
+PaddedBox box_of_children(uint first, uint end) {
+  PaddedBox box = box_of_node(first);
+  for (uint n = first + 1u; n < end; ++n) box = joined(box, box_of_node(n));
+  return box;
 }
 
-Box box_of_children(uint left) {
-  Box box;
-  box.lower = vec3(node_box[lower_of(left)]);
-  box.upper = vec3(node_box[upper_of(left)]);
-  return grow(grow(box, vec3(node_box[lower_of(left + 1u)])), vec3(node_box[upper_of(left + 1u)]));
-}
-
-void refit_tree(uint item) {
-  if (status[leaf[item].y].partner_step != control[0].step) return;
-  uint n = leaf[item].x;
-  store_box(n, box_of_triangles(node[n].z, node[n].w));
-  uint refitted = 1u;
-  uint parent = node[n].y;
-  while (parent != no_node) {
-    memoryBarrierBuffer();
-    if (atomicAdd(arrival[parent], 1u) == 0u) break;
-    memoryBarrierBuffer();
-    arrival[parent] = 0u;
-    store_box(parent, box_of_children(node[parent].x));
-    ++refitted;
-    parent = node[parent].y;
+// Children stand behind their parent, so one thread that goes from the last node to the first has all boxes after one round. More threads
+// fit all inner nodes again in each round. Those of height k are right after round k.
+void fit_treelet(IN(Treelet) t) {
+  uint count = t.end_node - t.first_node, last = t.end_node - 1u;
+  for (uint k = THREAD; k < count; k += THREADS) {
+    uvec4 at = node[last - k];
+    if (at.x == 0u) store_box(last - k, box_of_triangles(at.z, at.w));
   }
-  TALLY_UP(control[0].count[trees_refitted], item == 0u || leaf[item - 1u].y != leaf[item].y ? 1u : 0u)
-  TALLY_UP(control[0].count[nodes_refitted], refitted)
+  uint rounds = THREADS == 1u ? min(t.levels - 1u, 1u) : t.levels - 1u;
+  for (uint round = 0u; round < rounds; ++round) {
+    MEET
+    for (uint k = THREAD; k < count; k += THREADS) {
+      uvec4 at = node[last - k];
+      if (at.x != 0u) store_box(last - k, box_of_children(at.x, at.y));
+    }
+  }
+}
+
+// A hybrid refit leaves alone what no search needs, unless the list of pairs is too short.
+bool is_needed(uint item, IN(Treelet) t) {
+  if (status[t.body].partner_step != control[0].step) return false;
+  return treelet_pair_capacity == 0u || control[0].treelet_pair_count > treelet_pair_capacity || treelet_step[item] == control[0].step;
+}
+
+void refit_treelet(uint item) {
+  Treelet t = treelet[item];
+  if (!is_needed(item, t)) return;
+  fit_treelet(t);
+  if (THREAD == 0u) atomicAdd(control[0].count[nodes_refitted], t.end_node - t.first_node);
+  if (THREAD == 0u && item == tree[t.body].x && treelet_pair_capacity == 0u) atomicAdd(control[0].count[trees_refitted], 1u);
 }

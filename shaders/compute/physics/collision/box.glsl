@@ -13,34 +13,13 @@ FN Box empty_box() {
   return box;
 }
 
-// Comparisons with NaN are false, so a NaN coordinate leaves the box as it is.
-FN Box grow(Box box, vec3 p) {
-  box.lower.x = p.x < box.lower.x ? p.x : box.lower.x;
-  box.lower.y = p.y < box.lower.y ? p.y : box.lower.y;
-  box.lower.z = p.z < box.lower.z ? p.z : box.lower.z;
-  box.upper.x = p.x > box.upper.x ? p.x : box.upper.x;
-  box.upper.y = p.y > box.upper.y ? p.y : box.upper.y;
-  box.upper.z = p.z > box.upper.z ? p.z : box.upper.z;
-  return box;
-}
-
-FN Box triangle_box(vec3 p, vec3 q, vec3 r) { return grow(grow(grow(empty_box(), p), q), r); }
-
-// The smallest box around two.
-FN Box joined(IN(Box) a, IN(Box) b) {
-  Box box;
-  box.lower = min(a.lower, b.lower);
-  box.upper = max(a.upper, b.upper);
-  return box;
-}
-
 // Boxes are closed: touching ones overlap.
 FN bool overlaps(Box a, Box b) {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
          a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-// A box whose corners have a fourth number, 0. A processor handles such a corner in one instruction.
+// A box whose corners have a fourth number, the same in all boxes that are compared. A processor handles such a corner in one instruction.
 struct PaddedBox { vec4 lower; vec4 upper; };
 
 FN PaddedBox joined(IN(PaddedBox) a, IN(PaddedBox) b) {
@@ -52,8 +31,7 @@ FN PaddedBox joined(IN(PaddedBox) a, IN(PaddedBox) b) {
 
 // One comparison, because processors can't foresee the results of six. On a processor boxes with NaN overlap all others.
 FN bool overlaps(IN(PaddedBox) a, IN(PaddedBox) b) {
-  vec4 apart = max(a.lower - b.upper, b.lower - a.upper);
-  return !any_above_zero(apart);
+  return !any_above(a.lower, b.upper, b.lower, a.upper);
 }
 
 // Bits that order as the floats do, for atomicMin and atomicMax.

@@ -1,0 +1,13 @@
+// The frame around kernels whose items are served by a group of threads each. All threads of a group call the kernel's function for its
+// item. They have to MEET equally often.
+#version 450
+#include "subgroups.glsl"
+#include "physics/language.glsl"
+#include "physics/control.glsl"
+layout(local_size_x = group_size) in;
+#include "@kernel"
+PARAMETER(uint, item_count)
+void main() {
+  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;  // dispatches past max_groups have several rows
+  if (item < item_count) KERNEL(item);
+}
