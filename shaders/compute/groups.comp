@@ -3,8 +3,7 @@
 #version 450
 #include "subgroups.glsl"
 #include "physics/language.glsl"
-#include "physics/control.glsl"
-layout(local_size_x = group_size) in;
+layout(local_size_x = 64) in;  // group_size
 #include "@kernel"
 PARAMETER(uint, item_count)
 void main() {
