@@ -1,6 +1,5 @@
 // Who keeps an impact of two bodies, and in which unit its impulses count. Needs the array `surface`, and the parameters `body_count` and
-// `least_speed`.
-// body_count stands for all grounds.
+// `least_speed`. body_count stands for all grounds.
 double inverse_vertex_mass(uint b) { return b < body_count ? surface[b].inverse_mass : double(0); }
 bool is_movable(uint b) { return inverse_vertex_mass(b) > double(0); }
 
