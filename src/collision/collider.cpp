@@ -21,7 +21,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
                    std::optional<std::uint32_t> parallel_items, bool sleeps)
     : description_(description),
       body_count_(bodies.body_count),
-      has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_static)),
+      has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_rigid)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies, model, description.broad_phase),
       trees_(bodies, forest_, description, items_of(bodies, parallel_items), body_pairs_.most_pairs()),

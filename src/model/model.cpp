@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -34,15 +35,6 @@ std::vector<glm::dvec3> scaled_positions(const BodySetup& setup) {
   return positions;
 }
 
-/// Returns Rz Ry Rx for angles in degrees about fixed axes.
-glm::dquat rotation_of(const glm::dvec3& degrees) {
-  const glm::dvec3 angle = glm::radians(degrees);
-  const glm::dquat about_x = glm::angleAxis(angle.x, glm::dvec3(1, 0, 0));
-  const glm::dquat about_y = glm::angleAxis(angle.y, glm::dvec3(0, 1, 0));
-  const glm::dquat about_z = glm::angleAxis(angle.z, glm::dvec3(0, 0, 1));
-  return glm::normalize(about_z * about_y * about_x);
-}
-
 physics::Pose make_pose(const glm::dvec3& origin, const glm::dquat& q, const glm::dvec3& gravity) {
   physics::Pose pose{};
   const glm::dmat3 rotation = glm::mat3_cast(q);  // columns first
@@ -67,8 +59,8 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.stiffness = description.total_stiffness ? *description.total_stiffness / (n * n) : description.stiffness;
   body.vertex_mass = description.total_mass ? *description.total_mass / n : description.vertex_mass;
   body.damping = description.damping;
-  body.is_static = description.kind == BodyKind::immovable;
-  if (body.is_static) body.stiffness = body.damping = 0;
+  body.kind = description.kind;
+  if (body.is_rigid()) body.stiffness = body.damping = 0;
   body.surface = description.surface;
   body.restitution = description.restitution;
   body.color = description.color;
@@ -107,6 +99,20 @@ void append_motion(const BodyDescription& description, const Model& model, State
     const glm::dvec3 velocity = description.velocity + glm::cross(description.spin, world[i] - centroid);
     const glm::dvec3 u = displacements[i], w = to_frame * velocity;
     state.motion.insert(state.motion.end(), {u.x, u.y, u.z, w.x, w.y, w.z});
+  }
+}
+
+// Where a scripted body starts, and how it moves there.
+void append_start(const BodyPath& path, const glm::dvec3& gravity, const Model& model, State& state) {
+  const ModelBody& body = model.bodies.back();
+  const physics::PathPoint start = path.at(0);
+  const glm::dquat q(start.quaternion[3], start.quaternion[0], start.quaternion[1], start.quaternion[2]);
+  state.poses.push_back(make_pose(glm::make_vec3(start.centre), q, gravity));
+  for (std::size_t i = 0; i < body.vertex_count; ++i) {
+    const glm::dvec3 from_centre = physics::rotate(state.poses.back(), model.rest_position(body.first_vertex + i));
+    const glm::dvec3 velocity = glm::make_vec3(start.velocity) + glm::cross(glm::make_vec3(start.spin), from_centre);
+    const glm::dvec3 w = physics::rotate_back(state.poses.back(), velocity);
+    state.motion.insert(state.motion.end(), {0, 0, 0, w.x, w.y, w.z});
   }
 }
 
@@ -159,17 +165,30 @@ Ground make_ground(const GroundDescription& description) {
           .where = description.where};
 }
 
+void expect_within_reach(const BodyDescription& description, const BodyPath& path) {
+  if (!(path.highest_speed() <= largest_coordinate))
+    throw body_error(description, fmt::format("its path is faster than {} m/s", largest_coordinate),
+                     "give its keys more time, or bring them nearer to each other");
+}
+
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {
   const BodyDescription& description = setup.description;
   if (setup.mesh.positions.empty()) throw body_error(description, "the mesh has no vertices", "use a mesh with a surface");
   expect_not_flattened(description);
   const std::vector<glm::dvec3> positions = scaled_positions(setup);
   const glm::dvec3 centroid = mean(positions);
-  const glm::dquat rotation = rotation_of(description.rotation);
   append_shape(setup, positions, centroid, built.model);
   if (!setup.mesh.triangles.empty() && built.model.bodies.back().radius < smallest_radius)
     throw body_error(description, fmt::format("the body is smaller than {} m, where forces in fp32 underflow", smallest_radius),
                      "use a larger scale, with other units if need be");
+  if (description.kind == BodyKind::scripted) {
+    BodyPath path = make_path(description, centroid);
+    expect_within_reach(description, path);
+    append_start(path, gravity, built.model, built.state);
+    built.model.bodies.back().path = std::move(path);
+    return;
+  }
+  const glm::dquat rotation = rotation_of(description.rotation);
   built.state.poses.push_back(make_pose(description.position + glm::mat3_cast(rotation) * centroid, rotation, gravity));
   append_motion(description, built.model, built.state);
 }
@@ -182,7 +201,7 @@ Model with_materials(Model model, std::span<const Material> materials) {
   PLIANT_EXPECT(materials.size() == model.bodies.size());
   for (std::size_t b = 0; b < materials.size(); ++b) {
     ModelBody& body = model.bodies[b];
-    if (body.is_static) continue;
+    if (body.is_rigid()) continue;
     body.stiffness = materials[b].stiffness;
     body.vertex_mass = materials[b].vertex_mass;
     body.damping = materials[b].damping;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/triangle_mesh.hpp"
+#include "model/body_path.hpp"
 #include "physics/body.glsl"
 #include "physics/layout.glsl"
 #include "scene/scene_description.hpp"
@@ -35,7 +36,7 @@ struct Ground {
 
 struct ModelBody {
   std::string name;
-  bool is_static = false;  // keeps its place and shape, and has no springs
+  BodyKind kind = BodyKind::soft;
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
   double stiffness = 0;    // k of every pair's spring [N/m]
@@ -45,8 +46,11 @@ struct ModelBody {
   Inflation inflation;
   SurfaceDescription surface;
   std::optional<double> restitution;
-  glm::dvec3 color{1.0};  // linear RGB
+  glm::dvec3 color{1.0};              // linear RGB
+  std::optional<BodyPath> path = {};  // of a scripted body
 
+  /// Whether it keeps its shape and takes no impulses, as static and scripted bodies do. It has no springs.
+  [[nodiscard]] bool is_rigid() const { return kind != BodyKind::soft; }
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are
   /// exact.
   [[nodiscard]] double unit_of_length() const;

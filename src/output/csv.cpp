@@ -33,7 +33,7 @@ OutputFile file_with(const std::filesystem::path& path, const std::string& text)
 
 HistoryFile::HistoryFile(const std::filesystem::path& path) : file_(path) {
   add("step,time,kinetic,elastic,gravitational,energy,px,py,pz,lx,ly,lz,contact_steps,reverted_vertices,outside_px,outside_py,"
-      "outside_pz,contact_given,contact_taken,friction_work\n");
+      "outside_pz,contact_given,contact_taken,friction_work,work_of_scripts\n");
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, std::string so_far)
@@ -53,7 +53,8 @@ void HistoryFile::append(const HistoryRow& row) {
   append_vector(line, row.angular_momentum);
   fmt::format_to(std::back_inserter(line), ",{},{}", row.contact_steps, row.reverted_vertices);
   append_vector(line, row.outside_impulse);
-  for (const double value : {row.contact_given, row.contact_taken, row.friction_work}) append_number(line, value);
+  for (const double value : {row.contact_given, row.contact_taken, row.friction_work, row.work_of_scripts})
+    append_number(line, value);
   add(line += '\n');
   file_.flush();
 }

@@ -22,10 +22,11 @@ struct HistoryRow {
   glm::dvec3 angular_momentum{0.0};     // about the world's origin [kg m^2/s]
   std::uint64_t contact_steps = 0;      // since the start
   std::uint64_t reverted_vertices = 0;  // since the start
-  glm::dvec3 outside_impulse{0.0};      // that static bodies and grounds gave since the start [Ns]
+  glm::dvec3 outside_impulse{0.0};      // that rigid bodies and grounds gave since the start [Ns]
   double contact_given = 0;             // energy that contacts gave since the start [J]
   double contact_taken = 0;             // energy that contacts took since the start [J]
   double friction_work = 0;             // what friction took of both [J]
+  double work_of_scripts = 0;           // what scripted bodies gave by moving since the start [J]
 };
 
 /// history.csv, which can be read while it grows. All functions but text() throw Error (command_line) if it can't be written.

@@ -29,8 +29,8 @@ Json energy_json(const Summary& summary) {
 }
 
 Json contacts_json(const Summary& summary) {
-  const auto& [steps, pairs_max, reverted_vertices, substeps, held_parts, energy_given, energy_taken, friction_work] =
-      summary.contacts;
+  const auto& [steps, pairs_max, reverted_vertices, substeps, held_parts, energy_given, energy_taken, friction_work,
+               work_of_scripts] = summary.contacts;
   return {{"steps", steps},
           {"pairs_max", pairs_max},
           {"reverted_vertices", reverted_vertices},
@@ -38,7 +38,15 @@ Json contacts_json(const Summary& summary) {
           {"held_parts", held_parts},
           {"energy_given", energy_given},
           {"energy_taken", energy_taken},
-          {"friction_work", friction_work}};
+          {"friction_work", friction_work},
+          {"work_of_scripts", work_of_scripts}};
+}
+
+Json scripts_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const auto& [body, time, waited, waits] : summary.scripts)
+    json.add(body, Json{{"time", time}, {"waited", waited}, {"waits", waits}});
+  return json;
 }
 
 Json work_json(const Summary& summary) {
@@ -72,6 +80,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"steps_per_second", summary.steps_per_second},
                      {"energy", energy_json(summary)},
                      {"contacts", contacts_json(summary)},
+                     {"scripts", scripts_json(summary)},
                      {"bodies_asleep", summary.bodies_asleep},
                      {"final_intersecting_pairs", summary.final_intersecting_pairs},
                      {"non_finite", summary.non_finite},

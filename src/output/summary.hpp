@@ -45,8 +45,14 @@ struct Summary {
     std::uint64_t reverted_vertices = 0;  // sum over the run
     std::uint64_t substeps = 0;           // parts that steps fell into, beyond one each
     std::uint64_t held_parts = 0;         // parts of steps in which no body moved
-    double energy_given = 0, energy_taken = 0, friction_work = 0;  // [J]
+    double energy_given = 0, energy_taken = 0, friction_work = 0, work_of_scripts = 0;  // [J]
   } contacts;
+  struct Script {
+    std::string body;
+    double time = 0, waited = 0;  // on its own clock, and what that is behind [s]
+    std::uint64_t waits = 0;      // parts of steps in which it waited
+  };
+  std::vector<Script> scripts;                            // of scripted bodies
   std::uint64_t bodies_asleep = 0;                        // at the end
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite
   bool non_finite = false;

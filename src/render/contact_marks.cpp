@@ -20,7 +20,7 @@ void add_cross(Lines& lines, const glm::dvec3& at, double arm) {
 double smallest_radius(const Model& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ModelBody& body : model.bodies)
-    if (!body.is_static) smallest = std::min(smallest, body.radius);
+    if (!body.is_rigid()) smallest = std::min(smallest, body.radius);
   return smallest;
 }
 
@@ -64,7 +64,7 @@ void add_impulses(Lines& lines, const Model& model, std::span<const glm::dvec3> 
     add_cross(lines, place_of(contact, positions, false), 0.02 * radius);
     for (const bool on_second : {false, true}) {
       const std::uint32_t vertex = vertex_of(contact, on_second);
-      if (vertex == physics::no_vertex || model.body_of(vertex).is_static) continue;
+      if (vertex == physics::no_vertex || model.body_of(vertex).is_rigid()) continue;
       const glm::dvec3 place = place_of(contact, positions, on_second);
       add_line(lines, place, place + (on_second ? -metres_per_impulse : metres_per_impulse) * contact.impulse, impulse_color);
     }

@@ -32,6 +32,8 @@ struct RunProgress {
   double largest_drift = 0;          // of the energy [J]
   double most_in_motion = 0;         // largest kinetic and elastic energy [J]
   double most_of_gravity = 0;        // largest change of the gravitational energy since the start [J]
+  double work_of_scripts = 0;        // at the latest row [J]
+  double most_work_of_scripts = 0;   // its largest size [J]
   double largest_growth = 1;         // of the energy, at a row of the history: what energy_growth says
   double time_of_growth = 0;         // of that row [s]
   RunTimes times;                    // includes the run's parts before it was resumed

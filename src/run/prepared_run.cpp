@@ -99,7 +99,7 @@ void warn_of_masses(PreparedRun& run) {
   constexpr double most = 1e9, vanishing = 0x1p46;
   const ModelBody *heaviest = nullptr, *lightest = nullptr;
   for (const ModelBody& body : run.start.model.bodies) {
-    if (body.is_static) continue;
+    if (body.is_rigid()) continue;
     if (heaviest == nullptr || body.vertex_mass > heaviest->vertex_mass) heaviest = &body;
     if (lightest == nullptr || body.vertex_mass < lightest->vertex_mass) lightest = &body;
   }

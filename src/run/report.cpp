@@ -49,7 +49,8 @@ bool is_driven_from_rest(const Model& model) {
 
 // Returns the energy that energy_growth() compares with [J].
 double energy_had(const RunProgress& progress, const Model& model) {
-  const double had = progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity;
+  const double had =
+      progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity + progress.most_work_of_scripts;
   return is_driven_from_rest(model) ? std::max(had, progress.most_in_motion) : had;
 }
 
@@ -97,10 +98,11 @@ std::string_view shorter_steps(const RunStatus& status) {
 }  // namespace
 
 // None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
-// where it began has had it. If a force sets bodies at rest in motion, this compares with the most energy in motion.
+// where it began has had it. What scripted bodies give is no growth. If a force sets bodies at rest in motion, this compares with
+// the most energy in motion.
 double energy_growth(const RunProgress& progress, const Model& model) {
   const double had = std::max(energy_had(progress, model), smallest_energy(model));
-  return 1 + (progress.latest.energy() - progress.first.energy()) / had;
+  return 1 + (progress.latest.energy() - progress.work_of_scripts - progress.first.energy()) / had;
 }
 
 bool has_blown_up(const RunStatus& status) {
@@ -149,8 +151,13 @@ std::uint64_t intersecting_pairs(const PreparedRun& run) {
 std::vector<std::string> contact_troubles_of(const RunStatus& status) {
   if (!meets_by_impulses(*status.run.simulation)) return {};
   std::uint64_t moving_vertices = 0;
-  for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_static ? 0 : body.vertex_count;
-  return contact_troubles_of(status.report, moving_vertices, status.run.device->precision());
+  for (const ModelBody& body : status.run.start.model.bodies) moving_vertices += body.is_rigid() ? 0 : body.vertex_count;
+  std::vector<std::string> told = contact_troubles_of(status.report, moving_vertices, status.run.device->precision());
+  for (const ScriptReport& script : status.report.response.scripts)
+    if (script.waits > 0)
+      told.push_back(fmt::format("body \"{}\" waited {} times for what stood in its way, and is {:.3g} s late",
+                                 status.run.start.model.bodies[script.body].name, script.waits, script.waited));
+  return told;
 }
 
 Summary summary_of(const RunStatus& status) {
@@ -181,7 +188,10 @@ Summary summary_of(const RunStatus& status) {
                 .held_parts = report.held_parts,
                 .energy_given = report.response.energy_given,
                 .energy_taken = report.response.energy_taken,
-                .friction_work = report.response.friction_work};
+                .friction_work = report.response.friction_work,
+                .work_of_scripts = report.response.work_of_scripts};
+  for (const ScriptReport& script : report.response.scripts)
+    s.scripts.push_back({run.start.model.bodies[script.body].name, script.time, script.waited, script.waits});
   s.energy.slept = report.energy_slept;
   s.bodies_asleep = report.bodies_asleep;
   s.non_finite = report.breakdown && !report.breakdown->is_finite;
@@ -243,9 +253,10 @@ void show_end(const RunStatus& status) {
              report.contact_pairs_max,
              find_response(run.scene.collision.response).gives_impulses ? "impulses" : "triangle pairs");
   if (const ResponseReport& contacts = report.response; contacts.energy_taken > 0 || contacts.energy_given > 0)
-    fmt::print("contacts took {:.4g} J{}, and gave {:.4g} J\n", contacts.energy_taken,
+    fmt::print("contacts took {:.4g} J{}, and gave {:.4g} J{}\n", contacts.energy_taken,
                contacts.friction_work > 0 ? fmt::format(", of which friction {:.4g} J", contacts.friction_work) : "",
-               contacts.energy_given);
+               contacts.energy_given,
+               contacts.scripts.empty() ? "" : fmt::format("; scripted bodies gave {:.4g} J", contacts.work_of_scripts));
   if (options.timings && report.steps > 0) show_timings(*run.simulation, report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }

@@ -191,7 +191,8 @@ class Run {
                      .outside_impulse = report_.response.outside_impulse,
                      .contact_given = report_.response.energy_given,
                      .contact_taken = report_.response.energy_taken,
-                     .friction_work = report_.response.friction_work});
+                     .friction_work = report_.response.friction_work,
+                     .work_of_scripts = report_.response.work_of_scripts});
   }
 
   // An energy that was not measured to its end is NaN.
@@ -199,6 +200,8 @@ class Run {
     const Measurement &first = progress_.first, &now = progress_.latest;
     progress_.most_in_motion = std::max(progress_.most_in_motion, now.kinetic + now.elastic_size);
     progress_.most_of_gravity = std::max(progress_.most_of_gravity, std::abs(now.gravitational - first.gravitational));
+    progress_.work_of_scripts = report_.response.work_of_scripts;
+    progress_.most_work_of_scripts = std::max(progress_.most_work_of_scripts, std::abs(progress_.work_of_scripts));
     const double drift = std::abs(now.energy() - first.energy());
     progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
     const double growth = energy_growth(progress_, run_.start.model);

@@ -89,7 +89,7 @@ std::size_t bytes_of_run(const PreparedRun& run) {
   if (run.device->info().kind != DeviceKind::cpu) return bytes;
   std::vector<std::uint32_t> vertex_counts;
   for (const ModelBody& body : run.start.model.bodies)
-    if (!body.is_static) vertex_counts.push_back(body.vertex_count);
+    if (!body.is_rigid()) vertex_counts.push_back(body.vertex_count);
   return bytes + cpu::spring_scratch_bytes(vertex_counts, run.device->precision());
 }
 

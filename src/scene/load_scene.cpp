@@ -139,7 +139,8 @@ const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none)
                                                       {name_of(DampingLaw::constant), DampingLaw::constant},
                                                       {name_of(DampingLaw::adaptive), DampingLaw::adaptive},
                                                       {name_of(DampingLaw::internal), DampingLaw::internal}};
-const std::vector<Choice<BodyKind>> kinds = {{"soft", BodyKind::soft}, {"static", BodyKind::immovable}};
+const std::vector<Choice<BodyKind>> kinds = {
+    {"soft", BodyKind::soft}, {"static", BodyKind::immovable}, {"scripted", BodyKind::scripted}};
 const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
 const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
                                                           {"moller", TriangleTest::moller}};
@@ -216,10 +217,23 @@ void read_table(TableReader& table, OutputDescription& output) {
   table.read("ground_height", output.ground_height, coordinate);
 }
 
-void expect_still(const TableReader& table) {
-  for (const char* key : {"velocity", "spin", "stretch", "pressure"})
-    if (table.peek(key) != nullptr)
-      throw Error(table.where(key), "a static body neither moves nor changes its shape", fmt::format("remove {}, or kind", key));
+// What a kind of body can't have.
+void expect_none_of(const TableReader& table, std::initializer_list<const char*> keys, const char* why) {
+  for (const char* key : keys)
+    if (table.peek(key) != nullptr) throw Error(table.where(key), why, fmt::format("remove {}, or change kind", key));
+}
+
+void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) {
+  if (body.kind != BodyKind::scripted) expect_none_of(table, {"path", "repeats"}, "is for bodies of the kind \"scripted\"");
+  if (body.kind == BodyKind::immovable)
+    expect_none_of(table, {"velocity", "spin", "stretch", "pressure"}, "a static body neither moves nor changes its shape");
+  if (body.kind != BodyKind::scripted) return;
+  expect_none_of(table, {"stretch", "pressure"}, "a scripted body does not change its shape");
+  expect_none_of(table, {"restitution"}, "bodies that meet a scripted body have no restitution");
+  if (body.path.empty())
+    expect_none_of(table, {"repeats"}, "has no path to repeat");
+  else
+    expect_none_of(table, {"velocity", "spin"}, "a body with a path moves along it alone");
 }
 
 constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", "vertex_mass",
@@ -228,6 +242,7 @@ constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", 
 // Returns why such a key changes nothing for the body, or nothing if it does.
 std::string_view why_idle(const BodyDescription& body, std::string_view key) {
   if (body.kind == BodyKind::immovable) return "on a static body";
+  if (body.kind == BodyKind::scripted) return "on a scripted body";
   return key == "pressure_law" && body.pressure == 0 ? "without pressure" : "";
 }
 
@@ -237,10 +252,46 @@ void note_idle(const TableReader& table, BodyDescription& body) {
       body.idle_keys.push_back({table.where(key), why});
 }
 
-// If one of the bodies in rows is static, what the others do means nothing for it.
-void forget_motion_of_rows(TableReader& table) {
-  table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "stiffness", "total_stiffness", "vertex_mass",
-                       "total_mass", "damping"});
+// If one of the bodies in rows is of another kind, what the others do means nothing for it.
+void forget_motion_of_rows(TableReader& table, BodyKind kind) {
+  if (kind == BodyKind::soft)
+    table.forget_behind({"path", "repeats"});
+  else
+    table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "stiffness", "total_stiffness", "vertex_mass",
+                         "total_mass", "damping", "path", "repeats"});
+}
+
+void read_table(TableReader& table, PathKeyDescription& key) {
+  table.require("time");
+  table.read("time", key.time, not_negative);
+  table.read("position", key.position, coordinate);
+  table.read("rotation", key.rotation, coordinate);
+}
+
+// The angles of a key may be any number of turns from another's.
+bool is_same_place(const PathKeyDescription& a, const PathKeyDescription& b) {
+  const glm::dvec3 turns = (a.rotation - b.rotation) / 360.0;
+  return a.position == b.position && turns == glm::round(turns);
+}
+
+// What a key leaves out is as in the key before.
+void read_path(const toml::node& node, const std::string& path, BodyDescription& body) {
+  if (!node.is_array() || node.as_array()->size() < 2)
+    fail(node, path, node.is_array() ? "has fewer than two keys" : fmt::format("is {}", type_name(node)),
+         "write keys, as in [{ time = 0 }, { time = 1, position = [0, 1, 0] }]");
+  for (std::size_t k = 0; k < node.as_array()->size(); ++k) {
+    const toml::node& key = (*node.as_array())[k];
+    const std::string place = fmt::format("{}[{}]", path, k);
+    PathKeyDescription next = k > 0 ? body.path.back() : PathKeyDescription();
+    TableReader::section(key, place, next);
+    if (k > 0 && !(next.time > body.path.back().time))
+      fail(key, place + ".time", fmt::format("{} s is not after the key before, at {} s", next.time, body.path.back().time),
+           "sort the keys by time");
+    body.path.push_back(next);
+  }
+  if (body.repeats && !is_same_place(body.path.front(), body.path.back()))
+    fail((*node.as_array())[body.path.size() - 1], path, "repeats, but does not end where it begins",
+         "give the last key the position of the first, and its rotation or whole turns from it");
 }
 
 void read_table(TableReader& table, BodyDescription& body) {
@@ -249,7 +300,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.know("spacing");
   table.read("name", body.name);
   table.read("kind", body.kind, kinds);
-  if (body.kind == BodyKind::immovable && table.is_in_front("kind")) forget_motion_of_rows(table);
+  if (table.is_in_front("kind")) forget_motion_of_rows(table, body.kind);
   body.kind_where = table.where("kind");
   table.read("mesh", body.mesh);
   body.mesh_where = table.where("mesh");
@@ -259,6 +310,9 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("rotation", body.rotation, coordinate);
   table.read("velocity", body.velocity, coordinate);
   table.read("spin", body.spin, coordinate);
+  table.read("repeats", body.repeats);
+  if (const toml::node* path = table.find("path")) read_path(*path, table.path_of("path"), body);
+  body.path_where = table.where("path");
   table.read("stretch", body.stretch, coordinate);
   if (body.stretch == glm::dvec3(0.0))
     throw Error(table.where("stretch"), "presses the body into one point, where no spring has a direction",
@@ -276,7 +330,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);
   table.note({"elasticity", "friction", "gap", "restitution"}, body.surface_keys);
-  if (body.kind == BodyKind::immovable) expect_still(table);
+  expect_keys_of_kind(table, body);
   note_idle(table, body);
 }
 

@@ -20,7 +20,7 @@ struct Named {
   Origin where = {};
 };
 
-enum class BodyKind { soft, immovable };
+enum class BodyKind { soft, immovable, scripted };
 enum class PressureLaw { gas, constant };
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2, internal = 3 };
 /// Returns the law's name in scenes and reports.
@@ -119,9 +119,16 @@ struct OutputDescription {
 /// (Okabe and Ito, 2008).
 [[nodiscard]] glm::dvec3 default_color(std::size_t index);
 
+/// Where a scripted body is at a time, beside its position and rotation.
+struct PathKeyDescription {
+  double time = 0;           // [s]
+  glm::dvec3 position{0.0};  // [m]
+  glm::dvec3 rotation{0.0};  // [degrees] as that of a body
+};
+
 struct BodyDescription {
   std::string name;
-  BodyKind kind = BodyKind::soft;         // an immovable body keeps its place and shape
+  BodyKind kind = BodyKind::soft;         // an immovable body keeps its place and shape, a scripted one its shape
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
   Origin kind_where;                      // of the key `kind`
@@ -132,6 +139,9 @@ struct BodyDescription {
   glm::dvec3 rotation{0.0};               // [degrees] about the fixed world axes: R = Rz Ry Rx
   glm::dvec3 velocity{0.0};               // [m/s]
   glm::dvec3 spin{0.0};                   // [rad/s] about the centroid
+  std::vector<PathKeyDescription> path;   // of a scripted body, by time. If empty, it keeps its velocity and spin
+  bool repeats = false;                   // whether the path begins anew behind its last key
+  Origin path_where;                      // of the key `path`
   glm::dvec3 stretch{1.0};                // factors along the body's axes about its centroid
   double stiffness = 40.0;                // k of every pair's spring [N/m]
   std::optional<double> total_stiffness;  // [N/m], k = total / N^2

@@ -29,7 +29,7 @@ Meter::Meter(const Model& model)
 void Meter::set_terms(const State& state, const glm::dvec3& gravity, ThreadPool& pool) {
   pool.for_ranges(model_.vertex_count(), 1024, [&](std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end; ++i) {
-      if (model_.body_of(i).is_static) continue;
+      if (model_.body_of(i).is_rigid()) continue;
       const double mass = model_.body_of(i).vertex_mass;
       const glm::dvec3 position = state.world_position(model_, i), velocity = state.world_velocity(model_, i);
       const glm::dvec3 momentum = mass * velocity;

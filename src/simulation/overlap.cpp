@@ -87,7 +87,7 @@ class Search {
     }
     for_each_near(std::move(boxes), largest_margin(all, all), [&](const IndexedBox& a, const IndexedBox& b) {
       const double most = largest_margin(a, b);
-      if (model_.bodies[a.index].is_static && model_.bodies[b.index].is_static) return;
+      if (model_.bodies[a.index].is_rigid() && model_.bodies[b.index].is_rigid()) return;
       if (are_near(a, b, most)) visit(a, b, most);
     });
   }

@@ -27,7 +27,7 @@ double depth_in(const Ground& ground, const ModelBody& body, std::span<const glm
 std::vector<const Ground*> grounds_under(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
   std::vector<const Ground*> found;
   for (const Ground& ground : model.grounds)
-    if (!body.is_static && depth_in(ground, body, positions) >= 0) found.push_back(&ground);
+    if (!body.is_rigid() && depth_in(ground, body, positions) >= 0) found.push_back(&ground);
   return found;
 }
 
@@ -83,10 +83,10 @@ std::string described(const Model& model, const Overlap& overlap, int precision)
 }
 
 std::string way_apart(const Model& model, const Overlap& overlap, int precision) {
-  const bool moves_first = model.bodies[overlap.second].is_static;
+  const bool moves_first = model.bodies[overlap.second].is_rigid();
   const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
   const glm::dvec3 way = without_signs_of_zeros((moves_first ? -1.0 : 1.0) * overlap.way_out);
-  const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_static);
+  const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_rigid);
   const char* other_way = overlap.distance > 0 && precision == 32 ? "take --precision 64"
                           : may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
                                         : "give one of them a smaller scale";
@@ -164,7 +164,7 @@ std::vector<std::string> told_rounding(const Model& model, const State& state, c
   std::vector<std::string> told;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const ModelBody& body = model.bodies[b];
-    if (body.is_static || body.triangle_count == 0) continue;
+    if (body.is_rigid() || body.triangle_count == 0) continue;
     if (!is_lost(rounding_of(measures[b], body.radius, worst.longest_edge, worst.radius, epsilon), worst.gap_to(measures[b])))
       continue;
     for (std::size_t k = 0; k < model.bodies.size(); ++k) {

@@ -71,7 +71,7 @@ class NearStarts {
   void find_near_grounds() {
     for (std::uint32_t b = 0; b < model_.bodies.size(); ++b)
       for (const Ground& ground : model_.grounds)
-        if (!model_.bodies[b].is_static) compare(b, ground);
+        if (!model_.bodies[b].is_rigid()) compare(b, ground);
   }
 
   void compare(std::uint32_t index, const Ground& ground) {
@@ -100,7 +100,7 @@ class NearStarts {
 
   void compare(const IndexedBox& a, const IndexedBox& b) {
     const ModelBody &first = model_.bodies[a.index], &second = model_.bodies[b.index];
-    if (first.is_static && second.is_static) return;
+    if (first.is_rigid() && second.is_rigid()) return;
     if (encloses(a, b)) tell_enclosed(second, first);
     if (encloses(b, a)) tell_enclosed(first, second);
     const double gap = physics::gap_of_pair(surfaces_[a.index], surfaces_[b.index]);

@@ -126,6 +126,31 @@ void expect_drag_resolved(const TimePlan& plan, double bound, const SimulationDe
       "shorten the time step, or choose verlet, which takes steps of any length");
 }
 
+// The body that turns fastest on its path, or null.
+const ModelBody* fastest_turning(const Model& model) {
+  const ModelBody* fastest = nullptr;
+  for (const ModelBody& body : model.bodies)
+    if (body.path && (fastest == nullptr || body.path->fastest_spin() > fastest->path->fastest_spin())) fastest = &body;
+  return fastest;
+}
+
+// Vertices of scripted bodies go straight in a step, so they must not turn far [s].
+double turn_bound(const Model& model) {
+  constexpr double aimed_turn = 0.25;  // [rad]: then they are off their arcs by 0.8 % of the radius at most
+  const ModelBody* const body = fastest_turning(model);
+  return body == nullptr ? std::numeric_limits<double>::infinity() : aimed_turn / std::max(body->path->fastest_spin(), 1e-30);
+}
+
+void expect_turns_resolved(const TimePlan& plan, const Model& model, const Origin& where) {
+  constexpr double most_turn = 1;  // [rad]
+  const ModelBody* const body = fastest_turning(model);
+  if (body == nullptr || body->path->fastest_spin() * plan.time_step <= most_turn) return;
+  throw Error(where,
+              fmt::format("body \"{}\" turns by {:.3g} rad in a step of {:.4g} s", body->name,
+                          body->path->fastest_spin() * plan.time_step, plan.time_step),
+              fmt::format("write a time_step of at most {:.3g}", turn_bound(model)));
+}
+
 // Returns the shortest bound of all bodies. Bodies with the same stiffest frequency and damping rate have the same bound, so one
 // search serves them all: it takes some 20 ms.
 template <class Bound>
@@ -214,14 +239,16 @@ TimePlan plan_time(const SceneDescription& scene, const Model& model, std::optio
   expect_tableaus_fit(plan, model, simulation.integrator.where);
   expect_method_divides(plan, simulation.integrator.where, divides);
   plan.step_bound = shortest_bound(plan, model, [](auto&... what) { return step_bound(what...); });
+  if (plan.tolerance) plan.step_bound = std::min(plan.step_bound, turn_bound(model));
   const double longest_drag = shortest_bound(plan, model, [](auto&... what) { return drag_bound(what...); });
   if (plan.tolerance) {
     plan.time_step = first_step(plan.step_bound, plan.frame_rate);
     count_steps(scene, model, plan, std::min(plan.step_bound, 1 / plan.frame_rate));
   } else {
-    plan.time_step = simulation.time_step.value_or(
-        automatic_step(std::min(plan.integrator->strained_bound * plan.step_bound, longest_drag), plan.frame_rate));
+    plan.time_step = simulation.time_step.value_or(automatic_step(
+        std::min({plan.integrator->strained_bound * plan.step_bound, longest_drag, turn_bound(model)}), plan.frame_rate));
     expect_drag_resolved(plan, longest_drag, simulation);
+    expect_turns_resolved(plan, model, simulation.time_step_where);
     plan.steps = steps ? *steps : count_steps(scene, model, plan, plan.time_step);
   }
   return plan;

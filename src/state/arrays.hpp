@@ -26,6 +26,7 @@
 #include "physics/control.glsl"
 #include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
+#include "physics/path.glsl"
 #include "physics/pull.glsl"
 #include "physics/quiet.glsl"
 #include "physics/rigid_motion.glsl"
@@ -76,6 +77,9 @@ PLIANT_ELEMENT(physics::StepParts, "StepParts")
 PLIANT_ELEMENT(physics::ContactList, "ContactList")
 PLIANT_ELEMENT(physics::Debt, "Debt")
 PLIANT_ELEMENT(physics::Cluster, "Cluster")
+PLIANT_ELEMENT(physics::Path, "Path")
+PLIANT_ELEMENT(physics::PathKey, "PathKey")
+PLIANT_ELEMENT(physics::PathState, "PathState")
 PLIANT_ELEMENT(physics::Aim, "Aim")
 PLIANT_ELEMENT(physics::QuietBody, "QuietBody")
 PLIANT_ELEMENT(physics::QuietSteps, "QuietSteps")

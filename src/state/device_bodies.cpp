@@ -31,7 +31,7 @@ std::vector<ForceGroup> groups_of(const Device& device, const Model& model, cons
     const ForceVariant& lanes = device.force_variants()[variant];
     std::uint32_t count = 0, bodies = 0;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      if (model.bodies[b].is_static || variants[b] != variant) continue;
+      if (model.bodies[b].is_rigid() || variants[b] != variant) continue;
       count += (model.bodies[b].vertex_count - 1) / lanes.share_size + 1;
       ++bodies;
     }
@@ -59,7 +59,7 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
   std::vector<physics::Share> shares;
   for (const ForceGroup& group : groups)
     for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
-      if (!model.bodies[b].is_static && variants[b] == group.variant)
+      if (!model.bodies[b].is_rigid() && variants[b] == group.variant)
         add_shares(model, b, device.force_variants()[group.variant].share_size, device.strain_bias(), shares);
   return shares;
 }
@@ -68,7 +68,7 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
 std::vector<std::size_t> best_force_variants(const Device& device, const Model& model) {
   std::uint32_t largest = 0;
   for (const ModelBody& body : model.bodies)
-    if (!body.is_static) largest = std::max(largest, body.vertex_count);
+    if (!body.is_rigid()) largest = std::max(largest, body.vertex_count);
   const std::size_t best_for_one = device.best_force_variant(model.vertex_count(), model.vertex_count());
   for (std::size_t variant = best_for_one; variant < device.force_variants().size(); ++variant) {
     if (largest > device.force_variants()[variant].largest_body) continue;
@@ -94,8 +94,13 @@ physics::BoxBits empty_box() {
   return box;
 }
 
-physics::Status first_status(bool is_static) {
-  return {.activity = is_static ? physics::immovable : physics::moving,
+std::uint32_t activity_of(BodyKind kind) {
+  if (kind == BodyKind::scripted) return physics::scripted;
+  return kind == BodyKind::immovable ? physics::immovable : physics::moving;
+}
+
+physics::Status first_status(BodyKind kind) {
+  return {.activity = activity_of(kind),
           .non_finite_vertex = physics::no_vertex,
           .deformed = 0,
           .force_stale = 1,
@@ -111,8 +116,8 @@ physics::Status first_status(bool is_static) {
 
 std::vector<physics::Status> first_statuses(const Model& model) {
   std::vector<physics::Status> statuses;
-  for (const ModelBody& body : model.bodies) statuses.push_back(first_status(body.is_static));
-  statuses.push_back(first_status(false));  // stands for all
+  for (const ModelBody& body : model.bodies) statuses.push_back(first_status(body.kind));
+  statuses.push_back(first_status(BodyKind::soft));  // stands for all
   return statuses;
 }
 

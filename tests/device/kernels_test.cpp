@@ -219,6 +219,8 @@ void check_same(Bench& cpu, Bench& gpu, const Pass& cpu_pass, const Pass& gpu_pa
       constexpr std::size_t allowed = offsetof(physics::Pace, allowed) / sizeof(double);  // it comes from powers of floats
       for (std::size_t k = 0; k < x.size(); ++k)
         CHECK(y[k] == Approx(x[k]).epsilon(cpu_pass.name == "judge_step" && k != allowed ? 1e-12 : 1e-6));
+    } else if (element == "PathState") {
+      check_structs<physics::PathState>(cpu, gpu, a, b, cpu.bodies.body_count, 1e-13);
     } else if (element == "Aim") {
       const auto x = cpu.read<physics::Aim>(a).front(), y = gpu.read<physics::Aim>(b).front();
       for (int k = 0; k < 3; ++k) CHECK(std::abs(y.change[k] - x.change[k]) < 1e-6 * x.largest_speed);
@@ -348,6 +350,13 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
     REQUIRE(feels(start.model.bodies.back(), force));
   }
   setups.push_back(plate);
+  BodySetup paddle = sphere(0);
+  paddle.description.name = "paddle";
+  paddle.description.kind = BodyKind::scripted;
+  paddle.description.position = {2.9, 0.2, 0};
+  paddle.description.velocity = {-1, 0, 0};
+  paddle.description.spin = {0, 0, 2};
+  setups.push_back(paddle);
   GroundDescription ground;
   ground.point = {0, -0.93, 0};
   start = build_model(setups, {0, -1, 0}, {&ground, 1});

@@ -67,7 +67,7 @@ TEST_CASE("the history grows row by row, with energy as the sum of its parts") {
   HistoryRow row;
   history.append(row);
   CHECK(read_csv(folder.path / "run" / "history.csv").size() == 2);  // readable before the run ends
-  row = {12, 0.1, 1.5, 0.25, -0.5, {1, 2, 3}, {4, 5, 6}, 3, 40, {7, 8, 9}, 10, 11, 13};
+  row = {12, 0.1, 1.5, 0.25, -0.5, {1, 2, 3}, {4, 5, 6}, 3, 40, {7, 8, 9}, 10, 11, 13, 14};
   history.append(row);
   history.close();
   const Table table = read_csv(folder.path / "run" / "history.csv");
@@ -92,8 +92,9 @@ TEST_CASE("the history grows row by row, with energy as the sum of its parts") {
                                              "outside_pz",
                                              "contact_given",
                                              "contact_taken",
-                                             "friction_work"});
-  const std::vector<double> expected{12, 0.1, 1.5, 0.25, -0.5, 1.25, 1, 2, 3, 4, 5, 6, 3, 40, 7, 8, 9, 10, 11, 13};
+                                             "friction_work",
+                                             "work_of_scripts"});
+  const std::vector<double> expected{12, 0.1, 1.5, 0.25, -0.5, 1.25, 1, 2, 3, 4, 5, 6, 3, 40, 7, 8, 9, 10, 11, 13, 14};
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::stod(table[2][i]) == expected[i]);
 }
 

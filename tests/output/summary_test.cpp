@@ -38,6 +38,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "steps_per_second",
                              "energy",
                              "contacts",
+                             "scripts",
                              "bodies_asleep",
                              "final_intersecting_pairs",
                              "non_finite",
@@ -50,7 +51,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
   CHECK(json["device"].keys() == Names{"kind", "name"});
   CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift", "slept"});
   CHECK(json["contacts"].keys() == Names{"steps", "pairs_max", "reverted_vertices", "substeps", "held_parts", "energy_given",
-                                         "energy_taken", "friction_work"});
+                                         "energy_taken", "friction_work", "work_of_scripts"});
   CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
   CHECK(json["skipped"].is_object());
   CHECK(json["timings_ms"].is_object());
@@ -74,7 +75,9 @@ TEST_CASE("a summary's values read back as they were") {
                       .held_parts = 4,
                       .energy_given = 0.25,
                       .energy_taken = 0.5,
-                      .friction_work = 0.125};
+                      .friction_work = 0.125,
+                      .work_of_scripts = 1.5};
+  summary.scripts = {{"plate", 1.25, 0.5, 9}};
   summary.work.triangle_tests = 99;
   summary.skipped = {{"forces", 3}, {"collision", 4}};
   summary.timings_ms = {{"step", 1.25}};
@@ -93,7 +96,9 @@ TEST_CASE("a summary's values read back as they were") {
   const ReadJson contacts = json["contacts"];
   CHECK((contacts["steps"] == 2 && contacts["pairs_max"] == 17 && contacts["reverted_vertices"] == 5));
   CHECK((contacts["substeps"] == 7 && contacts["energy_given"] == 0.25 && contacts["energy_taken"] == 0.5));
-  CHECK((contacts["held_parts"] == 4 && contacts["friction_work"] == 0.125));
+  CHECK((contacts["held_parts"] == 4 && contacts["friction_work"] == 0.125 && contacts["work_of_scripts"] == 1.5));
+  const ReadJson plate = json["scripts"]["plate"];
+  CHECK((plate["time"] == 1.25 && plate["waited"] == 0.5 && plate["waits"] == 9));
   CHECK(json["work"]["triangle_tests"] == 99);
   CHECK(json["skipped"].keys() == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);

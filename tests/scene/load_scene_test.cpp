@@ -292,6 +292,53 @@ TEST_CASE("what never moves does not move, and a ground is told in one way") {
   check_input_error("[output]\nground_height = 1\n[[ground]]\n" + smallest, 3, {"ground", "remove output.ground_height"});
 }
 
+TEST_CASE("a path is read key by key, and what a key leaves out is as in the one before") {
+  const SceneDescription scene =
+      load_text(smallest +
+                "kind = \"scripted\"\nrepeats = true\nposition = [9, 0, 0]\npath = [{ time = 0.5 }, "
+                "{ time = 1, position = [1, 2, 3] }, { time = 2, rotation = [0, 360, 0], position = [0, 0, 0] }]\n");
+  const BodyDescription& body = scene.bodies.at(0);
+  CHECK((body.kind == BodyKind::scripted && body.repeats && body.position == glm::dvec3(9, 0, 0)));
+  REQUIRE(body.path.size() == 3);
+  CHECK(
+      (body.path[0].time == 0.5 && body.path[0].position == glm::dvec3(0, 0, 0) && body.path[0].rotation == glm::dvec3(0, 0, 0)));
+  CHECK((body.path[1].time == 1 && body.path[1].position == glm::dvec3(1, 2, 3) && body.path[1].rotation == glm::dvec3(0, 0, 0)));
+  CHECK(
+      (body.path[2].time == 2 && body.path[2].position == glm::dvec3(0, 0, 0) && body.path[2].rotation == glm::dvec3(0, 360, 0)));
+}
+
+TEST_CASE("a path that leads nowhere is an error where it stands") {
+  const std::string scripted = smallest + "kind = \"scripted\"\n";
+  check_input_error(scripted + "path = [{ time = 0 }]\n", 4, {"body.body0.path", "fewer than two keys", "write keys"});
+  check_input_error(scripted + "path = 3\n", 4, {"body.body0.path", "is a whole number"});
+  check_input_error(scripted + "path = [{ time = 0 }, 3]\n", 4, {"body.body0.path[1]", "write a table"});
+  check_input_error(scripted + "path = [{ time = 0 }, { position = [0, 1, 0] }]\n", 4, {"path[1]", "has no time"});
+  check_input_error(scripted + "path = [{ time = 1 }, { time = 1 }]\n", 4, {"path[1].time", "1 s is not after", "sort the keys"});
+  check_input_error(scripted + "path = [{ time = -1 }, { time = 1 }]\n", 4, {"path[0].time", "from 0"});
+  check_input_error(scripted + "path = [{ time = 0, place = [0, 0, 0] }, { time = 1 }]\n", 4, {"path[0].place", "unknown key"});
+  const std::string repeating = scripted + "repeats = true\n";
+  check_input_error(repeating + "path = [{ time = 0 }, { time = 1, position = [0, 1, 0] }]\n", 5,
+                    {"does not end where it begins"});
+  check_input_error(repeating + "path = [{ time = 0 }, { time = 1, rotation = [0, 90, 0] }]\n", 5,
+                    {"does not end where it begins"});
+  check_input_error(repeating, 4, {"no path to repeat"});
+}
+
+TEST_CASE("a scripted body has what moves it, and no other body has that") {
+  const std::string path = "path = [{ time = 0 }, { time = 1, position = [0, 1, 0] }]\n";
+  for (const char* kind : {"", "kind = \"soft\"\n", "kind = \"static\"\n"})
+    CHECK_THROWS_WITH(load_text(smallest + kind + path), Catch::Contains("of the kind \"scripted\""));
+  const std::string scripted = smallest + "kind = \"scripted\"\n";
+  for (const char* key : {"stretch = [1, 2, 1]", "pressure = 1"})
+    check_input_error(scripted + key + "\n", 4, {"does not change its shape", "remove"});
+  check_input_error(scripted + "restitution = 0.5\n", 4, {"restitution", "remove"});
+  for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]"}) {
+    check_input_error(scripted + path + key + "\n", 5, {"along it alone", "remove"});
+    CHECK(load_text(scripted + key).bodies.at(0).path.empty());
+  }
+  CHECK(load_text(scripted + "damping = 3\n").bodies.at(0).idle_keys.at(0).why == "on a scripted body");
+}
+
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {
   check_input_error(smallest + "stretch = [0, 0.0, -0.0]\n", 3, {"body.body0.stretch", "one point", "write a factor"});
   check_override_error(smallest, "body.body0.stretch=[0, 0, 0]", {"one point"});

@@ -73,6 +73,18 @@ TEST_CASE("a static one of bodies in rows has none of what the others do") {
   check_override_error(rows + "\"[1,0,0]\" = { kind = \"static\", spin = [0, 1, 0] }\n", "body.ball.spin=[1,2,3]", {"static"});
 }
 
+TEST_CASE("one of bodies in rows may be of another kind than those on a path") {
+  const std::string rows =
+      "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\nkind = \"scripted\"\n"
+      "path = [{ time = 0 }, { time = 1, position = [0, 1, 0] }]\n";
+  for (const BodyDescription& body : load_text(rows).bodies) CHECK(body.path.size() == 2);
+  for (const char* kind : {"soft", "static"}) {
+    const SceneDescription scene = load_text(rows + "\"[1,0,0]\" = { kind = \"" + kind + "\" }\n");
+    CHECK(scene.bodies[0].path.size() == 2);
+    CHECK(scene.bodies[1].path.empty());
+  }
+}
+
 TEST_CASE("a key of rows is idle only if it is for all of their bodies") {
   const std::string rows =
       "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\nkind = \"static\"\n"

@@ -72,7 +72,7 @@ class Play {
     std::size_t count = oracle_.pairs_not_apart(positions_) + oracle_.vertices_inside_others(positions_);
     for (std::size_t i = 0; i < positions_.size(); ++i)
       for (const Ground& ground : model().grounds)
-        count += !model().body_of(i).is_static && glm::dot(ground.normal, positions_[i]) <= ground.offset;
+        count += !model().body_of(i).is_rigid() && glm::dot(ground.normal, positions_[i]) <= ground.offset;
     return count;
   }
   // The same, summed over looks at every `stride` steps up to this time [s].

@@ -66,7 +66,7 @@ Event event_of(std::uint64_t number, const Model& model, const Room& room) {
   Event event{.pause = is_lull ? between(8, 16) : between(0.5, 2), .length = between(window_length, 0.5)};
   std::uniform_int_distribution<std::size_t> any_body(0, model.bodies.size() - 1);
   const ModelBody* body = &model.bodies[any_body(random)];
-  while (body->is_static) body = &model.bodies[any_body(random)];
+  while (body->is_rigid()) body = &model.bodies[any_body(random)];
   event.vertex = body->first_vertex + std::uniform_int_distribution<std::uint32_t>(0, body->vertex_count - 1)(random);
   const glm::dvec3 part{between(0, 1), between(0, 1), between(0, 1)};  // braces say in which order
   event.place = glm::mix(room.lower, room.upper, part);
@@ -243,7 +243,7 @@ std::size_t Soak::play_in_memory() const {
   std::vector<std::uint32_t> vertex_counts;
   for (const ModelBody& body : start_.model.bodies) {
     largest_grip = std::max(largest_grip, body.vertex_count * sizeof(physics::GripVertex));
-    if (!body.is_static) vertex_counts.push_back(body.vertex_count);
+    if (!body.is_rigid()) vertex_counts.push_back(body.vertex_count);
   }
   const bool is_cpu = device_.info().kind == DeviceKind::cpu;
   return 2 * largest_grip + (is_cpu ? cpu::spring_scratch_bytes(vertex_counts, device_.precision()) : 0);

@@ -63,6 +63,24 @@ TEST_CASE("bodies without springs or damping bound nothing, and a step is then a
   CHECK(plan.time_step == Approx(1.0 / 60));
 }
 
+TEST_CASE("a step turns a scripted body a little at most") {
+  BodySetup setup = sphere(0);
+  setup.description.kind = BodyKind::scripted;
+  setup.description.spin = {0, 0, 30};
+  SceneDescription scene = scene_with("cv8", DampingLaw::none);
+  const Model model = built(setup).model;
+  CHECK(30 * plan_time(scene, model).time_step <= 0.25);
+  CHECK(30 * plan_time(scene, model).time_step > 0.1);
+  scene.simulation.time_step = 0.03;
+  CHECK(plan_time(scene, model).time_step == 0.03);
+  scene.simulation.time_step = 0.04;
+  check_says(error_of([&] { return plan_time(scene, model); }), {"turns by 1.2 rad in a step of 0.04 s", "at most 0.00833"});
+  scene.simulation.time_step.reset();
+  scene.simulation.tolerance = 1e-5;
+  scene.simulation.integrator.value = "dop853";
+  CHECK(30 * plan_time(scene, model).step_bound <= 0.25 * (1 + 1e-6));
+}
+
 TEST_CASE("a strongly damped drift bounds the step too") {
   BodySetup setup = sphere(0);
   setup.description.stiffness = 1e-6;

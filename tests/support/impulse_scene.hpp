@@ -41,7 +41,7 @@ inline glm::dvec3 angular_momentum_about_centre(const Model& model, const State&
   glm::dvec3 centre(0.0), momentum(0.0), turning(0.0);
   double mass = 0;
   for (std::uint32_t i = 0; i < places.size() && model.body_index(i) < bodies; ++i) {
-    if (model.body_of(i).is_static) continue;
+    if (model.body_of(i).is_rigid()) continue;
     const double m = model.body_of(i).vertex_mass;
     mass += m;
     centre += m * places[i];
@@ -66,7 +66,7 @@ inline Energies energies_of(Simulation& simulation, const ModelAndState& start, 
   seen.last = now.energy();
   double mass = 0;
   for (const ModelBody& body : start.model.bodies)
-    if (!body.is_static) mass += body.vertex_mass * body.vertex_count;
+    if (!body.is_rigid()) mass += body.vertex_mass * body.vertex_count;
   seen.momentum = now.momentum - before.momentum - seen.report.time * mass * gravity - seen.report.response.outside_impulse;
   seen.turning_change =
       angular_momentum_about_centre(start.model, simulation.state()) - angular_momentum_about_centre(start.model, start.state);

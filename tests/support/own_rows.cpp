@@ -31,7 +31,7 @@ class ChainForce final : public AddedForce {
   std::uint32_t body_;
 };
 
-bool is_chained(const ModelBody& body) { return !body.is_static && body.name == "chained"; }
+bool is_chained(const ModelBody& body) { return !body.is_rigid() && body.name == "chained"; }
 
 std::unique_ptr<AddedForce> make_chain(DeviceBodies& bodies, const Model& model) {
   std::uint32_t body = 0;

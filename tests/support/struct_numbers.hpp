@@ -110,6 +110,13 @@ inline std::vector<double> numbers_of(const physics::ContactList& list) {
           double(std::bit_cast<float>(list.heaviest))};
 }
 
+inline std::vector<double> numbers_of(const physics::PathState& state) {
+  std::vector<double> numbers(offsetof(physics::PathState, waits) / sizeof(double));
+  std::memcpy(numbers.data(), &state, numbers.size() * sizeof(double));
+  numbers.push_back(state.waits);
+  return numbers;
+}
+
 inline std::vector<double> numbers_of(const physics::Debt& debt) {
   return {debt.energy, debt.lost[0], debt.lost[1], debt.lost[2], double(debt.is_for_cuts)};
 }
@@ -122,15 +129,17 @@ inline std::vector<double> numbers_of(const physics::GridEntry& entry) {
   return numbers;
 }
 
-// Its motion means nothing if it has no bodies, and its velocity nothing if it cannot fly.
+// Its motion means nothing if it does not move as one, and its velocity nothing if it cannot fly.
 inline std::vector<double> numbers_of(const physics::Cluster& cluster) {
-  std::vector<double> numbers{double(cluster.first),      double(cluster.bodies),           double(cluster.is_held),
-                              double(cluster.cannot_fly), double(cluster.is_beside_static), double(cluster.island),
-                              double(cluster.is_stirred), double(cluster.is_restless),      double(cluster.is_borne)};
+  std::vector<double> numbers{double(cluster.first),       double(cluster.bodies),           double(cluster.is_held),
+                              double(cluster.cannot_fly),  double(cluster.is_beside_static), double(cluster.island),
+                              double(cluster.is_stirred),  double(cluster.is_restless),      double(cluster.is_borne),
+                              double(cluster.moves_as_one)};
   if (cluster.cannot_fly == 0) numbers.insert(numbers.end(), cluster.island_velocity, cluster.island_velocity + 3);
-  if (cluster.bodies == 0) return numbers;
+  if (cluster.moves_as_one == 0) return numbers;
   const std::vector<double> motion = numbers_of(cluster.motion);
   numbers.insert(numbers.end(), motion.begin(), motion.end());
+  if (cluster.bodies == 0) return numbers;
   numbers.insert(numbers.end(),
                  {cluster.mass, cluster.means.deformation, cluster.means.rigid, cluster.means.missed, cluster.means.due});
   return numbers;

@@ -101,7 +101,7 @@ class Judge {
     }
     for (std::uint32_t a = 0; a < boxes.size(); ++a)
       for (std::uint32_t b = 0; b < boxes.size(); ++b)
-        if (window_.slept_through(a) && !model_.bodies[b].is_static && window_.after[b].asleep == 0 &&
+        if (window_.slept_through(a) && !model_.bodies[b].is_rigid() && window_.after[b].asleep == 0 &&
             distance_of(boxes[a], boxes[b]) < 0.99 * std::min(edges[a], edges[b]))
           say(a, fmt::format("body {} moves beside it", b));
   }

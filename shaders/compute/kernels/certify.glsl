@@ -14,6 +14,7 @@ READ(start)
 READ(way)
 READ(cage)
 READ(control)
+READ(status)
 READ(rest_position)
 READ(pose)
 READ(cluster)
@@ -141,6 +142,14 @@ void stop_flight(uint i, uint cut_round) {
   if (flies(i, cut_round)) atomicMin(cut[flight_stop_of(vertex_count, flight_of(body_of(i)))], cut_round);
 }
 
+// How far the corners of a triangle reach against the axis before they make motions of their own. A scripted body sweeps over its flight.
+real least_along(IN(Case) c, uint first, IN(real3) axis) {
+  real least = min(min(dot(axis, c.motion.start[first]), dot(axis, c.motion.start[first + 1u])), dot(axis, c.motion.start[first + 2u]));
+  if (status[body_of(c.vertex[first])].activity != scripted) return least;
+  for (uint k = first; k < first + 3u; ++k) least = min(least, dot(axis, c.motion.end[k]));
+  return least;
+}
+
 void cut_short(IN(Case) c, uint cut_round) {
   atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
   for (uint k = 0u; k < 6u; ++k) atomicMin(cut[stop_of(vertex_count, c.vertex[k])], at_a_cut);
@@ -155,8 +164,7 @@ void cut_short(IN(Case) c, uint cut_round) {
     return;
   }
   real3 axis = at.away / at.distance;
-  real lowest = min(min(dot(axis, c.motion.start[0]), dot(axis, c.motion.start[1])), dot(axis, c.motion.start[2]));
-  real highest = max(max(dot(axis, c.motion.start[3]), dot(axis, c.motion.start[4])), dot(axis, c.motion.start[5]));
+  real lowest = least_along(c, 0u, axis), highest = -least_along(c, 3u, -axis);
   real usable = real(0.8) * ((lowest - highest) - real(2) * c.motion.margin);
   if (!(usable > real(0))) {
     stop_all(c, cut_round);

@@ -96,7 +96,7 @@ void expect_cuts(uint i) {
   dvec3 gone = dvec3(0);
   if (may_undo_steps != 0u && !was_made()) take_kick_back(i);
   if (is_movable) gone = rotate(pose[b], LOAD3(motion, after) - LOAD3(motion, before));
-  dvec3 from = LOAD3(start, start_position_of(i)), together = is_movable ? flight_in_step(b, from) : dvec3(0), own = gone - together;
+  dvec3 from = LOAD3(start, start_position_of(i)), together = flight_in_step(b, from), own = is_movable ? gone - together : dvec3(0);
   STORE3(way, force_of(i), own)
   double part = double(1);
   PaddedBox room = load_vertex_box(cage_of(i));

@@ -76,8 +76,9 @@ void begin_part(double time_step) {
   empty_lists();
 }
 
-// Without a kick [m/s].
-dvec3 expected_velocity(uint i, double time_step) {
+// Without a kick [m/s]. That of a scripted body is known.
+dvec3 expected_velocity(uint i, uint b, dvec3 position, double time_step) {
+  if (status[b].activity == scripted) return time_step > double(0) ? way_of_cluster(b, time_step, position) / time_step : dvec3(0);
   return LOAD3(start, start_velocity_of(i)) + time_step * LOAD3(surplus, expected_surplus_of(i));
 }
 
@@ -92,7 +93,7 @@ void expect_motion(uint i) {
   double time_step = next_part(step_parts[0], control[0].time_left);
   if (i == 0u) begin_part(time_step);
   bool stays = is_at_rest || is_asleep(status[b]);
-  dvec3 position = LOAD3(start, start_position_of(i)), mean = stays ? dvec3(0) : expected_velocity(i, time_step);
+  dvec3 position = LOAD3(start, start_position_of(i)), mean = stays ? dvec3(0) : expected_velocity(i, b, position, time_step);
   dvec3 way = time_step * mean, end = position + way, lower = position, upper = position;
   if (surface[b].inverse_mass != double(0)) {
     // What others may push it further. Half an edge is what a heavy body gives to a light one by a quarter edge a step.
@@ -101,6 +102,9 @@ void expect_motion(uint i) {
     lower += min(min(way, together), dvec3(0)) - beyond + max(time_step * least_push(b), -most);
     upper += max(max(way, together), dvec3(0)) + beyond + min(time_step * most_push(b), most);
     if (!is_at_rest) end_flight_near_grounds(b, lower, upper);
+  } else {
+    lower = min(position, end);
+    upper = max(position, end);
   }
   // rounded outward: a float is off by at most 2^-24 of itself, whichever way it is rounded
   dvec3 slack = abs(position) * double(2.4e-7) + (upper - lower) * double(1.2e-7), near = dvec3(surface[b].nearness) + slack;

@@ -72,8 +72,10 @@ Samples take_samples(IN(Body) material, dvec3 origin) {
   return about_means(s);
 }
 
-// Whether the step left the body where it was, and the next one will, too. In a body that is not deformed all vertices move alike.
+// Whether the step left the body where it was, and the next one will, too. In a body that is not deformed all vertices move alike. Of a
+// scripted one end_paths has found it.
 bool is_left_where_it_was(uint b) {
+  if (status[b].activity == scripted) return status[b].disturbed == 0u;
   if (status[b].activity == immovable || is_asleep(status[b])) return true;
   uint first = body[b].first_vertex;
   uint before = in_half(from_half, vertex_count, first), after = in_half(other_half(from_half), vertex_count, first);
@@ -100,7 +102,7 @@ void note_motion(uint b) {
 void count_calm_steps(uint b) {
   if (status[b].calm >= at_rest && status[b].asleep == 0u && status[b].disturbed == 0u) tally[b].steps_at_rest += 1u;
   if (is_still(status[b]) && status[b].activity == moving) tally[b].forces_skipped += forces_of_a_step;
-  if (status[b].activity == moving || status[b].activity == immovable) {
+  if (status[b].activity == moving || status[b].activity == immovable || status[b].activity == scripted) {
     uint most = status[b].disturbed == 0u && (skips & skips_rest) != 0u ? at_rest : quiet;
     status[b].calm = is_left_where_it_was(b) ? min(status[b].calm + 1u, most) : 0u;
   } else if (status[b].disturbed != 0u) {
@@ -135,7 +137,7 @@ void follow_bodies(uint b) {
   count_calm_steps(b);
   prepare_next_step(b);
   if (b == 0u) tell_non_finite();
-  if (status[b].activity != moving) return;
+  if (status[b].activity != moving && status[b].activity != scripted) return;
   if (status[body_count].non_finite_vertex != no_vertex)
     status[b].activity = halted_for_good;
   else

@@ -44,6 +44,7 @@ bool goes_on(uint number) { return number < last_round; }
 
 uint moments_half() { return other_half(from_half); }
 #include "parts/flight.glsl"
+#include "parts/is_in_cluster.glsl"
 #include "parts/full_lists.glsl"
 #include "parts/stays.glsl"
 #include "parts/rigid_motion_by_parts.glsl"
@@ -116,7 +117,7 @@ uint next_partner(uint b, uint from) {
   for (uint k = knows_all_pairs() ? status[b].first_pair : 0u; k != 0u;) {
     uvec4 pair = near_pair[k - 1u];
     uint other = pair.x == b ? pair.y : pair.x;
-    if (other >= from && status[other].activity != immovable) found = min(found, other);
+    if (other >= from && status[other].activity == moving) found = min(found, other);
     k = pair.x == b ? pair.z : pair.w;
   }
   return found;
@@ -127,7 +128,7 @@ dvec3 velocity_of_all_at_cuts(uint b) {
   dvec3 momentum = momentum_of(b);
   double mass = mass_of(b);
   for (uint other = next_partner(b, 0u); other != no_vertex; other = next_partner(b, other + 1u)) {
-    if (status[other].activity != moving || !was_at_a_cut(other)) continue;
+    if (!was_at_a_cut(other)) continue;
     momentum += momentum_of(other);
     mass += mass_of(other);
   }
@@ -224,7 +225,7 @@ void begin_cluster(uint b) {
   cluster[b].mass = double(0);
   cluster[b].means.deformation = cluster[b].means.rigid = cluster[b].means.missed = cluster[b].means.due = double(0);
   cluster[b].first = b;
-  cluster[b].bodies = cluster[b].is_held = 0u;
+  cluster[b].bodies = cluster[b].is_held = cluster[b].moves_as_one = 0u;
 }
 
 bool belong_together(uint a, uint b) {
@@ -291,6 +292,7 @@ void end_cluster(uint first) {
     return;
   }
   cluster[body_count].bodies += cluster[first].bodies;
+  cluster[first].moves_as_one = cluster[body_count].moves_as_one = 1u;
   Moments sum = cluster[first].sum;
   double mass = cluster[first].mass;
   RigidMotion of_cluster = rigid_motion_with(sum, mass, first_place_of(first), dvec3(0));

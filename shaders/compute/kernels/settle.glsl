@@ -94,11 +94,28 @@ void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   for (uint k = 0u; k < 3u; ++k) store_surplus(i, k, kept_surplus_after(i, k, of_start[int(k)], of_end[int(k)]));
 }
 
+// A scripted body goes whole, or it waits where it is. Its velocity is then still that of its path.
+void settle_scripted(uint i, uint b, uint before, uint after) {
+  if (control[0].time_step == double(0)) return;
+  if (stays(b)) {
+    STORE3(motion, displacement_of(after), LOAD3(motion, displacement_of(before)))
+    STORE3(motion, velocity_of(after), LOAD3(motion, velocity_of(before)))
+    world_position[after] = world_position[before];
+  }
+  last_cut[i] = stays(b) ? 1u : 0u;
+  dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
+  keep_surplus(i, b, LOAD3(motion, velocity_of(before)), gone / control[0].time_step, LOAD3(motion, velocity_of(after)));
+}
+
 void settle(uint i) {
   uint b = uint(rest_position[i].w);
   prepare_next_step(i, b);
-  if (status[b].activity != moving || is_left_alone(b)) return;
+  if ((status[b].activity != moving && status[b].activity != scripted) || is_left_alone(b)) return;
   uint before = in_half(from_half, vertex_count, i), after = in_half(other_half(from_half), vertex_count, i);
+  if (status[b].activity == scripted) {
+    settle_scripted(i, b, before, after);
+    return;
+  }
   dvec3 gone = LOAD3(motion, displacement_of(after)) - LOAD3(motion, displacement_of(before));
   double most = most_tremble_ratio * sleep_speed * control[0].time_step;
   if (sleep_speed > double(0) && length(gone) > most) ATOMIC_STORE(cluster[b].is_stirred, 1u);

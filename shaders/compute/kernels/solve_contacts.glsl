@@ -289,17 +289,29 @@ void share_energy(uvec4 who, double energy) {
   if (second_moves(who)) add_energy(unsettled_energy_of(uint(rest_position[who.w].w)), share_of_it);
 }
 
+// What a scripted body's contact gives by moving [J]: the impulse along the velocity of its point.
+double work_of_script(uvec4 who, real4 weight, dvec3 impulse) {
+  if (meets_ground(who) || first_moves(who) == second_moves(who)) return double(0);
+  dvec3 velocity = dvec3(0);
+  for (int k = 0; k < 4; ++k)
+    if (inverse_mass_of(who[k]) == double(0)) velocity -= double(weight[k]) * LOAD3(start, start_velocity_of(who[k]));
+  return dot(impulse, velocity);
+}
+
 // An impulse gives as much energy as it would along the mean of the velocities before and after.
 void add_work(uint c, uint kick_round) {
   real4 impulse = impulse_row[c], normal_row = contact_row[contact_rows * c];
   if (!(impulse.x > real(0))) return;
   note_static_pressure(contact_vertex[c]);
   dvec3 mean = mean_velocity_at(contact_vertex[c], contact_row[contact_rows * c + 1u], kick_round);
-  double along = double(impulse.x) * dot(dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z)), mean);
-  double across = dot(dvec3(double(impulse.y), double(impulse.z), double(impulse.w)), mean);
+  dvec3 normal_part = double(impulse.x) * dvec3(double(normal_row.x), double(normal_row.y), double(normal_row.z));
+  dvec3 side_part = dvec3(double(impulse.y), double(impulse.z), double(impulse.w));
+  double along = dot(normal_part, mean), across = dot(side_part, mean);
+  double by_script = work_of_script(contact_vertex[c], contact_row[contact_rows * c + 1u], normal_part + side_part);
   ADD_EXACTLY_TOGETHER(contact_sum[energy_given], quanta_of_energy(max(along + across, double(0))))
   ADD_EXACTLY_TOGETHER(contact_sum[energy_taken], quanta_of_energy(max(-along - across, double(0))))
   ADD_EXACTLY_TOGETHER(contact_sum[friction_work], quanta_of_energy(-across))
+  add_energy(work_of_scripts, by_script);
   if (ended_unsettled(c)) share_energy(contact_vertex[c], along + across);
 }
 

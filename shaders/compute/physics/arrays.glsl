@@ -74,8 +74,8 @@ ARRAY(body_motion, BoxBits, body, step, "of the velocities that its vertices are
 ARRAY(room, Room, body, step, "how much further than expected its vertices may go; without bounds and pushes between steps")
 ARRAY(pressed, uint, body, carried, "number of the latest part of a step in which a contact gave it an impulse, 0: none")
 ARRAY(ground, Ground, ground, fixed, "half-spaces that bodies stay out of; one that nothing reaches where there are none")
-ARRAY(contact_sum, uvec2, run, step, "[6 + body] sums in quanta, as 64 bits in two halves: impulse on bodies, which is what static bodies and grounds gave, then energy that contacts gave, that they took, and what friction took of both; then what contacts that ended unsettled gave each body; 0 between steps")
-ARRAY(contact_total, double, run, carried, "[6 + body] the same of all steps so far [Ns], [J]; but of each body only what it owes for the latest step")
+ARRAY(contact_sum, uvec2, run, step, "[7 + body] sums in quanta, as 64 bits in two halves: impulse on bodies, which is what static and scripted bodies and grounds gave, then energy that contacts gave, that they took, what friction took of both, and what scripted bodies gave by moving; then what contacts that ended unsettled gave each body; 0 between steps")
+ARRAY(contact_total, double, run, carried, "[7 + body] the same of all steps so far [Ns], [J]; but of each body only what it owes for the latest step")
 ARRAY(start, double, vertex, step, "[vertex][6] where the vertex is at the step's start [m] and its velocity before the kick [m/s], in the world")
 ARRAY(unkicked_velocity, double, vertex, step, "[vertex][3] the same velocity in the body's frame, for steps that are undone [m/s]; one number without a tolerance")
 ARRAY(expected, double, vertex, step, "[vertex][3] mean velocity that the vertex is expected to have in the step, without a kick [m/s]")
@@ -106,6 +106,11 @@ ARRAY(impact_sum, uvec2, impact, carried, "[body][64][3] sum of the impulses of 
 ARRAY(impact_approach, double, impact, carried, "[body][64] the largest speed at which the centres of mass came [m/s], 0: none yet")
 ARRAY(impact_part, uint, impact, carried, "[body][64] number of the latest part of a step in which the pair got an impulse, 0: none; behind these for each body whether it lacked a place; then the latest part of all")
 ARRAY(last_cut, uint, vertex, carried, "1: its motion was cut short in the last step")
+
+// scripted bodies
+ARRAY(path, Path, body, fixed, "how it goes along its keys")
+ARRAY(path_key, PathKey, key, fixed, "the keys of all paths, one path after another")
+ARRAY(path_state, PathState, body, carried, "where its path leads in the step in hand, and its own clock")
 
 // pulls
 ARRAY(aim, Aim, run, step, "where a grip is drawn to, and by how much its velocity changes")

@@ -91,6 +91,7 @@ const uint halted_for_good = 1u;  // a step went non-finite, and nothing moves a
 const uint halted_for_now = 2u;   // until the next step, because this one is empty or was undone
 const uint halted_waiting = 3u;   // for good, because its work groups do not run at once, though they should
 const uint immovable = 4u;        // keeps its place and shape
+const uint scripted = 5u;         // keeps its shape and goes along its path
 const uint most_polls = 1u << 22;  // of work groups that wait for others, which take some seconds
 const uint waited_in_vain = 1u << 31;  // in counts of arrivals: work groups did not run at once, though they should
 

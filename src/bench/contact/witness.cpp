@@ -14,7 +14,7 @@ glm::dvec3 momentum_of(const Model& model, const State& state) {
   const std::vector<glm::dvec3> velocities = state.world_velocities(model);
   glm::dvec3 sum(0.0), lost(0.0);
   for (std::size_t i = 0; i < velocities.size(); ++i) {
-    if (model.body_of(i).is_static) continue;
+    if (model.body_of(i).is_rigid()) continue;
     const glm::dvec3 term = model.body_of(i).vertex_mass * velocities[i];
     for (int k = 0; k < 3; ++k) {
       const double before = sum[k];
@@ -29,7 +29,7 @@ double sum_of_momenta(const Model& model, const State& state) {
   const std::vector<glm::dvec3> velocities = state.world_velocities(model);
   double sum = 0;
   for (std::size_t i = 0; i < velocities.size(); ++i)
-    if (!model.body_of(i).is_static) sum += model.body_of(i).vertex_mass * glm::length(velocities[i]);
+    if (!model.body_of(i).is_rigid()) sum += model.body_of(i).vertex_mass * glm::length(velocities[i]);
   return sum;
 }
 

@@ -17,7 +17,7 @@ std::uint32_t fewest_in_a_grid(const Device& device) { return device.info().kind
 std::uint32_t pairs_that_may_touch(const Model& model) {
   std::uint32_t moving = 0, fixed = 0;
   for (const ModelBody& body : model.bodies)
-    if (body.triangle_count > 0) ++(body.is_static ? fixed : moving);
+    if (body.triangle_count > 0) ++(body.is_rigid() ? fixed : moving);
   return moving * (moving - std::min(moving, 1u)) / 2 + moving * fixed;
 }
 

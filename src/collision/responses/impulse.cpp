@@ -31,7 +31,7 @@ constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
 
 // Static bodies take part in impacts only if they have a restitution of their own.
 std::optional<double> restitution_of(const ModelBody& body, const CollisionDescription& description) {
-  return body.restitution || body.is_static ? body.restitution : description.restitution;
+  return body.restitution || body.is_rigid() ? body.restitution : description.restitution;
 }
 
 // Contacts matter within 1.5 gaps. A pair's gap is at most the mean of what its bodies have. A static body takes the other's
@@ -49,7 +49,7 @@ void find_nearness(std::span<physics::Surface> surfaces) {
 // does not foresee. In longer steps piles of damped bodies jam (docs/contact.md).
 double longest_pressed(const ModelBody& body, DampingLaw law) {
   const double rate = stiffest_frequency(body) + largest_damping_rate(body, law) / 2;
-  return body.is_static ? unbounded : physics::longest_pressed_rate / std::max(rate, 1e-30);
+  return body.is_rigid() ? unbounded : physics::longest_pressed_rate / std::max(rate, 1e-30);
 }
 
 std::vector<physics::Surface> surfaces_of(const ResponseSetting& setting) {
@@ -74,9 +74,9 @@ double smallest_gap(std::span<const physics::Surface> surfaces) {
 std::uint32_t room_for_triangle_pairs(const Model& model) {
   std::uint64_t triangles = 0, moving = 0, pairs = 0;
   for (const ModelBody& body : model.bodies) {
-    pairs += (body.is_static ? moving : triangles) * body.triangle_count;
+    pairs += (body.is_rigid() ? moving : triangles) * body.triangle_count;
     triangles += body.triangle_count;
-    if (!body.is_static) moving += body.triangle_count;
+    if (!body.is_rigid()) moving += body.triangle_count;
   }
   const std::uint64_t room = std::clamp(pairs_of_triangle * triangles, fewest_triangle_pairs, most_triangle_pairs);
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, room));
@@ -94,6 +94,7 @@ class Impulse final : public Response {
       : bodies_(setting.bodies),
         body_pairs_(setting.body_pairs),
         trees_(setting.trees),
+        scripted_bodies_(setting.bodies, setting.model),
         has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.nodes.empty()),
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
@@ -105,7 +106,7 @@ class Impulse final : public Response {
     smallest_gap_ = smallest_gap(surfaces);
     bodies_.arrays.make("triangle_around", surroundings_of(setting.model, setting.forest, surfaces));
     bodies_.arrays.make("surface", surfaces);
-    bodies_.arrays.set_parameter("has_static_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_static) ? 1u : 0u);
+    bodies_.arrays.set_parameter("has_rigid_bodies", std::ranges::any_of(setting.model.bodies, &ModelBody::is_rigid) ? 1u : 0u);
     bodies_.arrays.set_parameter("gravity_size", gravity_size());
     const Foresight& foresight = setting.steps.have_forces_at_ends ? foresight_with_forces_at_ends : foresight_of_most_methods;
     bodies_.arrays.set_parameter("share_of_end", foresight.share_of_end);
@@ -132,6 +133,7 @@ class Impulse final : public Response {
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
     if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
+    std::ranges::move(scripted_bodies_.following_passes(), std::back_inserter(passes));
     passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
@@ -171,7 +173,9 @@ class Impulse final : public Response {
     return {.outside_impulse = {total[0], total[1], total[2]},
             .energy_given = total[physics::energy_given],
             .energy_taken = total[physics::energy_taken],
-            .friction_work = total[physics::friction_work]};
+            .friction_work = total[physics::friction_work],
+            .work_of_scripts = total[physics::work_of_scripts],
+            .scripts = scripted_bodies_.report()};
   }
   std::vector<ContactImpulse> contact_impulses() const override {
     std::vector<ContactImpulse> contacts;
@@ -219,7 +223,7 @@ class Impulse final : public Response {
   const DeviceArray<physics::StepParts>* step_parts() const override { return parts_; }
 
   std::vector<Pass> before_quiet_steps(std::uint32_t from_half) const override {
-    if (restores_ || !divides_steps_) return {};
+    if (restores_ || !divides_steps_ || !scripted_bodies_.is_empty()) return {};
     const Arrays& arrays = bodies_.arrays;
     const std::uint32_t threads =
         std::clamp(arrays.device().parallel_items(bodies_.body_count) / bodies_.body_count, 1u, bodies_.body_count);
@@ -234,12 +238,13 @@ class Impulse final : public Response {
 
   std::vector<Pass> after_step(std::uint32_t from_half) const override {
     const Arrays& arrays = bodies_.arrays;
-    std::vector<Pass> passes = {make_pass(arrays, "expect_cuts",
-                                          {{"from_half", from_half},
-                                           {"ground_count", ground_count_},
-                                           {"least_speed", least_speed()},
-                                           {"largest_body", largest_body_}},
-                                          bodies_.vertex_count)};
+    std::vector<Pass> passes = scripted_bodies_.moving_passes(from_half);
+    passes.push_back(make_pass(arrays, "expect_cuts",
+                               {{"from_half", from_half},
+                                {"ground_count", ground_count_},
+                                {"least_speed", least_speed()},
+                                {"largest_body", largest_body_}},
+                               bodies_.vertex_count));
     if (restores_)
       passes.push_back(make_pass(arrays, "sum_impacts",
                                  {{"contact_capacity", contact_capacity_},
@@ -254,6 +259,9 @@ class Impulse final : public Response {
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}},
         bodies_.vertex_count));
+    std::ranges::move(scripted_bodies_.ending_passes(
+                          {{"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}}),
+                      std::back_inserter(passes));
     passes.push_back(round_pass("pay_dues", {{"from_half", from_half},
                                              {"part_count", part_count_},
                                              {"triangle_pair_capacity", triangle_pair_capacity_},
@@ -327,7 +335,7 @@ class Impulse final : public Response {
 
   void make_debts(const Model& model) {
     Arrays& arrays = bodies_.arrays;
-    const VertexParts all = vertex_parts(model, [](const ModelBody& body) { return !body.is_static; });
+    const VertexParts all = vertex_parts(model, [](const ModelBody& body) { return !body.is_rigid(); });
     part_count_ = all.count();
     arrays.make("vertex_part", all.parts);
     arrays.make("vertex_part_range", all.ranges);
@@ -418,6 +426,7 @@ class Impulse final : public Response {
   DeviceBodies& bodies_;
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
+  ScriptedBodies scripted_bodies_;
   bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
   std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
@@ -431,13 +440,13 @@ std::unique_ptr<Response> make_impulse(const ResponseSetting& setting) { return 
 
 physics::Surface surface_of(const Model& model, const ModelBody& body, const CollisionDescription& description) {
   return {.edge = body.triangle_count > 0 ? mean_edge(model, body) : body.radius,
-          .inverse_mass = body.is_static ? 0 : 1 / body.vertex_mass,
+          .inverse_mass = body.is_rigid() ? 0 : 1 / body.vertex_mass,
           .elasticity = body.surface.elasticity.value_or(elasticity_of(description)),
           .friction = body.surface.friction.value_or(description.friction),
           .gap = body.surface.gap.value_or(description.gap),
           .restitution = restitution_of(body, description).value_or(-1),
           .longest_pressed = unbounded,
-          .frequency = body.is_static ? 0 : stiffest_frequency(body),
+          .frequency = body.is_rigid() ? 0 : stiffest_frequency(body),
           .diameter = 2 * body.radius,
           .nearness = 0,
           .first_vertex = body.first_vertex,

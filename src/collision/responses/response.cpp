@@ -25,7 +25,8 @@ void expect_immovable_allowed(const SceneDescription& scene, const ResponseRow& 
   };
   if (!scene.grounds.empty()) fail_at(scene.grounds.front().where, "bodies would fall through a ground");
   for (const BodyDescription& body : scene.bodies)
-    if (body.kind == BodyKind::immovable) fail_at(body.kind_where, "a body can't be static");
+    if (body.kind != BodyKind::soft)
+      fail_at(body.kind_where, body.kind == BodyKind::scripted ? "a body can't be scripted" : "a body can't be static");
 }
 
 void expect_search_allowed(const CollisionDescription& collision, const ResponseRow& row) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/broad_phase/body_pairs.hpp"
+#include "collision/responses/scripted_bodies.hpp"
 #include "collision/trees/tree_search.hpp"
 #include "device/pass.hpp"
 #include "scene/scene_description.hpp"
@@ -16,10 +17,12 @@ namespace pliant {
 
 /// What a response did since the start.
 struct ResponseReport {
-  glm::dvec3 outside_impulse{0.0};  // that static bodies and grounds gave [Ns]
+  glm::dvec3 outside_impulse{0.0};  // that static and scripted bodies and grounds gave [Ns]
   // Energy in motion that contacts gave and took [J]. An impulse gives p . (v + v') / 2, with the velocities before and after.
   double energy_given = 0, energy_taken = 0;
-  double friction_work = 0;  // what friction took of both [J]
+  double friction_work = 0;                // what friction took of both [J]
+  double work_of_scripts = 0;              // what scripted bodies gave by moving [J]
+  std::vector<ScriptReport> scripts = {};  // of each scripted body
 
   bool operator==(const ResponseReport&) const = default;
 };
@@ -86,7 +89,7 @@ struct ResponseRow {
   std::unique_ptr<Response> (*make)(const ResponseSetting& setting) = nullptr;
   double elasticity = 0.9;                             // of a scene that names none
   DampingLaw law_with_gravity = DampingLaw::adaptive;  // of a scene with gravity that names none
-  bool allows_immovable = false;                       // static bodies and grounds
+  bool allows_immovable = false;                       // static and scripted bodies, and grounds
   bool allows_brute_force = true;                      // as the scene's `collision.search`
   bool divides_steps = false;                          // of a fixed length: see step_parts()
   bool keeps_apart = false;      // bodies that are apart at the start stay so. Those that are not can't begin

@@ -16,7 +16,7 @@ constexpr double sleep_diameters = 0.05;
 double smallest_diameter(const Model& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ModelBody& body : model.bodies)
-    if (!body.is_static) smallest = std::min(smallest, 2 * body.radius);
+    if (!body.is_rigid()) smallest = std::min(smallest, 2 * body.radius);
   return smallest;
 }
 

@@ -22,7 +22,7 @@ void count_as_deformed(DeviceBodies& bodies, const Force& force, const Model& mo
 
 }  // namespace
 
-bool feels(const ModelBody& body, const Force& force) { return !body.is_static && force.acts_on(body); }
+bool feels(const ModelBody& body, const Force& force) { return !body.is_rigid() && force.acts_on(body); }
 
 bool any_feels(const Model& model, const Force& force) {
   return std::ranges::any_of(model.bodies, [&](const ModelBody& body) { return feels(body, force); });

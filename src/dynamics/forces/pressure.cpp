@@ -16,7 +16,7 @@
 namespace pliant {
 namespace {
 
-bool has_pressure(const ModelBody& body) { return !body.is_static && body.inflation.pressure > 0; }
+bool has_pressure(const ModelBody& body) { return !body.is_rigid() && body.inflation.pressure > 0; }
 
 /// The arrays of all bodies with pressure.
 struct Shells {

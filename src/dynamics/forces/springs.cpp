@@ -74,7 +74,7 @@ class SpringEnergies {
     std::vector<Rows> tasks;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const ModelBody& body = model.bodies[b];
-      if (body.is_static || is_known_[b]) continue;
+      if (body.is_rigid() || is_known_[b]) continue;
       const std::uint32_t end = body.first_vertex + body.vertex_count;
       for (std::uint32_t first = body.first_vertex; first < end; first = tasks.back().end)
         tasks.push_back({first, first + std::min(end - first, springs_of_task / (end - first) + 1)});

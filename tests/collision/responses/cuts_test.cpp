@@ -70,7 +70,7 @@ glm::dvec3 mean_of(const Model& model, const std::vector<glm::dvec3>& of_vertice
   glm::dvec3 sum(0.0);
   double mass = 0;
   for (std::uint32_t i = 0; i < of_vertices.size(); ++i) {
-    if (model.body_of(i).is_static) continue;
+    if (model.body_of(i).is_rigid()) continue;
     sum += model.body_of(i).vertex_mass * of_vertices[i];
     mass += model.body_of(i).vertex_mass;
   }

@@ -88,7 +88,7 @@ double energy_of(const Force& force, const Model& model, const State& state) {
 TEST_CASE("a static body feels no force, and has no energy of it") {
   for (const Example& example : examples()) {
     Model model = example.start.model;
-    model.bodies.front().is_static = true;
+    model.bodies.front().kind = BodyKind::immovable;
     CAPTURE(example.name);
     CHECK_FALSE(any_feels(model, *example.row));
     if (example.row->warnings != nullptr) CHECK(example.row->warnings(model, deformed(example.start, 1)).empty());

@@ -7,13 +7,14 @@ WRITE(contact_weight)
 PARAMETER(uint, contact_capacity)
 PARAMETER(uint, keeps_impulses)  // 1: contacts at rest begin with their last impulse
 
-// Contacts give impulses in quanta of what these vertices have.
+// Contacts give impulses in quanta of what these vertices have. Those of rigid bodies have no mass, but may be scripted and fast.
 void count_vertex(uint i) {
   double inverse_mass = surface[uint(rest_position[i].w)].inverse_mass;
-  if (inverse_mass == double(0)) return;
-  uint mass = floatBitsToUint(float(double(1) / inverse_mass)), speed = floatBitsToUint(float(length(LOAD3(expected, force_of(i)))));
-  RAISE_TO(contact_list[0].heaviest, mass)
+  uint speed = floatBitsToUint(float(length(LOAD3(expected, force_of(i)))));
   RAISE_TO(contact_list[0].fastest, speed)
+  if (inverse_mass == double(0)) return;
+  uint mass = floatBitsToUint(float(double(1) / inverse_mass));
+  RAISE_TO(contact_list[0].heaviest, mass)
 }
 
 // Lists a contact of up to four vertices. `goal` is the change of velocity that friction aims at across the normal [m/s]. A contact at rest

@@ -1,10 +1,10 @@
 // Which motion cuts leave alone. Needs the arrays `cluster` and `control`.
-#include "is_in_cluster.glsl"
+#include "moves_as_one.glsl"
 
-// Which flight the body has: those of clusters come first, then those of islands.
-uint flight_of(uint b) { return is_in_cluster(b) ? cluster[b].first : body_count + cluster[b].island; }
+// Which flight the body has: those of clusters and scripted bodies come first, then those of islands.
+uint flight_of(uint b) { return moves_as_one(b) ? cluster[b].first : body_count + cluster[b].island; }
 
-// The way in the step that a place in the world has in common with all of its body's cluster [m]. Distances stay, so that springs get no
+// The way in the step that a place in the world has in common with all of its body's cluster, or of a scripted body [m]. Distances stay, so that springs get no
 // energy: a place goes along with the centre, and turns by Cayley's map of the spin, which is a rotation.
 dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   RigidMotion of_cluster = cluster[cluster[b].first].motion;
@@ -19,7 +19,7 @@ bool may_fly(uint b) { return cluster[cluster[b].island].cannot_fly == 0u; }
 
 // That motion, as the way of a place in the world [m]. May be asked only if there is one.
 dvec3 way_of_flight(uint b, double time_step, dvec3 from) {
-  return is_in_cluster(b) ? way_of_cluster(b, time_step, from) : time_step * LOAD3(cluster[cluster[b].island].island_velocity, 0u);
+  return moves_as_one(b) ? way_of_cluster(b, time_step, from) : time_step * LOAD3(cluster[cluster[b].island].island_velocity, 0u);
 }
 
 bool has_flight(uint b) { return may_fly(b) && cluster[cluster[b].island].is_beside_static == 0u; }

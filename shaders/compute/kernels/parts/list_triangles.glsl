@@ -1,6 +1,6 @@
 // Lists the pairs of two leaves' triangles whose boxes of cages overlap. It takes every `stride`-th triangle of the first leaf, from
 // `first` on. Pairs are counted beyond the list's end, too, which says that it is full. An island has no flight if the cage of one of its
-// triangles overlaps that of a static one and meets its plane.
+// triangles overlaps that of a static one and meets its plane, or that of a scripted one.
 READ(node)
 READ(node_box)
 READ(cage)
@@ -12,7 +12,7 @@ WRITE(contact_list)
 WRITE(triangle_pair)
 WRITE(cluster)
 PARAMETER(uint, triangle_pair_capacity)
-PARAMETER(uint, has_static_bodies)
+PARAMETER(uint, has_rigid_bodies)
 #include "node_boxes.glsl"
 #include "boxes_in_motion.glsl"
 
@@ -27,11 +27,11 @@ bool meets_plane(uint of_cage, uint of_plane) {
 }
 
 // The pairs are of s and of those triangles from t on that are set in `near`.
-void end_flight_beside_static(uint s, uint t, uint near) {
+void end_flight_beside_rigid(uint s, uint t, uint near) {
   uint a = uint(rest_position[triangle[corner_of(s, 0u)]].w), b = uint(rest_position[triangle[corner_of(t, 0u)]].w);
   bool moves_a = surface[a].inverse_mass != double(0), moves_b = surface[b].inverse_mass != double(0);
   if (moves_a && moves_b) return;
-  bool reaches = false;
+  bool reaches = cluster[moves_a ? b : a].cannot_fly == 0u;  // scripted
   for (; near != 0u && !reaches; near &= near - 1u) {
     uint other = t + uint(findLSB(near));
     reaches = moves_a ? meets_plane(s, other) : meets_plane(other, s);
@@ -73,7 +73,7 @@ void list_triangles(uvec2 leaves, uint first, uint stride) {
       uint near = overlapping(cages, t, among, false);
       if (near == 0u) continue;
       list_pairs(s, t, near, overlapping(box_of_ways(s), t, near, true));
-      if (has_static_bodies != 0u) end_flight_beside_static(s, t, near);
+      if (has_rigid_bodies != 0u) end_flight_beside_rigid(s, t, near);
     }
   }
 }

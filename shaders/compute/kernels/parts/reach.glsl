@@ -1,5 +1,5 @@
 // What a body can reach in a step. Bodies whose reaches are apart have nothing to do with each other. Needs the arrays `surface`,
-// `body_box`, `body_motion` and `step_parts`.
+// `body_box`, `body_motion`, `step_parts` and `status`.
 PARAMETER(double, gravity_size)  // [m/s^2]
 #include "box_of_body.glsl"
 
@@ -24,5 +24,5 @@ Box grown_to_reach(uint b, Box places, IN(Box) velocity, float rounding) {
 
 Box reach_box_of(uint b) {
   Box box = box_of_body(b);
-  return surface[b].inverse_mass == double(0) ? box : grown_to_reach(b, box, box_of_bits(body_motion[b]), 4.8e-7f);
+  return status[b].activity == immovable ? box : grown_to_reach(b, box, box_of_bits(body_motion[b]), 4.8e-7f);
 }

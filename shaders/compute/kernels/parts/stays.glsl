@@ -6,5 +6,5 @@ bool all_stay() { return contact_list[0].uncertified != 0u || lists_are_full(); 
 // Whether proofs stopped the body's flight.
 bool flight_was_stopped(uint b) { return has_flight(b) && cut[flight_stop_of(vertex_count, flight_of(b))] != at_no_cut; }
 
-// The bodies of a cluster whose motion was stopped keep their places.
-bool stays(uint b) { return all_stay() || (is_in_cluster(b) && flight_was_stopped(b)); }
+// Bodies that move as one keep their places if that motion was stopped.
+bool stays(uint b) { return all_stay() || (moves_as_one(b) && flight_was_stopped(b)); }

@@ -5,6 +5,7 @@
 // - In the next step cuts leave the cluster's motion alone. Otherwise what is held back would stay behind while all the others fly on.
 //   Each place goes straight to where a rotation and a shift take it. At any time between that is one affine map of space, so triangles
 //   that make nothing but this motion stay apart.
+// - A scripted body has such a flight, too, along its path. It makes no motion beside that.
 // - Cuts leave the velocity of an island alone, too, so that they do not depend on how fast all fly along. An island is bodies whose boxes
 //   are within an edge of each other, from one to the next.
 #ifndef CLUSTER_GLSL
@@ -14,7 +15,7 @@
 SHARED_BEGIN
 
 struct Cluster {
-  // Of a cluster, at its first body.
+  // Of a cluster, at its first body. A scripted body has `motion` alone.
   Moments sum;         // over its bodies' vertices, times their masses, about the first body's first vertex, in the world
   RigidMotion motion;  // of all its vertices together, in the world [m], [m/s], [1/s]
   Means means;         // of the cluster as one body, whose deformation is what its bodies' rigid motions have beyond `motion`
@@ -34,6 +35,7 @@ struct Cluster {
   uint has_company;  // 1: its island has other bodies, too; behind the last body: some island has
   uint bodies;       // of the cluster
   uint is_held;      // 1: one of the cluster's bodies was cut short in the world
+  uint moves_as_one; // 1: it is a scripted body, or a cluster, whose flight is `motion`; behind the last body: some are
 };
 
 SHARED_END

@@ -139,7 +139,8 @@ const uint kept_index_bits = 18u;
 const uint energy_given = 3u;
 const uint energy_taken = 4u;
 const uint friction_work = 5u;
-const uint contact_sums = 6u;
+const uint work_of_scripts = 6u;
+const uint contact_sums = 7u;
 FN uint unsettled_energy_of(uint b) { return contact_sums + b; }  // behind them, what contacts that ended unsettled gave each body
 FN uint contact_sum_count(uint body_count) { return contact_sums + body_count; }
 

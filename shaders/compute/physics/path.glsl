@@ -1,0 +1,111 @@
+// The path of a scripted body. Between two keys it is a cubic that has the keys' places and rates (Hermite's), in the position and in the
+// four numbers of the quaternion, which is then made a rotation. So places and velocities are continuous.
+#ifndef PATH_GLSL
+#define PATH_GLSL
+#include "rotation.glsl"
+SHARED_BEGIN
+
+struct PathKey {
+  double time;                // [s]
+  double position[3];         // [m]
+  double velocity[3];         // [m/s]
+  double quaternion[4];       // x, y, z, w; the next key's is less than half a turn away
+  double quaternion_rate[4];  // [1/s]
+};
+
+// How a body goes along its keys, which are a range in the list of all. Before the first key it stands there. Behind the last one it stands
+// there, too, or begins anew.
+struct Path {
+  double drift[3];  // velocity beside that of the keys [m/s]
+  double arm[3];    // from the place of a key to the centre of the body's vertices, before the body is turned [m]
+  uint first_key;
+  uint key_count;   // 0: the body has no path, else two or more
+  uint repeats;     // 1: begins anew
+  uint padding;
+};
+
+// A rigid motion at one time. Places turn about `centre`.
+struct PathPoint {
+  double centre[3];      // of the body's vertices [m]
+  double quaternion[4];  // of the rotation: x, y, z, w
+  double velocity[3];    // of the centre [m/s]
+  double spin[3];        // [rad/s]
+};
+
+// What a run knows of a body on its path.
+struct PathState {
+  PathPoint next;  // where the step in hand leads, if nothing stands in its way
+  double time;     // on the body's own clock, which stands while the body waits [s]
+  double pace;     // of that clock, 1 unless the body has just waited
+  double waited;   // what the clock is behind [s]
+  uint waits;      // steps, or parts of steps, in which it waited
+  uint padding;
+};
+
+// A body that waits tries again at half the pace. Otherwise it would hit what it presses as fast in each step. If it goes, its pace grows.
+FN double pace_after(double pace, bool waits) {
+  return waits ? max(double(0.5) * pace, double(1) / double(1024)) : min(double(1.1) * pace, double(1));
+}
+
+// Rates at a part s of the way from one key to the next are over `duration`.
+FN double cubic(double from, double to, double rate_from, double rate_to, double s, double duration) {
+  double rest = double(1) - s;
+  return from + s * s * (double(3) - double(2) * s) * (to - from) + duration * s * rest * (rest * rate_from - s * rate_to);
+}
+FN double rate_of_cubic(double from, double to, double rate_from, double rate_to, double s, double duration) {
+  double rest = double(1) - s;
+  return double(6) * s * rest * ((to - from) / duration) + rest * (double(1) - double(3) * s) * rate_from +
+         s * (double(3) * s - double(2)) * rate_to;
+}
+
+// The time at which the keys say where the path is at a time. It lies between the first key's and the last one's.
+FN double time_along(IN(Path) path, double time, double first, double last) {
+  if (path.repeats != 0u && time > last) time -= floor((time - first) / (last - first)) * (last - first);
+  return max(first, min(time, last));
+}
+
+FN Quaternion quaternion_of(IN(PathPoint) p) { return quaternion(p.quaternion[0], p.quaternion[1], p.quaternion[2], p.quaternion[3]); }
+
+// The turn from one rotation to another by Cayley's map: the axis times the tangent of half the angle.
+FN dvec3 half_turn_between(Quaternion from, Quaternion to) {
+  Quaternion turn = product(to, conjugate(from));
+  return dvec3(turn.x, turn.y, turn.z) / turn.w;
+}
+
+// Returns where the path is at a time [s] between two keys.
+FN PathPoint point_between(IN(PathKey) a, IN(PathKey) b, double time) {
+  double duration = b.time - a.time, s = (time - a.time) / duration;
+  PathPoint p;
+  double q[4], rate[4];
+  for (uint k = 0u; k < 3u; ++k) {
+    p.centre[k] = cubic(a.position[k], b.position[k], a.velocity[k], b.velocity[k], s, duration);
+    p.velocity[k] = rate_of_cubic(a.position[k], b.position[k], a.velocity[k], b.velocity[k], s, duration);
+  }
+  for (uint k = 0u; k < 4u; ++k) {
+    q[k] = cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
+    rate[k] = rate_of_cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
+  }
+  double size = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  Quaternion at = normalized(quaternion(q[0], q[1], q[2], q[3]));
+  Quaternion turning = product(quaternion(rate[0] / size, rate[1] / size, rate[2] / size, rate[3] / size), conjugate(at));
+  dvec3 spin = double(2) * dvec3(turning.x, turning.y, turning.z);
+  STORE3(p.spin, 0u, spin)
+  p.quaternion[0] = at.x;
+  p.quaternion[1] = at.y;
+  p.quaternion[2] = at.z;
+  p.quaternion[3] = at.w;
+  return p;
+}
+
+// Turns the place of a key into that of the body's centre, and adds the drift.
+FN PathPoint point_of_body(IN(Path) path, PathPoint p, double time) {
+  dvec3 arm = rotate_by(quaternion_of(p), LOAD3(path.arm, 0u)), drift = LOAD3(path.drift, 0u);
+  dvec3 centre = LOAD3(p.centre, 0u) + time * drift + arm;
+  dvec3 velocity = LOAD3(p.velocity, 0u) + drift + cross(LOAD3(p.spin, 0u), arm);
+  STORE3(p.centre, 0u, centre)
+  STORE3(p.velocity, 0u, velocity)
+  return p;
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,35 @@
+// The path of a scripted body: its keys as a device follows them.
+#pragma once
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "physics/path.glsl"
+#include "scene/scene_description.hpp"
+
+namespace pliant {
+
+struct BodyPath {
+  std::vector<physics::PathKey> keys;  // two or more, by time
+  physics::Path way{};                 // its `first_key` counts from the first of these
+
+  /// Returns where the path leads at a time on its own clock [s].
+  [[nodiscard]] physics::PathPoint at(double time) const;
+  /// Return the fastest spin [rad/s] and the highest speed of the centre [m/s] at keys and half-way between them.
+  [[nodiscard]] double fastest_spin() const;
+  [[nodiscard]] double highest_speed() const;
+};
+
+/// Returns Rz Ry Rx for angles in degrees about fixed axes.
+[[nodiscard]] glm::dquat rotation_of(const glm::dvec3& degrees);
+
+/// Returns the path of a scripted body. `centroid` is the mean of its vertices before it is turned and moved [m].
+///
+/// Positions and the three angles of keys are interpolated by monotone cubics, so that nothing overshoots a key, and a body that
+/// has equal keys rests between them. A path that does not repeat begins and ends at rest. Source: F. N. Fritsch and J. Butland,
+/// "A method for constructing local monotone piecewise cubic interpolants" (1984).
+///
+/// A body without keys keeps its velocity, and its spin about `centroid`.
+[[nodiscard]] BodyPath make_path(const BodyDescription& description, const glm::dvec3& centroid);
+
+}  // namespace pliant
