@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
@@ -73,26 +74,21 @@ TriangleMesh icosphere(std::string_view description, std::string_view argument) 
   return mesh;
 }
 
-// Places a number of vertices on a grid of cells once each, wherever faces of the cube share them.
-class CubeGrid {
+// Makes the surface of a box of cells about the origin. Each vertex is there once, wherever faces share it.
+class BoxGrid {
  public:
-  explicit CubeGrid(unsigned cells) : cells_(cells) {}
-
-  std::uint32_t vertex(const std::array<unsigned, 3>& at) {
-    const auto [entry, is_new] = vertices_.try_emplace(at, static_cast<std::uint32_t>(mesh.positions.size()));
-    if (is_new) mesh.positions.emplace_back(coordinate(at[0]), coordinate(at[1]), coordinate(at[2]));
-    return entry->second;
-  }
+  BoxGrid(const std::array<unsigned, 3>& cells, const glm::dvec3& size) : cells_(cells), size_(size) {}
 
   // Adds the face at the lower (0) or upper end (1) of an axis.
   void add_face(std::size_t axis, unsigned end) {
-    for (unsigned row = 0; row < cells_; ++row)
-      for (unsigned column = 0; column < cells_; ++column) {
+    const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
+    for (unsigned row = 0; row < cells_[next]; ++row)
+      for (unsigned column = 0; column < cells_[last]; ++column) {
         const auto corner = [&](unsigned r, unsigned c) {
           std::array<unsigned, 3> at{};
-          at[axis] = end * cells_;
-          at[(axis + 1) % 3] = row + r;
-          at[(axis + 2) % 3] = column + c;
+          at[axis] = end * cells_[axis];
+          at[next] = row + r;
+          at[last] = column + c;
           return vertex(at);
         };
         const std::uint32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
@@ -103,25 +99,92 @@ class CubeGrid {
       }
   }
 
+  void add_faces(bool has_top = true) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (unsigned end = 0; end < 2; ++end)
+        if (has_top || axis != 1 || end == 0) add_face(axis, end);
+  }
+
   TriangleMesh mesh;
 
  private:
-  double coordinate(unsigned place) const { return static_cast<double>(place) / cells_ - 0.5; }
-  unsigned cells_;
+  std::uint32_t vertex(const std::array<unsigned, 3>& at) {
+    const auto [entry, is_new] = vertices_.try_emplace(at, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (is_new) mesh.positions.emplace_back(coordinate(at, 0), coordinate(at, 1), coordinate(at, 2));
+    return entry->second;
+  }
+  double coordinate(const std::array<unsigned, 3>& at, int axis) const {
+    const auto k = static_cast<std::size_t>(axis);
+    return size_[axis] * (static_cast<double>(at[k]) / cells_[k] - 0.5);
+  }
+
+  std::array<unsigned, 3> cells_;
+  glm::dvec3 size_;
   std::map<std::array<unsigned, 3>, std::uint32_t> vertices_;
 };
 
 constexpr unsigned max_cells = 100;
 
-TriangleMesh cube(std::string_view description, std::string_view argument) {
+template <class Number>
+bool is_number(std::string_view text, Number& number) {
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return status == std::errc() && end == text.data() + text.size();
+}
+
+unsigned cells_of(std::string_view description, std::string_view argument, const char* form) {
   unsigned cells = 0;
-  const auto [end, status] = std::from_chars(argument.data(), argument.data() + argument.size(), cells);
-  if (status != std::errc() || end != argument.data() + argument.size() || cells < 1 || cells > max_cells)
+  if (!is_number(argument, cells) || cells < 1 || cells > max_cells)
     throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description), fmt::format("\"{}\" is no number of cells", argument),
-                fmt::format("write cube:n with a whole number n from 1 to {}", max_cells));
-  CubeGrid grid(cells);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (unsigned side = 0; side < 2; ++side) grid.add_face(axis, side);
+                fmt::format("write {} with a whole number n from 1 to {}", form, max_cells));
+  return cells;
+}
+
+TriangleMesh cube(std::string_view description, std::string_view argument) {
+  const unsigned cells = cells_of(description, argument, "cube:n");
+  BoxGrid grid({cells, cells, cells}, glm::dvec3(1.0));
+  grid.add_faces();
+  return std::move(grid.mesh);
+}
+
+// A box of these sizes, whose longest side has n cells. Cells are as near to squares as whole numbers of them let them be.
+BoxGrid box_grid(std::string_view description, std::string_view argument, const char* form) {
+  glm::dvec3 size(0.0);
+  std::string_view rest = argument;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = rest.find(',');
+    if (comma == std::string_view::npos || !is_number(rest.substr(0, comma), size[axis]) ||
+        !(size[axis] >= 1e-6 && size[axis] <= 1e6))
+      throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description),
+                  "does not say three sizes from 1e-6 to 1e6, and a number of cells",
+                  fmt::format("write {}, as in {}2,0.5,2,8", form,
+                              std::string_view(form).substr(0, std::string_view(form).find(':') + 1)));
+    rest.remove_prefix(comma + 1);
+  }
+  const double longest = std::max({size.x, size.y, size.z}), most = cells_of(description, rest, form);
+  std::array<unsigned, 3> cells{};
+  for (int axis = 0; axis < 3; ++axis)
+    cells[static_cast<std::size_t>(axis)] = std::max(1u, static_cast<unsigned>(std::lround(most * size[axis] / longest)));
+  return {cells, size};
+}
+
+TriangleMesh box(std::string_view description, std::string_view argument) {
+  BoxGrid grid = box_grid(description, argument, "box:x,y,z,n");
+  grid.add_faces();
+  return std::move(grid.mesh);
+}
+
+TriangleMesh crate(std::string_view description, std::string_view argument) {
+  BoxGrid grid = box_grid(description, argument, "crate:x,y,z,n");
+  grid.add_faces(false);
+  return std::move(grid.mesh);
+}
+
+// The lower half of a cube's surface, pushed out to the unit sphere.
+TriangleMesh bowl(std::string_view description, std::string_view argument) {
+  const unsigned cells = cells_of(description, argument, "bowl:n");
+  BoxGrid grid({2 * cells, cells, 2 * cells}, {1, 0.5, 1});
+  grid.add_faces(false);
+  for (glm::dvec3& p : grid.mesh.positions) p = glm::normalize(p - glm::dvec3(0, 0.25, 0));
   return std::move(grid.mesh);
 }
 
@@ -130,7 +193,11 @@ struct Generator {
   TriangleMesh (*generate)(std::string_view description, std::string_view argument);
 };
 
-constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere}, {"cube", "cube:n", cube}};
+constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere},
+                                    {"cube", "cube:n", cube},
+                                    {"box", "box:x,y,z,n", box},
+                                    {"crate", "crate:x,y,z,n", crate},
+                                    {"bowl", "bowl:n", bowl}};
 
 }  // namespace
 

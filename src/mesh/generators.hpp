@@ -10,12 +10,20 @@ namespace pliant {
 /// Returns whether a mesh's description has the form "generator:argument" (known or not) instead of a file's path.
 [[nodiscard]] bool is_generator(std::string_view description);
 
-/// Returns what descriptions can look like: "icosphere:n, cube:n".
+/// Returns what descriptions can look like: "icosphere:n, cube:n, ...".
 [[nodiscard]] std::string generator_forms();
 
-/// Makes the mesh of a description. "icosphere:n", with n from 0 to 7, is a unit sphere of 10 * 4^n + 2 vertices. "cube:n", with
-/// n from 1 to 100, is a cube of side 1 about the origin, with n * n cells a face and 6 n^2 + 2 vertices. Triangles wind
-/// counter-clockwise seen from outside. Throws Error (input) for any other description, and says what exists.
+/// Makes the mesh of a description. Throws Error (input) for any other description, and says what exists.
+///
+/// | description | mesh |
+/// |---|---|
+/// | icosphere:n | a unit sphere of 10 * 4^n + 2 vertices, n from 0 to 7 |
+/// | cube:n | a cube of side 1 about the origin, with n * n cells a face and 6 n^2 + 2 vertices, n from 1 to 100 |
+/// | box:x,y,z,n | a box of these sizes about the origin, with n cells along its longest side and cells as square as they can be |
+/// | crate:x,y,z,n | the same without its top |
+/// | bowl:n | the lower half of a unit sphere's surface, with 2 n by 2 n cells at its bottom and n up its sides |
+///
+/// Triangles wind counter-clockwise seen from outside.
 [[nodiscard]] TriangleMesh generate_mesh(std::string_view description);
 
 }  // namespace pliant

@@ -60,6 +60,7 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.vertex_mass = description.total_mass ? *description.total_mass / n : description.vertex_mass;
   body.damping = description.damping;
   body.kind = description.kind;
+  body.is_container = description.is_container;
   if (body.is_rigid()) body.stiffness = body.damping = 0;
   body.surface = description.surface;
   body.restitution = description.restitution;

@@ -37,6 +37,7 @@ struct Ground {
 struct ModelBody {
   std::string name;
   BodyKind kind = BodyKind::soft;
+  bool is_container = false;  // as in a BodyDescription
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
   double stiffness = 0;    // k of every pair's spring [N/m]

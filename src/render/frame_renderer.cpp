@@ -38,12 +38,19 @@ std::vector<glm::vec4> colors_of(const Model& model) {
   return colors;
 }
 
+/// Containers stand behind all other bodies.
+std::size_t solid_triangles(const Model& model) {
+  const auto container = std::ranges::find(model.bodies, true, &ModelBody::is_container);
+  return container == model.bodies.end() ? model.triangles.size() : container->first_triangle;
+}
+
 /// The bodies' surfaces on the GPU. Only `smooth`, the normals and strains, is computed again for each picture.
 struct Surface {
   explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
   Surface(const Model& model, const IncidentTriangles& around)
       : vertex_count(model.vertex_count()),
         index_count(static_cast<GLsizei>(model.triangles.size() * 3)),
+        solid_index_count(static_cast<GLsizei>(solid_triangles(model) * 3)),
         indices(upload(model.triangles, "triangle corners")),
         rest(upload(model.rest_positions, "rest positions for drawing")),
         first_incident(upload(around.first, "first incident triangle")),
@@ -53,7 +60,7 @@ struct Surface {
         vertices(indices) {}
 
   std::uint32_t vertex_count;
-  GLsizei index_count;
+  GLsizei index_count, solid_index_count;  // of all, and without containers
   gl::Buffer indices, rest, first_incident, incident, colors, smooth;
   gl::VertexArray vertices;
 };
@@ -186,7 +193,7 @@ struct FrameRenderer::Impl {
 
   void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
-  void draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const;
+  void draw_bodies(const gl::Program& program, const glm::mat4& to_clip, GLsizei index_count) const;
   void set_shown() const;
   void smooth_surface() const;
   void draw_shadow_map();
@@ -224,12 +231,12 @@ void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint3
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
 }
 
-void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat4& to_clip) const {
+void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat4& to_clip, GLsizei index_count) const {
   glProgramUniformMatrix4fv(program.id(), to_clip_location, 1, GL_FALSE, glm::value_ptr(to_clip));
   glUseProgram(program.id());
   glBindVertexArray(surface.vertices.id());
   glEnable(GL_CLIP_DISTANCE0);
-  glDrawElements(GL_TRIANGLES, surface.index_count, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_CLIP_DISTANCE0);
 }
 
@@ -260,7 +267,7 @@ void FrameRenderer::Impl::draw_shadow_map() {
   glEnable(GL_DEPTH_CLAMP);  // a body beyond the light's box still casts its shadow
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.5f, 4.0f);
-  draw_bodies(programs.shadow, studio.key_projection);
+  draw_bodies(programs.shadow, studio.key_projection, surface.solid_index_count);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
@@ -273,7 +280,7 @@ void FrameRenderer::Impl::draw_footprint() const {
   glClearBufferfv(GL_COLOR, 0, nothing);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  draw_bodies(programs.footprint, studio.above_projection);
+  draw_bodies(programs.footprint, studio.above_projection, surface.solid_index_count);
   glDisable(GL_BLEND);
   glGenerateTextureMipmap(maps.footprint.id());
 }
@@ -300,10 +307,11 @@ void FrameRenderer::Impl::draw_seen() {
   glEnable(GL_DEPTH_TEST);
   if (fill_mode == Fill::wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   glEnable(GL_CULL_FACE);
-  for (const GLenum hidden : {GL_BACK, GL_FRONT}) {  // draws the sides that face the eye first, because they hide most others
-    glCullFace(hidden);
-    draw_bodies(programs.seen, studio.view_projection);
-  }
+  // The sides that face the eye come first, because they hide most others. Of containers the others show alone.
+  glCullFace(GL_BACK);
+  draw_bodies(programs.seen, studio.view_projection, surface.solid_index_count);
+  glCullFace(GL_FRONT);
+  draw_bodies(programs.seen, studio.view_projection, surface.index_count);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);

@@ -218,9 +218,10 @@ void read_table(TableReader& table, OutputDescription& output) {
 }
 
 // What a kind of body can't have.
-void expect_none_of(const TableReader& table, std::initializer_list<const char*> keys, const char* why) {
+void expect_none_of(const TableReader& table, std::initializer_list<const char*> keys, const char* why,
+                    const char* instead = "change kind") {
   for (const char* key : keys)
-    if (table.peek(key) != nullptr) throw Error(table.where(key), why, fmt::format("remove {}, or change kind", key));
+    if (table.peek(key) != nullptr) throw Error(table.where(key), why, fmt::format("remove {}, or {}", key, instead));
 }
 
 void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) {
@@ -294,6 +295,15 @@ void read_path(const toml::node& node, const std::string& path, BodyDescription&
          "give the last key the position of the first, and its rotation or whole turns from it");
 }
 
+void read_motion(TableReader& table, BodyDescription& body) {
+  table.read("position", body.position, coordinate);
+  table.read("rotation", body.rotation, coordinate);
+  table.read("velocity", body.velocity, coordinate);
+  table.read("spin", body.spin, coordinate);
+  table.read("repeats", body.repeats);
+  if (const toml::node* path = table.find("path")) read_path(*path, table.path_of("path"), body);
+}
+
 void read_table(TableReader& table, BodyDescription& body) {
   table.require("mesh");
   table.know("count");
@@ -306,13 +316,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   body.mesh_where = table.where("mesh");
   table.read("weld", body.weld, not_negative);
   table.read("scale", body.scale, positive);
-  table.read("position", body.position, coordinate);
-  table.read("rotation", body.rotation, coordinate);
-  table.read("velocity", body.velocity, coordinate);
-  table.read("spin", body.spin, coordinate);
-  table.read("repeats", body.repeats);
-  if (const toml::node* path = table.find("path")) read_path(*path, table.path_of("path"), body);
-  body.path_where = table.where("path");
+  read_motion(table, body);
   table.read("stretch", body.stretch, coordinate);
   if (body.stretch == glm::dvec3(0.0))
     throw Error(table.where("stretch"), "presses the body into one point, where no spring has a direction",
@@ -452,6 +456,66 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   for (std::size_t i = 0; i < node.as_array()->size(); ++i) reader.read((*node.as_array())[i], i);
 }
 
+enum class ContainerShape { box, sphere };
+const std::vector<Choice<ContainerShape>> container_shapes = {{"box", ContainerShape::box}, {"sphere", ContainerShape::sphere}};
+
+// Returns the mesh of a box whose cells are an eighth of its longest side.
+std::string box_mesh(TableReader& table) {
+  glm::dvec3 size(0.0);
+  bool open = false;
+  expect_none_of(table, {"radius"}, "a box has sizes", "write size = [2, 1, 2]");
+  table.require("size");
+  table.read("size", size, box_side);
+  table.read("open", open);
+  return fmt::format("{}:{},{},{},8", open ? "crate" : "box", size.x, size.y, size.z);
+}
+
+std::string sphere_mesh(TableReader& table, BodyDescription& container) {
+  expect_none_of(table, {"size", "open"}, "a sphere has a radius alone", "write radius = 1");
+  table.require("radius");
+  table.read("radius", container.scale, positive);
+  return "icosphere:3";
+}
+
+// A rigid body whose walls hold others from all sides. It is scripted if something moves it.
+void read_container(TableReader& table, BodyDescription& container) {
+  ContainerShape shape = ContainerShape::box;
+  table.read("name", container.name);
+  table.read("shape", shape, container_shapes);
+  container.mesh = shape == ContainerShape::box ? box_mesh(table) : sphere_mesh(table, container);
+  container.mesh_where = table.where("shape");
+  read_motion(table, container);
+  read_surface(table, container.surface);
+  table.read("color", container.color, fraction);
+  table.note({"elasticity", "friction", "gap"}, container.surface_keys);
+  const bool moves = !container.path.empty() || container.velocity != glm::dvec3(0.0) || container.spin != glm::dvec3(0.0);
+  container.kind = moves ? BodyKind::scripted : BodyKind::immovable;
+  if (moves) expect_keys_of_kind(table, container);
+}
+
+void read_containers(const toml::node& node, std::vector<BodyDescription>& bodies) {
+  if (!node.is_array())
+    fail(node, "container", fmt::format("is {}", type_name(node)),
+         is_override(node) ? "write all containers, as in --set 'container=[{size=[2,1,2]}]'"
+                           : "begin each container with [[container]]");
+  std::size_t index = 0;
+  for (const toml::node& table : *node.as_array()) {
+    BodyDescription container;
+    container.is_container = true;
+    container.name = fmt::format("container{}", index++);
+    container.where = place_of(table);
+    container.kind_where = origin_of(table, "container");
+    container.color = glm::dvec3(0.55);
+    if (!table.is_table()) fail(table, "container", fmt::format("is {}", type_name(table)), "write a table, as in [[container]]");
+    TableReader reader(*table.as_table(), "container");
+    read_container(reader, container);
+    reader.finish();
+    if (std::ranges::find(bodies, container.name, &BodyDescription::name) != bodies.end())
+      fail(table, "container." + container.name, "the name is taken", "give each body and container a name of its own");
+    bodies.push_back(std::move(container));
+  }
+}
+
 void read_table(TableReader& table, GroundDescription& ground) {
   double height = 0;
   table.keep_one_of("height", "point");
@@ -482,6 +546,7 @@ void read_table(TableReader& table, SceneDescription& scene) {
   table.section("output", scene.output);
   if (const toml::node* bodies = table.find("body")) read_bodies(*bodies, scene.bodies);
   if (const toml::node* grounds = table.find("ground")) read_grounds(*grounds, scene.grounds);
+  if (const toml::node* containers = table.find("container")) read_containers(*containers, scene.bodies);
 }
 
 // The drawn floor is a level ground, if there is one.
@@ -515,7 +580,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
   scene.file = file;
   TableReader::section(root, "", scene);
   draw_level_ground(scene);
-  if (scene.bodies.empty()) throw Error(ErrorKind::input, file.string(), "has no body", "add a [[body]] with a mesh");
+  if (std::ranges::all_of(scene.bodies, &BodyDescription::is_container))
+    throw Error(ErrorKind::input, file.string(), "has no body", "add a [[body]] with a mesh");
   return scene;
 }
 

@@ -129,6 +129,7 @@ struct PathKeyDescription {
 struct BodyDescription {
   std::string name;
   BodyKind kind = BodyKind::soft;         // an immovable body keeps its place and shape, a scripted one its shape
+  bool is_container = false;              // holds the others, so pictures show its far walls alone
   std::string mesh;                       // "generator:argument", or a path
   std::string where;                      // "file:line", for errors about this body
   Origin kind_where;                      // of the key `kind`
@@ -141,7 +142,6 @@ struct BodyDescription {
   glm::dvec3 spin{0.0};                   // [rad/s] about the centroid
   std::vector<PathKeyDescription> path;   // of a scripted body, by time. If empty, it keeps its velocity and spin
   bool repeats = false;                   // whether the path begins anew behind its last key
-  Origin path_where;                      // of the key `path`
   glm::dvec3 stretch{1.0};                // factors along the body's axes about its centroid
   double stiffness = 40.0;                // k of every pair's spring [N/m]
   std::optional<double> total_stiffness;  // [N/m], k = total / N^2
@@ -171,7 +171,7 @@ struct SceneDescription {
   SimulationDescription simulation;
   CollisionDescription collision;
   OutputDescription output;
-  std::vector<BodyDescription> bodies;
+  std::vector<BodyDescription> bodies;  // containers stand behind all others
   std::vector<GroundDescription> grounds;
 };
 

@@ -20,6 +20,7 @@ struct Range {
 };
 
 inline constexpr Range positive{1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
+inline constexpr Range box_side{1e-6, 1e6, "a number from 1e-6 to 1e6"};
 inline constexpr Range error_tolerance{1e-14, 0.1, "a number from 1e-14 to 0.1"};
 inline constexpr Range positive_or_auto{1e-30, 1e30, "a number above 0 (1e-30 to 1e30), or \"auto\""};
 inline constexpr Range not_negative{0, 1e30, "a number from 0 to 1e30"};

@@ -64,7 +64,8 @@ class NearStarts {
 
   // Whether the first box's body has the second box's body inside. They do not intersect, so one vertex tells.
   bool encloses(const IndexedBox& outer, const IndexedBox& inner) const {
-    return glm::all(glm::lessThan(outer.lower, inner.lower)) && glm::all(glm::lessThan(inner.upper, outer.upper)) &&
+    return !model_.bodies[outer.index].is_container && glm::all(glm::lessThan(outer.lower, inner.lower)) &&
+           glm::all(glm::lessThan(inner.upper, outer.upper)) &&
            is_enclosed(positions_[model_.bodies[inner.index].first_vertex], model_, model_.bodies[outer.index], positions_);
   }
 

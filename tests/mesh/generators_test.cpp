@@ -52,7 +52,7 @@ TEST_CASE("the icosahedron's corners are the cyclic permutations of (0, +-1, +-g
 }
 
 TEST_CASE("an unknown generator or a bad argument is an input error that lists what exists") {
-  for (const char* description : {"cube:0", "cube:101", "cube:", "box:3", "icosphere:", "icosphere:8", "icosphere:-1",
+  for (const char* description : {"cube:0", "cube:101", "cube:", "tub:3", "icosphere:", "icosphere:8", "icosphere:-1",
                                   "icosphere:2.5", "icosphere:two", "icosphere:3 ", "icosphere:99999999999", "icosphere"}) {
     CAPTURE(description);
     const Error error = error_of([&] { return generate_mesh(description); });
@@ -61,15 +61,63 @@ TEST_CASE("an unknown generator or a bad argument is an input error that lists w
   }
 }
 
+double signed_volume(const TriangleMesh& mesh) {
+  double volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    volume += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c])) / 6;
+  return volume;
+}
+
 TEST_CASE("a cube is closed, of side 1, and has each vertex once") {
   for (const int n : {1, 2, 10}) {
     const TriangleMesh mesh = generate_mesh("cube:" + std::to_string(n));
     CHECK(mesh.positions.size() == static_cast<std::size_t>(6 * n * n + 2));
     CHECK(mesh.triangles.size() == static_cast<std::size_t>(12 * n * n));
-    double volume = 0;
-    for (const auto& [a, b, c] : mesh.triangles)
-      volume += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c])) / 6;
-    CHECK(volume == Approx(1));
+    CHECK(signed_volume(mesh) == Approx(1));
+  }
+}
+
+TEST_CASE("a box has its sizes, and cells that are nearly square") {
+  const TriangleMesh mesh = generate_mesh("box:2,0.5,1.1,8");
+  const MeshReport report = report_mesh(mesh);
+  CHECK((report.closed && report.manifold && report.genus == 0 && report.component_count == 1));
+  CHECK(report.inconsistent_edge_count == 0);
+  CHECK(report.triangle_count == 2 * 2 * (8 * 2 + 8 * 4 + 2 * 4));
+  CHECK(signed_volume(mesh) == Approx(2 * 0.5 * 1.1));
+  for (const glm::dvec3& p : mesh.positions) CHECK((std::abs(p.x) <= 1 && std::abs(p.y) <= 0.25 && std::abs(p.z) <= 0.55));
+}
+
+TEST_CASE("a crate is a box without its top") {
+  const MeshReport box = report_mesh(generate_mesh("box:2,0.5,1,8")), crate = report_mesh(generate_mesh("crate:2,0.5,1,8"));
+  CHECK_FALSE(crate.closed);
+  CHECK(crate.inconsistent_edge_count == 0);
+  CHECK(crate.area == Approx(box.area - 2));
+  for (const glm::dvec3& p : generate_mesh("crate:2,0.5,1,8").positions)
+    CHECK((p.y < 0.25 || std::abs(p.x) == 1 || std::abs(p.z) == 0.5));
+}
+
+TEST_CASE("a bowl is the lower half of a unit sphere") {
+  const TriangleMesh mesh = generate_mesh("bowl:10");
+  const MeshReport report = report_mesh(mesh);
+  CHECK((report.manifold && report.component_count == 1 && report.inconsistent_edge_count == 0));
+  std::size_t rim = 0;
+  for (const glm::dvec3& p : mesh.positions) {
+    CHECK(glm::length(p) == Approx(1));
+    CHECK(p.y <= 0);
+    rim += p.y == 0;
+  }
+  CHECK(rim == 80);
+  CHECK(report.area == Approx(2 * std::numbers::pi).epsilon(0.01));
+  CHECK(signed_volume(mesh) == Approx(2 * std::numbers::pi / 3).epsilon(0.02));  // so it winds outward
+}
+
+TEST_CASE("a box's sizes and cells that can't be are an input error") {
+  for (const char* description : {"box:", "box:1,2,3", "box:1,2,3,0", "box:1,2,3,101", "box:0,2,3,4", "box:1,2,x,4",
+                                  "box:1,2,3,4,5", "crate:-1,2,3,4", "bowl:0", "box:1e7,2,3,4", "box:nan,1,1,1"}) {
+    CAPTURE(description);
+    const Error error = error_of([&] { return generate_mesh(description); });
+    CHECK(error.kind() == ErrorKind::input);
+    check_says(error, {description, "write "});
   }
 }
 

@@ -93,6 +93,27 @@ TEST_CASE("where depths are seldom cleared bodies leave no shadows behind", "[gl
   }
 }
 
+TEST_CASE("a container shows its far walls alone, and casts no shadow", "[gl]") {
+  const gl::Context context(0);
+  Subject walls = scaled(sphere({0, 0, 0}, {0.1, 0.1, 0.8}), 2.5f);
+  const Subject ball = sphere({0, 0, 0});
+  Subject held = together(ball, walls);
+  const Image without = draw(ball), hidden = draw(held);
+  held.model.bodies.back().is_container = true;
+  const Image seen = draw(held);
+  const auto pixel = [](const Image& image, const glm::dvec3& place) {
+    const glm::ivec2 at = pixel_of(place);
+    const std::size_t first = 3 * (static_cast<std::size_t>(at.y) * image.width + static_cast<std::size_t>(at.x));
+    return std::vector<std::uint8_t>(image.pixels.begin() + static_cast<std::ptrdiff_t>(first),
+                                     image.pixels.begin() + static_cast<std::ptrdiff_t>(first) + 3);
+  };
+  CHECK(pixel(seen, {0, 0, 1}) == pixel(without, {0, 0, 1}));
+  CHECK(pixel(hidden, {0, 0, 1}) != pixel(without, {0, 0, 1}));
+  const std::vector<std::uint8_t> beside = pixel(seen, {1.6, 0, 0});
+  CHECK(beside != pixel(without, {1.6, 0, 0}));
+  CHECK(beside[2] > 2 * beside[0]);  // the walls' blue
+}
+
 TEST_CASE("a resized renderer draws what one of that size would, bit for bit", "[gl]") {
   const gl::Context context(0);
   const Subject subject = sphere({0.4, 0, 0});

@@ -339,6 +339,34 @@ TEST_CASE("a scripted body has what moves it, and no other body has that") {
   CHECK(load_text(scripted + "damping = 3\n").bodies.at(0).idle_keys.at(0).why == "on a scripted body");
 }
 
+TEST_CASE("containers stand behind all bodies, and those that something moves are scripted") {
+  const SceneDescription scene = load_text(
+      "[[container]]\nsize = [2, 1, 3]\nfriction = 0.2\n"
+      "[[container]]\nname = \"drum\"\nshape = \"sphere\"\nradius = 4\nspin = [1, 0, 0]\n"
+      "[[container]]\nsize = [1, 1, 1]\nopen = true\npath = [{ time = 0 }, { time = 1 }]\n" +
+      smallest);
+  REQUIRE(scene.bodies.size() == 4);
+  CHECK_FALSE(scene.bodies[0].is_container);
+  const BodyDescription &box = scene.bodies[1], &drum = scene.bodies[2], &crate = scene.bodies[3];
+  CHECK((box.is_container && box.name == "container0" && box.kind == BodyKind::immovable && box.mesh == "box:2,1,3,8"));
+  CHECK(box.surface.friction == 0.2);
+  CHECK((drum.name == "drum" && drum.kind == BodyKind::scripted && drum.mesh == "icosphere:3" && drum.scale == 4));
+  CHECK((crate.kind == BodyKind::scripted && crate.mesh == "crate:1,1,1,8" && crate.path.size() == 2));
+}
+
+TEST_CASE("a container that holds nothing, or is none, is an error where it stands") {
+  check_input_error("[[container]]\n" + smallest, 1, {"container", "has no size"});
+  check_input_error("[[container]]\nsize = [0, 1, 1]\n" + smallest, 2, {"container.size[0]", "from 1e-6"});
+  check_input_error("[[container]]\nsize = [1, 1, 1]\nradius = 1\n" + smallest, 3, {"a box has sizes"});
+  check_input_error("[[container]]\nshape = \"sphere\"\n" + smallest, 1, {"has no radius"});
+  check_input_error("[[container]]\nshape = \"sphere\"\nradius = 1\nopen = true\n" + smallest, 4, {"a radius alone"});
+  check_input_error("[[container]]\nshape = \"cone\"\n" + smallest, 2, {"box, sphere"});
+  check_input_error("[[container]]\nsize = [1, 1, 1]\nmesh = \"cube:1\"\n" + smallest, 3, {"unknown key"});
+  check_input_error("[[container]]\nname = \"body0\"\nsize = [1, 1, 1]\n" + smallest, 1, {"the name is taken"});
+  CHECK_THROWS_WITH(load_text("[[container]]\nsize = [1, 1, 1]\n"), Catch::Contains("has no body"));
+  CHECK_THROWS_WITH(load_text("container = 3\n" + smallest), Catch::Contains("begin each container"));
+}
+
 TEST_CASE("a body is not stretched to a single point, and may be to a line") {
   check_input_error(smallest + "stretch = [0, 0.0, -0.0]\n", 3, {"body.body0.stretch", "one point", "write a factor"});
   check_override_error(smallest, "body.body0.stretch=[0, 0, 0]", {"one point"});
