@@ -5,10 +5,14 @@
 namespace pliant {
 namespace {
 
-// The name has to be right even where there is nothing to touch.
-ResponseRow row_of(const CollisionDescription& description, bool has_contacts) {
+// The name has to be right even where there is nothing to touch. Responses move scripted bodies, too.
+ResponseRow row_of(const CollisionDescription& description, bool is_needed) {
   const ResponseRow& named = find_response(description.response);
-  return has_contacts ? named : ResponseRow();
+  return is_needed ? named : ResponseRow();
+}
+
+bool has_paths(const Model& model) {
+  return std::ranges::any_of(model.bodies, [](const ModelBody& body) { return body.path.has_value(); });
 }
 
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
@@ -21,12 +25,12 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
                    std::optional<std::uint32_t> parallel_items, bool sleeps)
     : description_(description),
       body_count_(bodies.body_count),
-      has_static_(std::ranges::any_of(model.bodies, &ModelBody::is_rigid)),
+      has_rigid_(std::ranges::any_of(model.bodies, &ModelBody::is_rigid)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies, model, description.broad_phase),
       trees_(bodies, forest_, description, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_row_(row_of(description, searches() || !model.grounds.empty())) {
+      response_row_(row_of(description, searches() || !model.grounds.empty() || has_paths(model))) {
   if (response_row_.make != nullptr)
     response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, steps, sleeps});
 }
@@ -38,7 +42,7 @@ bool Collider::uses_trees() const { return description_.search == ContactSearch:
 std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
   if (!searches()) return {};
   std::vector<Pass> passes = body_pairs_.pairing_passes();
-  if (has_static_) passes.insert(passes.begin(), bounding_pass(half));
+  if (has_rigid_) passes.insert(passes.begin(), bounding_pass(half));
   return passes;
 }
 

@@ -30,12 +30,12 @@ class Collider {
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.
   [[nodiscard]] bool uses_trees() const;
 
-  /// Bounds every body at `half`. A step does that itself as it ends, but for static bodies.
+  /// Bounds every body at `half`. A step does that itself as it ends, but for rigid bodies.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
   /// Returns how many pairs of bodies a search looks at, or leaves out because their boxes are apart.
   [[nodiscard]] std::uint32_t pair_count() const { return searches() ? body_pairs_.pair_count() : 0; }
   /// Return the passes of a search at `half`, which run in this order:
-  /// - Pairing finds pairs of bodies. If there are static ones, it bounds bodies first.
+  /// - Pairing finds pairs of bodies. If there are rigid ones, it bounds bodies first.
   /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.
   /// - Testing finds touching triangles and marks their vertices.
   /// A pass may run beside those after pairing if it changes neither world positions nor the collider's own arrays.
@@ -54,7 +54,7 @@ class Collider {
  private:
   CollisionDescription description_;
   std::uint32_t body_count_;
-  bool has_static_;
+  bool has_rigid_;
   Forest forest_;
   BodyPairs body_pairs_;
   TreeSearch trees_;

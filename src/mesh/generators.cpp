@@ -188,6 +188,27 @@ TriangleMesh bowl(std::string_view description, std::string_view argument) {
   return std::move(grid.mesh);
 }
 
+// A torus about the y axis. Cells of the tube are as near to squares as whole numbers of them let them be.
+TriangleMesh ring(std::string_view description, std::string_view argument) {
+  const std::size_t comma = argument.find(',');
+  double tube = 0;
+  if (comma == std::string_view::npos || !is_number(argument.substr(0, comma), tube) || !(tube > 0 && tube < 1))
+    throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description),
+                "does not say the tube's radius, above 0 and below 1, and a number of cells", "write ring:r,n, as in ring:0.2,32");
+  const unsigned around = std::max(cells_of(description, argument.substr(comma + 1), "ring:r,n"), 3u);
+  const unsigned across = std::max(static_cast<unsigned>(std::lround(around * tube)), 3u);
+  TriangleMesh mesh;
+  for (unsigned row = 0; row < around; ++row)
+    for (unsigned column = 0; column < across; ++column) {
+      const double a = 2 * std::numbers::pi * row / around, b = 2 * std::numbers::pi * column / across;
+      const double from_axis = 1 + tube * std::cos(b);
+      mesh.positions.emplace_back(from_axis * std::cos(a), tube * std::sin(b), from_axis * std::sin(a));
+      const auto at = [&](unsigned r, unsigned c) { return (row + r) % around * across + (column + c) % across; };
+      mesh.triangles.insert(mesh.triangles.end(), {{at(0, 0), at(0, 1), at(1, 1)}, {at(0, 0), at(1, 1), at(1, 0)}});
+    }
+  return mesh;
+}
+
 struct Generator {
   std::string_view name, form;
   TriangleMesh (*generate)(std::string_view description, std::string_view argument);
@@ -197,7 +218,8 @@ constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere},
                                     {"cube", "cube:n", cube},
                                     {"box", "box:x,y,z,n", box},
                                     {"crate", "crate:x,y,z,n", crate},
-                                    {"bowl", "bowl:n", bowl}};
+                                    {"bowl", "bowl:n", bowl},
+                                    {"ring", "ring:r,n", ring}};
 
 }  // namespace
 

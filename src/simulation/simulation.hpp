@@ -115,6 +115,9 @@ class Simulation {
   [[nodiscard]] std::uint64_t launches_of_steps() const { return launches_of_steps_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
+  /// Sends a scripted body along another path with as many keys, from the path's time 0 on. Later steps go there, and saved
+  /// states hold it.
+  void send(std::uint32_t body, const BodyPath& path);
   /// The next four wait for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();

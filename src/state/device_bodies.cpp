@@ -2,6 +2,7 @@
 #include "state/device_bodies.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace pliant {
 namespace {
@@ -164,6 +165,27 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
     motions.upload(state.motion, physics::displacement_of(first_of_half(half)));
     world_positions.upload(positions, first_of_half(half));
   }
+  if (std::ranges::any_of(model.bodies, [](const ModelBody& body) { return body.path.has_value(); })) make_paths(model, state);
+}
+
+void DeviceBodies::make_paths(const Model& model, const State& start) {
+  std::vector<physics::Path> paths;
+  std::vector<physics::PathKey> keys;
+  std::vector<physics::PathState> states;
+  for (const ModelBody& body : model.bodies) {
+    physics::PathState& state = states.emplace_back();
+    state.time = start.path_times.empty() ? 0 : start.path_times[states.size() - 1];
+    state.pace = 1;
+    if (body.path) state.now = body.path->at(state.time);
+    physics::Path& way = paths.emplace_back();
+    if (!body.path) continue;
+    way = body.path->way;
+    way.first_key = static_cast<std::uint32_t>(keys.size());
+    std::ranges::copy(body.path->keys, std::back_inserter(keys));
+  }
+  arrays.make("path", paths);
+  arrays.make("path_key", keys);
+  path_states = &arrays.make("path_state", states);
 }
 
 void DeviceBodies::run_all_stages(bool at_once) {
@@ -226,6 +248,9 @@ void DeviceBodies::download(std::uint32_t half, State& into) const {
   into.motion.resize(std::size_t{physics::motion_size} * vertex_count);
   poses.download(into.poses);
   motions.download(into.motion, physics::displacement_of(first_of_half(half)));
+  into.path_times.clear();
+  if (path_states == nullptr) return;
+  for (const physics::PathState& path : path_states->download()) into.path_times.push_back(path.time);
 }
 
 }  // namespace pliant

@@ -40,6 +40,7 @@ struct DeviceBodies {
   DeviceArray<double>& motions;
   DeviceArray<glm::vec4>& world_positions;
   DeviceArray<physics::Control>& control;
+  DeviceArray<physics::PathState>* path_states = nullptr;  // null without scripted bodies
 
   /// Returns the place of a half's first vertex in motions and in world positions.
   [[nodiscard]] std::uint32_t first_of_half(std::uint32_t half) const { return physics::in_half(half, vertex_count, 0); }
@@ -60,6 +61,8 @@ struct DeviceBodies {
   void set_tableau_rows(std::span<const std::uint32_t> rows);
   /// Has every stage be a dispatch of its own, or all stages one, if the variants can.
   void run_all_stages(bool at_once);
+  /// Gives scripted bodies their paths, from these times on.
+  void make_paths(const Model& model, const State& start);
   /// Makes room for placements, as many slots as the method needs.
   void make_placements(std::uint32_t slots);
 };

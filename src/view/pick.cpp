@@ -22,6 +22,11 @@ std::optional<double> distance_to(const Corners& corners, const Ray& ray) {
   return distance;
 }
 
+// Containers show their far walls alone.
+bool is_near_wall(const ModelBody& body, const Corners& corners, const Ray& ray) {
+  return body.is_container && glm::dot(glm::cross(corners[1] - corners[0], corners[2] - corners[0]), ray.direction) < 0;
+}
+
 }  // namespace
 
 Ray ray_through(const CameraDescription& camera, const glm::dvec2& place, const glm::dvec2& size) {
@@ -38,7 +43,7 @@ std::optional<std::uint32_t> pick_vertex(const Model& model, std::span<const glm
     const auto corner = [&](std::size_t k) { return glm::dvec3(glm::vec3(positions[triangle[k]])); };
     const Corners corners{corner(0), corner(1), corner(2)};
     const std::optional<double> distance = distance_to(corners, ray);
-    if (!distance || *distance >= nearest) continue;
+    if (!distance || *distance >= nearest || is_near_wall(model.body_of(triangle[0]), corners, ray)) continue;
     nearest = *distance;
     const glm::dvec3 hit = ray.origin + nearest * ray.direction;
     std::size_t next = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace pliant::view {
 namespace {
@@ -19,9 +20,14 @@ SceneView::SceneView(Session& session, const glm::uvec2& size, render::Detail de
     : session_(session),
       options_(render::live_options(session.model(), session.start(), session.scene().output, size, detail)),
       top_speed_(top_speed_of(session, options_.scene)),
+      bodies_version_(session.bodies_version()),
       renderer_(session.model(), options_) {}
 
 void SceneView::draw(const Look& wanted) {
+  if (std::exchange(bodies_version_, session_.bodies_version()) != session_.bodies_version()) {
+    renderer_.set_bodies(session_.model());
+    drawn_.reset();
+  }
   if (drawn_ == wanted) return;
   drawn_.reset();
   renderer_.resize(wanted.size);

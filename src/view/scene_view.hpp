@@ -36,6 +36,7 @@ class SceneView {
   Session& session_;
   render::RenderOptions options_;
   double top_speed_;  // of the colour scale [m/s]
+  std::uint64_t bodies_version_;
   render::FrameRenderer renderer_;
   render::DrawnBuffers buffers_;
   std::optional<render::LineOverlay> overlay_;  // made for the first lines

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/extension.hpp"
+#include "mesh/generators.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/start_check.hpp"
@@ -36,6 +38,18 @@ LoadedScene with_settings(const LoadedScene& scene, const Settings& wanted) {
   changed.description.collision.elasticity = wanted.elasticity;
   changed.start.model = with_materials(std::move(changed.start.model), wanted.materials);
   return changed;
+}
+
+constexpr const char* hand_name = "hand";
+
+// To and fro, ever less, and up a little.
+std::vector<PathKeyDescription> shake_of(const ModelBody& container) {
+  const double far = 0.15 * container.radius;
+  std::vector<PathKeyDescription> keys = {{.time = 0}};
+  for (const double part : {1.0, -1.0, 0.8, -0.6, 0.4, -0.2})
+    keys.push_back({.time = keys.back().time + 0.16, .position = {part * far, 0.25 * std::abs(part) * far, 0}});
+  keys.push_back({.time = keys.back().time + 0.16});
+  return keys;
 }
 
 std::unique_ptr<Simulation> make_simulation(Device& device, const LoadedScene& scene, const State& from, const TimePlan& plan) {
@@ -131,6 +145,14 @@ bool Session::step_back() {
 
 void Session::restart() {
   history_.clear();
+  if (before_edits_) {
+    scene_ = std::move(before_edits_);
+    plan_ = plan_time(scene_->description, scene_->start.model);
+    beginning_.clear();
+    hand_.reset();
+    pull_.reset();
+    ++bodies_version_;
+  }
   if (beginning_.empty()) {
     begin_with(simulation_on(*device_, scene_->start.state), 0, 0);
     beginning_ = simulation_->save();
@@ -149,11 +171,17 @@ Settings Session::settings() const {
 }
 
 void Session::change(const Settings& wanted) {
-  auto changed = std::make_unique<const LoadedScene>(with_settings(*scene_, wanted));
+  LoadedScene changed = with_settings(*scene_, wanted);
+  const bool starts_anew = report_.breakdown.has_value();
+  const State from = starts_anew ? changed.start.state : simulation_->state();
+  go_on_with(std::move(changed), from, starts_anew);
+}
+
+void Session::go_on_with(LoadedScene scene, const State& from, bool starts_anew) {
+  auto changed = std::make_unique<const LoadedScene>(std::move(scene));
   const TimePlan plan = plan_time(changed->description, changed->start.model);
   expect_carried(changed->description, plan, device_->precision());
-  const bool starts_anew = report_.breakdown.has_value();
-  auto simulation = make_simulation(*device_, *changed, starts_anew ? changed->start.state : simulation_->state(), plan);
+  auto simulation = make_simulation(*device_, *changed, from, plan);
   expect_apart(*simulation, changed->start.model, changed->description.collision, changed->description.file.string());
   const double at_time = starts_anew ? 0 : time();
   plan_ = plan;
@@ -162,6 +190,106 @@ void Session::change(const Settings& wanted) {
   history_.clear();
   beginning_ = starts_anew ? simulation_->save() : "";
   record();
+}
+
+void Session::go_on_with_bodies(LoadedScene changed, const State& from) {
+  std::unique_ptr<const LoadedScene> before = before_edits_ ? nullptr : std::make_unique<const LoadedScene>(*scene_);
+  go_on_with(std::move(changed), from, false);
+  if (before) before_edits_ = std::move(before);
+  pull_.reset();
+  ++bodies_version_;
+}
+
+void Session::add(const BodySetup& setup) {
+  LoadedScene changed = *scene_;
+  std::vector<BodyDescription>& descriptions = changed.description.bodies;
+  const auto place = std::ranges::find(descriptions, true, &BodyDescription::is_container);
+  const auto index = static_cast<std::size_t>(place - descriptions.begin());
+  const glm::dvec3 gravity = changed.description.simulation.gravity;
+  const ModelAndState now = with_body({scene_->start.model, simulation_->state()}, index, setup, gravity);
+  changed.start = with_body(changed.start, index, setup, gravity);
+  descriptions.insert(place, setup.description);
+  go_on_with_bodies(std::move(changed), now.state);
+  if (hand_ && index <= hand_->body) ++hand_->body;
+}
+
+void Session::remove(std::uint32_t body) {
+  PLIANT_EXPECT(body < model().bodies.size());
+  const bool is_last = std::ranges::count_if(model().bodies, [](const ModelBody& b) { return !b.is_rigid(); }) == 1;
+  if (is_last && !model().bodies[body].is_rigid())
+    throw Error(ErrorKind::input, model().bodies[body].name, "is the last soft body", "leave it there");
+  LoadedScene changed = *scene_;
+  const ModelAndState now = without_body({scene_->start.model, simulation_->state()}, body);
+  changed.start = without_body(changed.start, body);
+  changed.description.bodies.erase(changed.description.bodies.begin() + body);
+  go_on_with_bodies(std::move(changed), now.state);
+  if (hand_ && hand_->body == body)
+    hand_.reset();
+  else if (hand_ && body < hand_->body)
+    --hand_->body;
+}
+
+void Session::shake() {
+  LoadedScene changed = *scene_;
+  bool has_changed = false;
+  for (std::size_t b = 0; b < changed.start.model.bodies.size(); ++b) {
+    ModelBody& body = changed.start.model.bodies[b];
+    BodyDescription& description = changed.description.bodies[b];
+    if (!body.is_container || (body.path && !description.path.empty() && description.path != shake_of(body))) continue;
+    description.path = shake_of(body);
+    if (body.path) {
+      simulation_->send(static_cast<std::uint32_t>(b), *body.path);
+      continue;
+    }
+    const physics::Pose& pose = changed.start.state.poses[b];
+    const glm::dvec3 arm = physics::rotate_back(pose, glm::make_vec3(pose.origin) - description.position);
+    description.kind = body.kind = BodyKind::scripted;
+    body.path = make_path(description, arm);
+    has_changed = true;
+  }
+  if (has_changed) go_on_with_bodies(std::move(changed), simulation_->state());
+}
+
+void Session::put_hand(const glm::dvec3& place, double radius) {
+  if (hand_) take_hand();
+  BodySetup setup{generate_mesh("icosphere:2"), {}};
+  BodyDescription& description = setup.description;
+  description.name = hand_name;
+  description.kind = BodyKind::scripted;
+  description.mesh = "icosphere:2";
+  description.scale = radius;
+  description.position = place;
+  description.path = {{.time = 0}, {.time = 1}};
+  description.color = {0.9, 0.75, 0.65};
+  add(setup);
+  const auto found = std::ranges::find(model().bodies, hand_name, &ModelBody::name);
+  hand_ = Hand{static_cast<std::uint32_t>(found - model().bodies.begin()), radius};
+  hand_path_ = *found->path;
+}
+
+void Session::take_hand() {
+  if (hand_) remove(hand_->body);
+}
+
+// The path begins with the place and velocity that the hand has there.
+void Session::send_hand(const glm::dvec3& target, double seconds) {
+  PLIANT_EXPECT(hand_ && seconds > 0);
+  const physics::PathPoint now = hand_path_.at(path_time(hand_->body));
+  hand_path_.keys.front() = hand_path_.keys.back();
+  physics::PathKey &from = hand_path_.keys.front(), &to = hand_path_.keys.back();
+  from.time = 0;
+  to.time = seconds;
+  std::ranges::copy(now.centre, from.position);
+  std::ranges::copy(now.velocity, from.velocity);
+  STORE3(to.position, 0, target)
+  STORE3(to.velocity, 0, glm::dvec3(0.0))
+  simulation_->send(hand_->body, hand_path_);
+}
+
+double Session::path_time(std::uint32_t body) const {
+  for (const ScriptReport& script : simulation_->report().response.scripts)
+    if (script.body == body) return script.time;
+  return 0;
 }
 
 void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ = timed); }

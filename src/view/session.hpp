@@ -30,6 +30,12 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
+/// A small sphere that presses into bodies where a mouse is.
+struct Hand {
+  std::uint32_t body = 0;
+  double radius = 0;  // [m]
+};
+
 /// The steps made so far, including those made again on the way back.
 struct Stepping {
   std::uint64_t steps = 0;
@@ -75,7 +81,7 @@ class Session {
   /// Goes back by one step. It restores the latest state recorded before, and makes the steps in between again, without pulls.
   /// The bits are the same if those steps had no pulls. Returns false if no state is left.
   bool step_back();
-  /// Goes back to the start.
+  /// Goes back to the start. Bodies that were added are gone, and those that were removed are there again.
   void restart();
   [[nodiscard]] unsigned deepest_level() const { return simulation_->collider().forest().depth; }  // of the trees
   [[nodiscard]] Settings settings() const;
@@ -83,6 +89,21 @@ class Session {
   /// forgotten. If plan_time can't plan the scene's steps, or bodies intersect that the response keeps apart, it throws Error and
   /// changes nothing.
   void change(const Settings& wanted);
+  /// Adds a body to the current state. Throws Error if it touches one that is there, and changes nothing. Recorded states are
+  /// forgotten.
+  void add(const BodySetup& setup);
+  /// Takes a body out of the current state, but not the last soft one. Recorded states are forgotten.
+  void remove(std::uint32_t body);
+  /// Shakes containers that have no motion of their own for a second.
+  void shake();
+  /// Puts a hand there, or takes it away. Throws Error as add() does.
+  void put_hand(const glm::dvec3& place, double radius);
+  void take_hand();
+  [[nodiscard]] const std::optional<Hand>& hand() const { return hand_; }
+  /// Sends the hand there. It arrives after so long a time, if nothing is in its way [m], [s].
+  void send_hand(const glm::dvec3& target, double seconds);
+  /// Changes whenever bodies are others than before.
+  [[nodiscard]] std::uint64_t bodies_version() const { return bodies_version_; }
   /// Turns on or off that the device's time is measured for each pass, which slows it down.
   void time_passes(bool timed);
   /// Goes on with the same state and history on another device of the same precision. `device` must outlive the session.
@@ -99,9 +120,16 @@ class Session {
   [[nodiscard]] std::unique_ptr<Simulation> simulation_on(Device& device, const State& from) const;
   void begin_with(std::unique_ptr<Simulation> simulation, std::uint64_t step, double time);
   void go_to(std::string_view saved);
+  void go_on_with(LoadedScene changed, const State& from, bool starts_anew);
+  void go_on_with_bodies(LoadedScene changed, const State& from);
+  [[nodiscard]] double path_time(std::uint32_t body) const;
 
   Device* device_;
-  std::unique_ptr<const LoadedScene> scene_;  // other settings make another one, because a model never changes
+  std::unique_ptr<const LoadedScene> scene_;         // other settings and bodies make another one, because a model never changes
+  std::unique_ptr<const LoadedScene> before_edits_;  // what restart() goes back to; null: no bodies were added or removed
+  std::uint64_t bodies_version_ = 0;
+  std::optional<Hand> hand_;
+  BodyPath hand_path_;
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;
   std::string beginning_;        // saved state at the start; empty: settings have been changed since

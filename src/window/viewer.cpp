@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/error.hpp"
@@ -13,6 +15,7 @@
 #include "output/png.hpp"
 #include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
+#include "view/thrown_ball.hpp"
 
 namespace pliant::view {
 namespace {
@@ -63,6 +66,10 @@ std::span<const Viewer::Command> Viewer::commands() {
       {".", "one step, and pause", &Viewer::step_once, true},
       {",", "one step back, and pause", &Viewer::step_back, true},
       {"R", "back to the start", &Viewer::restart},
+      {"B", "throw a ball from the camera to where the mouse is", &Viewer::throw_ball},
+      {"H", "a hand at the mouse, or none; the wheel takes it nearer and farther", &Viewer::toggle_hand},
+      {"S", "shake the containers", &Viewer::shake},
+      {"X", "remove the body under the mouse", &Viewer::remove_body},
       {"F", "frame the scene", &Viewer::frame_scene},
       {"D", "go on on the other device, CPU or GPU", &Viewer::switch_device},
       {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
@@ -180,6 +187,7 @@ void Viewer::handle(const MouseReleased& event) {
 }
 
 void Viewer::handle(const MouseMoved& event) {
+  mouse_ = event.to;
   if (!event.held) return;
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
   if (pull_) {
@@ -189,7 +197,12 @@ void Viewer::handle(const MouseMoved& event) {
   camera_ = (*event.held == MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
 }
 
-void Viewer::handle(const MouseScrolled& event) { camera_ = zoom(camera_, event.notches); }
+void Viewer::handle(const MouseScrolled& event) {
+  if (session_->hand())
+    hand_distance_ *= std::pow(1.05, event.notches);
+  else
+    camera_ = zoom(camera_, event.notches);
+}
 
 void Viewer::handle(const FilesDropped& event) {
   message_.clear();
@@ -215,6 +228,7 @@ void Viewer::try_to(const std::function<void()>& wish) {
 void Viewer::play() {
   constexpr double record_interval = 0.1;  // [s]
   device_->finish();
+  if (session_->hand() && !playback_.is_paused()) lead_hand();
   playback_.begin(now(), session_->time());
   const std::uint64_t before = session_->step();
   double clock = now();
@@ -259,6 +273,48 @@ void Viewer::restart() {
   is_breakdown_told_ = false;
   observer_.forget();
   playback_.restart();
+}
+
+Ray Viewer::ray_at_mouse() const {
+  return ray_through(camera_, mouse_, glm::dvec2(at_least_a_pixel(window_.framebuffer_size())));
+}
+
+void Viewer::throw_ball() {
+  session_->add(ball_to_throw(session_->model(), session_->start(), ray_at_mouse(), session_->scene().simulation.gravity));
+  observer_.count_anew();
+}
+
+void Viewer::remove_body() {
+  const std::vector<glm::vec4> positions = session_->simulation().world_positions();
+  const std::optional<std::uint32_t> vertex = pick_vertex(session_->model(), positions, ray_at_mouse());
+  if (!vertex) return void(message_ = "there is no body under the mouse");
+  session_->remove(session_->model().body_index(*vertex));
+  pull_.reset();
+  observer_.count_anew();
+}
+
+void Viewer::shake() {
+  if (std::ranges::none_of(session_->model().bodies, &ModelBody::is_container)) message_ = "there is no container to shake";
+  session_->shake();
+}
+
+void Viewer::toggle_hand() {
+  if (session_->hand()) return session_->take_hand();
+  const Ray ray = ray_at_mouse();
+  const glm::dvec3 direction = glm::normalize(ray.direction);
+  const std::vector<glm::vec4> positions = session_->simulation().world_positions();
+  const std::optional<std::uint32_t> under_it = pick_vertex(session_->model(), positions, ray);
+  const double radius = 0.08 * scene_radius(session_->model(), session_->start());
+  const glm::dvec3 aim = under_it ? glm::dvec3(glm::vec3(positions[*under_it])) : camera_.target;
+  hand_distance_ = std::max(glm::dot(aim - ray.origin, direction) - (under_it ? 3 * radius : 0), 2 * radius);
+  session_->put_hand(ray.origin + hand_distance_ * direction, radius);
+}
+
+// The hand is behind the mouse by some pictures, so that it does not hit what it touches.
+void Viewer::lead_hand() {
+  constexpr double arrives_after = 0.1;  // [s] of the simulation
+  const Ray ray = ray_at_mouse();
+  session_->send_hand(ray.origin + hand_distance_ * glm::normalize(ray.direction), arrives_after);
 }
 
 // The picture does not change, because the positions on the other device are the same.
@@ -419,6 +475,8 @@ void Viewer::tell() {
                      {"speed", playback_.speed()},
                      {"device", name_of(device_->info().kind)},
                      {"pulls", pull_.has_value()},
+                     {"bodies", session_->model().bodies.size()},
+                     {"hand", session_->hand().has_value()},
                      {"wireframe", shows_.wireframe},
                      {"panel", shows_panel_},
                      {"help", shows_help_},

@@ -62,6 +62,12 @@ class Viewer {
   void step_back();
   void restart();
   void switch_device();
+  void throw_ball();
+  void remove_body();
+  void shake();
+  void toggle_hand();
+  [[nodiscard]] Ray ray_at_mouse() const;
+  void lead_hand();
   void frame_scene();
   void toggle_wireframe();
   void toggle_panel();
@@ -99,6 +105,8 @@ class Viewer {
   std::vector<std::filesystem::path> scenes_;  // in the folder of the one that is shown
   std::optional<Pull> pull_;
   glm::dvec3 pulled_from_{0.0};  // where the vertex was picked [m]
+  glm::dvec2 mouse_{0.0};        // its latest place [pixels]
+  double hand_distance_ = 0;     // of the hand before the eye [m]
   std::string message_;          // cleared by the next key or wish, except those for the panel and the help
   bool is_breakdown_told_ = false;
   std::string shown_title_;

@@ -6,8 +6,10 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 
 #include "gl/context.hpp"
+#include "mesh/generators.hpp"
 #include "support/expect_error.hpp"
 #include "support/has.hpp"
 #include "support/paths.hpp"
@@ -389,6 +391,145 @@ TEST_CASE("a file that is no scene is an error that names it") {
   const Error no_scene = error_of([&] { return load(folder.path / "missing.toml"); });
   CHECK(no_scene.kind() == ErrorKind::input);
   check_says(no_scene, {"missing.toml"});
+}
+
+// A ball in a box, with gravity.
+LoadedScene boxed() {
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "boxed.toml";
+  std::ofstream(file)
+      << "[simulation]\nintegrator = \"verlet\"\ntime_step = 0.005\ngravity = [0, -9.81, 0]\n"
+         "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\nscale = 0.4\nposition = [0, 0.5, 0]\ntotal_mass = 1\n"
+         "total_stiffness = 2000\n"
+         "[[body]]\nname = \"other\"\nmesh = \"icosphere:1\"\nscale = 0.3\nposition = [0.6, 0.5, 0.5]\ntotal_mass = 1\n"
+         "total_stiffness = 2000\n"
+         "[[container]]\nsize = [2, 2, 2]\nposition = [0, 1, 0]\nopen = true\n";
+  return load(file);
+}
+
+BodySetup small_ball(const glm::dvec3& position) {
+  BodySetup setup{generate_mesh("icosphere:1"), {}};
+  setup.description.name = "more";
+  setup.description.mesh = "icosphere:1";
+  setup.description.scale = 0.2;
+  setup.description.position = position;
+  setup.description.total_mass = 0.3;
+  setup.description.total_stiffness = 500;
+  return setup;
+}
+
+std::vector<glm::dvec3> positions_of_body(Session& session, std::uint32_t b) {
+  const ModelBody& body = session.model().bodies[b];
+  std::vector<glm::dvec3> positions;
+  for (std::uint32_t i = 0; i < body.vertex_count; ++i)
+    positions.push_back(session.simulation().state().world_position(session.model(), body.first_vertex + i));
+  return positions;
+}
+
+TEST_CASE("a body that is added or removed leaves the others where they are, and is undone by a restart") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, boxed());
+  session.advance_toward(0.2, 1000);
+  const auto ball = positions_of_body(session, 0), other = positions_of_body(session, 1), box = positions_of_body(session, 2);
+  const double time = session.time();
+  session.add(small_ball({-0.5, 1.5, -0.5}));
+  REQUIRE(session.model().bodies.size() == 4);
+  CHECK((session.model().bodies[2].name == "more" && session.model().bodies[3].is_container));
+  CHECK(session.time() == time);
+  CHECK(
+      (positions_of_body(session, 0) == ball && positions_of_body(session, 1) == other && positions_of_body(session, 3) == box));
+  session.remove(0);
+  REQUIRE(session.model().bodies.size() == 3);
+  CHECK((positions_of_body(session, 0) == other && positions_of_body(session, 2) == box));
+  session.advance_toward(1, 1000);
+  CHECK(session.simulation().intersections().pairs == 0);
+  session.remove(1);
+  CHECK_THROWS_WITH(session.remove(0), Catch::Contains("the last soft body"));
+  CHECK(session.model().bodies.size() == 2);
+  session.restart();
+  CHECK((session.model().bodies.size() == 3 && session.step() == 0));
+  session.advance_toward(0.2, 1000);
+  CHECK(positions_of_body(session, 0) == ball);
+}
+
+TEST_CASE("a body that would touch another is not added") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, boxed());
+  session.advance_toward(0.1, 1000);
+  const auto before = motion_of(session);
+  CHECK_THROWS_WITH(session.add(small_ball({0.3, 0.5, 0})), Catch::Contains("intersect"));
+  CHECK(session.model().bodies.size() == 3);
+  CHECK(same_bits(motion_of(session), before));
+}
+
+TEST_CASE("a scripted body stays on its path when settings change") {
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "moving.toml";
+  std::ofstream(file)
+      << "[simulation]\ntime_step = 0.01\n[[body]]\nmesh = \"icosphere:1\"\n"
+         "[[body]]\nkind = \"scripted\"\nmesh = \"cube:1\"\n"
+         "path = [{ time = 0, position = [3, 0, 0] }, { time = 2, position = [3, 4, 0], rotation = [0, 0, 90] }]\n";
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, load(file));
+  session.advance_toward(1, 1000);
+  const std::vector<glm::dvec3> before = positions_of_body(session, 1);
+  Settings settings = session.settings();
+  settings.elasticity = 0.3;
+  session.change(settings);
+  CHECK(positions_of_body(session, 1) == before);
+  session.step_once();
+  const std::vector<glm::dvec3> after = positions_of_body(session, 1);
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK(glm::distance(after[i], before[i]) < 0.06);
+  CHECK(session.report().response.scripts.at(0).time == Approx(1.01));
+}
+
+TEST_CASE("a shaken container keeps what it holds, ends where it began, and can be shaken again") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, boxed());
+  session.advance_toward(0.3, 1000);
+  const auto box = positions_of_body(session, 2);
+  for (const double end : {2.0, 4.0}) {
+    session.shake();
+    CHECK(session.model().bodies[2].kind == BodyKind::scripted);
+    double farthest = 0;
+    while (session.time() < end) {
+      session.advance_toward(session.time() + 0.05, 1000);
+      farthest = std::max(farthest, glm::distance(positions_of_body(session, 2).front(), box.front()));
+      CHECK(session.simulation().intersections().pairs == 0);
+    }
+    CHECK(farthest > 0.1);
+    CHECK(glm::distance(positions_of_body(session, 2).front(), box.front()) < 1e-9);
+    for (const std::uint32_t b : {0u, 1u})
+      for (const glm::dvec3& p : positions_of_body(session, b)) CHECK(std::max({std::abs(p.x), p.y - 1, std::abs(p.z)}) < 1);
+  }
+}
+
+TEST_CASE("a hand goes where it is sent, pushes what it meets, and is taken away") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, boxed());
+  session.advance_toward(0.5, 1000);
+  const auto centre = [&](std::uint32_t b) {
+    glm::dvec3 sum(0.0);
+    const auto positions = positions_of_body(session, b);
+    for (const glm::dvec3& p : positions) sum += p / double(positions.size());
+    return sum;
+  };
+  session.put_hand({-0.7, 0.4, 0}, 0.1);
+  REQUIRE(session.hand().has_value());
+  CHECK(session.hand()->body == 2);
+  const double before = centre(0).x;
+  for (int k = 0; k < 30; ++k) {
+    session.send_hand({0.2, 0.4, 0}, 0.1);
+    session.advance_toward(session.time() + 1.0 / 60, 1000);
+    CHECK(session.simulation().intersections().pairs == 0);
+  }
+  CHECK(glm::distance(centre(2), {0.2, 0.4, 0}) < 0.02);
+  CHECK(centre(0).x > before + 0.1);
+  session.take_hand();
+  CHECK((!session.hand() && session.model().bodies.size() == 3));
+  session.put_hand({-0.7, 0.4, 0}, 0.1);
+  session.restart();
+  CHECK((!session.hand() && session.model().bodies.size() == 3));
 }
 
 }  // namespace

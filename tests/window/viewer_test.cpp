@@ -109,6 +109,39 @@ TEST_CASE("a window plays, steps, goes back, turns, resizes, is minimised and cl
   }
 }
 
+TEST_CASE("keys throw a ball, remove a body, and bring a hand that goes with the mouse", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  const auto bodies_are = [](std::size_t count) { return [count](const ReadJson& line) { return line["bodies"] == count; }; };
+  const render::Image first = viewed.saved_picture();
+  viewed.xdotool(viewed.move_to({160, 20}));
+  viewed.press("b");
+  viewed.await(bodies_are(3));
+  CHECK_FALSE(are_alike(viewed.saved_picture(), first));
+  viewed.press("r");
+  viewed.await(bodies_are(2));
+  CHECK(are_alike(viewed.saved_picture(), first));
+  viewed.press("h");
+  viewed.await([](const ReadJson& line) { return line["hand"].get<bool>() && line["bodies"] == 3; });
+  viewed.press("h");
+  viewed.await([](const ReadJson& line) { return !line["hand"].get<bool>() && line["bodies"] == 2; });
+  const auto says = [](const char* what) {
+    return [what](const ReadJson& line) { return line["message"].get<std::string>().find(what) != std::string::npos; };
+  };
+  viewed.press("x");
+  viewed.await(says("no body under the mouse"));
+  viewed.press("s");
+  viewed.await(says("no container"));
+  viewed.xdotool(viewed.move_to({90, 120}));
+  viewed.press("x");
+  viewed.await(bodies_are(1));
+  viewed.xdotool(viewed.move_to({230, 120}));
+  viewed.press("x");
+  viewed.await(says("last soft body"));
+}
+
 TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scene as it is", "[gl][long]") {
   if (is_skipped()) return;
   const VirtualDisplay display;

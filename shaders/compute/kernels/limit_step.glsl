@@ -76,11 +76,11 @@ void push_away(uint a, uint b, double speed) {
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }  // by forces and impulses
 
 // If the first body moves, it disturbs the other one, which it may reach. One that sleeps is not disturbed if it surely does not. From
-// beyond its island it stirs the other one.
+// beyond its island it stirs the other one, as scripted bodies always do.
 void disturb(uint a, uint b, bool is_beside, bool reaches) {
   if (status[a].activity == immovable || status[a].calm >= quiet || !moves(b)) return;
   if (reaches || status[b].asleep == 0u) ATOMIC_STORE(status[b].disturbed, 1u);
-  if (reaches && !is_beside) ATOMIC_STORE(cluster[b].is_stirred, 1u);
+  if (reaches && (!is_beside || !moves(a))) ATOMIC_STORE(cluster[b].is_stirred, 1u);
 }
 
 // The mean velocity of the vertices that stand for the body [m/s].

@@ -265,7 +265,7 @@ dvec3 mean_velocity_at(uvec4 who, real4 weight, uint kick_round) {
 
 double quanta_of_energy(double energy) { return nearest_whole(energy / quantum_of_energy()); }
 
-// A sum of one body.
+// A sum that few contacts add to.
 void add_energy(uint k, double energy) {
   double whole = quanta_of_energy(energy);
   if (whole != double(0)) ADD_EXACTLY(contact_sum[k], whole)

@@ -9,6 +9,7 @@
 #include "../physics/contact/parts.glsl"
 READ(control)
 READ(rest_position)
+READ(status)
 READ(surface)
 READ(step_parts)
 READ(contact_vertex)
@@ -41,12 +42,15 @@ uint find_impact(uint keeper, uint partner) {
   return no_place;
 }
 
+bool is_scripted(uint b) { return b < body_count && status[b].activity == scripted; }
+
 void sum_impact(uint c) {
   uvec4 who = contact_vertex[c];
   real4 weight = contact_row[contact_rows * c + 1u], impulse = impulse_row[c];
   if (impulse.x == real(0)) return;
   uint a = uint(rest_position[who.x].w), b = body_count;
   if (who.y != no_vertex) b = uint(rest_position[weight.y * weight.x > real(0) ? who.z : who.y].w);
+  if (is_scripted(a) || is_scripted(b)) return;  // its velocity is its path's, so no impact is restored against it
   uint keeper = keeper_of_impact(a, b);
   real side = (weight.x > real(0)) == (a == keeper) ? real(1) : real(-1);
   real3 given = impulse.x * real3(contact_row[contact_rows * c]) + real3(impulse.y, impulse.z, impulse.w);

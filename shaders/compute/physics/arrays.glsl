@@ -108,8 +108,8 @@ ARRAY(impact_part, uint, impact, carried, "[body][64] number of the latest part 
 ARRAY(last_cut, uint, vertex, carried, "1: its motion was cut short in the last step")
 
 // scripted bodies
-ARRAY(path, Path, body, fixed, "how it goes along its keys")
-ARRAY(path_key, PathKey, key, fixed, "the keys of all paths, one path after another")
+ARRAY(path, Path, body, carried, "how it goes along its keys")
+ARRAY(path_key, PathKey, key, carried, "the keys of all paths, one path after another")
 ARRAY(path_state, PathState, body, carried, "where its path leads in the step in hand, and its own clock")
 
 // pulls

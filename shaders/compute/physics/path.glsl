@@ -34,9 +34,11 @@ struct PathPoint {
 
 // What a run knows of a body on its path.
 struct PathState {
-  PathPoint next;  // where the step in hand leads, if nothing stands in its way
-  double time;     // on the body's own clock, which stands while the body waits [s]
-  double pace;     // of that clock, 1 unless the body has just waited
+  PathPoint now;     // at the step's start
+  PathPoint next;    // where the step in hand leads, if nothing stands in its way
+  double time;       // of `now` on the body's own clock, which stands while the body waits [s]
+  double next_time;  // of `next` [s]
+  double pace;       // of that clock, 1 unless the body has just waited
   double waited;   // what the clock is behind [s]
   uint waits;      // steps, or parts of steps, in which it waited
   uint padding;

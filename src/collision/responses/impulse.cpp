@@ -131,6 +131,7 @@ class Impulse final : public Response {
       passes.push_back(
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
+    std::ranges::move(scripted_bodies_.bounding_passes(), std::back_inserter(passes));
     std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
     if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
     std::ranges::move(scripted_bodies_.following_passes(), std::back_inserter(passes));

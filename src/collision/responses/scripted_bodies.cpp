@@ -1,27 +1,15 @@
 #include "collision/responses/scripted_bodies.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 namespace pliant {
 
-ScriptedBodies::ScriptedBodies(DeviceBodies& bodies, const Model& model) : bodies_(bodies) {
-  std::vector<physics::Path> paths;
-  std::vector<physics::PathKey> keys;
-  for (const ModelBody& body : model.bodies) {
-    physics::Path& way = paths.emplace_back();
-    if (!body.path) continue;
-    scripted_.push_back(static_cast<std::uint32_t>(paths.size() - 1));
-    way = body.path->way;
-    way.first_key = static_cast<std::uint32_t>(keys.size());
-    std::ranges::copy(body.path->keys, std::back_inserter(keys));
-  }
-  if (scripted_.empty()) return;
-  physics::PathState at_start{};
-  at_start.pace = 1;
-  bodies.arrays.make("path", paths);
-  bodies.arrays.make("path_key", keys);
-  bodies.arrays.make("path_state", std::vector(paths.size(), at_start));
+ScriptedBodies::ScriptedBodies(const DeviceBodies& bodies, const Model& model) : bodies_(bodies) {
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
+    if (model.bodies[b].path) scripted_.push_back(b);
+}
+
+std::vector<Pass> ScriptedBodies::bounding_passes() const {
+  if (scripted_.empty()) return {};
+  return {make_pass(bodies_.arrays, "bound_paths", {}, bodies_.body_count)};
 }
 
 std::vector<Pass> ScriptedBodies::following_passes() const {
@@ -41,7 +29,7 @@ std::vector<Pass> ScriptedBodies::ending_passes(const Parameters& capacities) co
 
 std::vector<ScriptReport> ScriptedBodies::report() const {
   if (scripted_.empty()) return {};
-  const std::vector<physics::PathState> states = bodies_.arrays.get<physics::PathState>("path_state").download();
+  const std::vector<physics::PathState> states = bodies_.path_states->download();
   std::vector<ScriptReport> reports;
   for (const std::uint32_t b : scripted_)
     reports.push_back({.body = b, .time = states[b].time, .waited = states[b].waited, .waits = states[b].waits});

@@ -21,12 +21,15 @@ struct ScriptReport {
 /// Records the passes of a step that move scripted bodies. There are none without such bodies.
 class ScriptedBodies {
  public:
-  /// Makes the arrays that these passes need.
-  ScriptedBodies(DeviceBodies& bodies, const Model& model);
+  ScriptedBodies(const DeviceBodies& bodies, const Model& model);
 
   [[nodiscard]] bool is_empty() const { return scripted_.empty(); }
-  /// Return passes that find where paths lead, when flights are known and before motions are expected; that go there, in place of
-  /// the integrator; and that end a step when it is settled.
+  /// Return passes of a step, in this order:
+  /// - Bounding adds to the bounds of bodies' velocities, before they bound the step.
+  /// - Following finds where paths lead, when flights are known and before motions are expected.
+  /// - Moving goes there, in place of the integrator.
+  /// - Ending comes when the step is settled.
+  [[nodiscard]] std::vector<Pass> bounding_passes() const;
   [[nodiscard]] std::vector<Pass> following_passes() const;
   [[nodiscard]] std::vector<Pass> moving_passes(std::uint32_t from_half) const;
   [[nodiscard]] std::vector<Pass> ending_passes(const Parameters& capacities) const;

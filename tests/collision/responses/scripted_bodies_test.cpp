@@ -250,5 +250,87 @@ TEST_CASE("a scripted body that holds still counts as at rest, and lets others s
   CHECK(centre(start.model, simulation.state(), 1).x == Approx(0.5).margin(0.02));
 }
 
+// Empty steps come behind the last one before a frame, and keys stand at frames.
+TEST_CASE("with a tolerance a scripted body goes along its path from a hold on, too") {
+  const std::vector<BodySetup> setups = {
+      scripted(generate_mesh("icosphere:1"),
+               {{0.25, {}, {}}, {0.5, {1, 0, 0}, {}}, {1, {1, 0, 0}, {}}, {1.25, {0, 0, 0}, {0, 90, 0}}}),
+      at(soft(generate_mesh("icosphere:1"), "far"), {0, 20, 0})};
+  const ModelAndState start = build_model(setups, falling);
+  const auto device = make_cpu_device(1, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Adaptive{}, start.model), by_impulses);
+  double before = 0;
+  for (int look = 1; look <= 60; ++look) {
+    simulation.advance_to(0.025 * look);
+    CHECK(astray(simulation, start.model).place < 1e-12);
+    const double x = centre(start.model, simulation.state(), 0).x;
+    CHECK(std::abs(x - before) < 1.5 * 4 * 0.025 + 1e-9);  // the path is no faster
+    before = x;
+  }
+  CHECK(simulation.report().response.scripts.at(0).waited < 1e-12);
+}
+
+TEST_CASE("a scripted body that is alone goes along its path") {
+  const ModelAndState start = build_model(std::vector{scripted(slab(), {{0, {}, {}}, {1, {1, 0, 0}, {}}})}, falling);
+  const auto device = make_cpu_device(1, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.01}), by_impulses);
+  simulation.advance(100);
+  CHECK(centre(start.model, simulation.state(), 0).x == Approx(1));
+}
+
+// A ball on a lift would else lose its vibration in each step, since it parts from the lift's place as fast as the lift goes.
+TEST_CASE("restitution leaves impacts with scripted bodies alone") {
+  const std::vector<BodySetup> setups = {scripted(slab(), {{0, {}, {}}, {1, {0, 1, 0}, {}}}),
+                                         at(soft(generate_mesh("icosphere:1"), "ball"), {0, 1.15, 0})};
+  const ModelAndState start = build_model(setups, falling);
+  const auto device = make_cpu_device(1, 32);
+  std::vector<double> motions[2];
+  for (const bool restores : {false, true}) {
+    CollisionDescription collision = by_impulses;
+    if (restores) collision.restitution = 0.3;
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1.0 / 120}), collision);
+    simulation.advance(120);
+    motions[restores ? 1 : 0] = simulation.state().motion;
+  }
+  CHECK(motions[0] == motions[1]);
+}
+
+TEST_CASE("what lies on a slow belt does not sleep, and what lies under a press that has not begun does") {
+  const auto device = make_cpu_device(2, 32);
+  TimePlan plan = plan_of(Method{"cv8", 1.0 / 120, DampingLaw::internal});
+  plan.sleep = true;
+  {
+    std::vector<BodySetup> setups = {scripted(slab(), {}), stiff_cube({-0.5, 0.355, 0})};
+    setups[0].description.velocity = {0.02, 0, 0};
+    const ModelAndState start = build_model(setups, falling);
+    Simulation simulation(*device, start.model, start.state, plan, by_impulses);
+    simulation.advance(600);
+    CHECK(simulation.report().energy_slept == 0);
+    CHECK(centre(start.model, simulation.state(), 1).x == Approx(-0.4).margin(0.01));
+  }
+  const GroundDescription ground;
+  const std::vector<BodySetup> setups = {scripted(slab(), {{10, {0, 2, 0}, {}}, {11, {0, 0.6, 0}, {}}}),
+                                         stiff_cube({0, 0.26, 0})};
+  const ModelAndState start = build_model(setups, falling, {&ground, 1});
+  Simulation simulation(*device, start.model, start.state, plan, by_impulses);
+  simulation.advance(400);
+  CHECK(simulation.report().bodies_asleep == 1);
+}
+
+TEST_CASE("a body that a path reaches in one long step is not passed") {
+  const std::vector<BodySetup> setups = {scripted(slab(), {{0, {0, 0, 0}, {}}, {0.5, {0, 0, 0}, {}}, {0.502, {0, 3, 0}, {}}}),
+                                         at(soft(generate_mesh("icosphere:1"), "ball"), {0, 1.5, 0})};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1.0 / 60}), by_impulses);
+  for (int look = 0; look < 40; ++look) {
+    simulation.advance(2);
+    const State state = simulation.state();
+    CHECK(count_touching_pairs(start.model, state.world_positions(start.model)) == 0);
+    CHECK(centre(start.model, state, 1).y > centre(start.model, state, 0).y);
+  }
+  CHECK(simulation.report().substeps > 0);
+}
+
 }  // namespace
 }  // namespace pliant

@@ -7,6 +7,6 @@ uint cut_before(uint i, uint cut_round) {
   return least;
 }
 
-// If its flight was stopped, a vertex goes on alone by such a part of all of its way. But none does of bodies that move as one, nor one that would
-// have left its cage, which holds its way with the flight.
+// If its flight was stopped, a vertex goes on alone by such a part of all of its way. But none does of bodies that move as one, nor one
+// that would have left its cage, which holds its way with the flight.
 bool goes_on_alone(uint i, uint b) { return !moves_as_one(b) && uintBitsToFloat(cut[i]) == 1.0f; }

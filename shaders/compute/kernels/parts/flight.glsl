@@ -4,8 +4,8 @@
 // Which flight the body has: those of clusters and scripted bodies come first, then those of islands.
 uint flight_of(uint b) { return moves_as_one(b) ? cluster[b].first : body_count + cluster[b].island; }
 
-// The way in the step that a place in the world has in common with all of its body's cluster, or of a scripted body [m]. Distances stay, so that springs get no
-// energy: a place goes along with the centre, and turns by Cayley's map of the spin, which is a rotation.
+// The way in the step that a place in the world has in common with all of its body's cluster, or of a scripted body [m]. Distances stay, so
+// that springs get no energy: a place goes along with the centre, and turns by Cayley's map of the spin, which is a rotation.
 dvec3 way_of_cluster(uint b, double time_step, dvec3 from) {
   RigidMotion of_cluster = cluster[cluster[b].first].motion;
   dvec3 half_turn = (double(0.5) * time_step) * LOAD3(of_cluster.spin, 0u);

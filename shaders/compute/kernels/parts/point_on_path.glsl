@@ -36,9 +36,10 @@ bool stands_still(IN(Path) p, double from, double to) {
   if (LOAD3(p.drift, 0u) != dvec3(0)) return false;
   uint last = p.first_key + p.key_count - 1u;
   if (p.repeats == 0u && from >= path_key[last].time) return true;
-  double begin = time_along_keys(p, from), end = begin + (to - from);
-  if (p.repeats != 0u && end > path_key[last].time) return false;
-  for (uint k = key_before(p, begin); k < last && path_key[k].time < end; ++k)
+  double begin = time_along_keys(p, from), end = p.repeats != 0u ? begin + (to - from) : min(to, path_key[last].time);
+  if (end > path_key[last].time) return false;
+  if (end < path_key[p.first_key].time) return true;
+  for (uint k = key_before(p, begin); k < last && path_key[k].time <= end; ++k)
     if (!is_hold(path_key[k], path_key[k + 1u])) return false;
   return true;
 }
