@@ -12,7 +12,7 @@ LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device"
           "simulation", "render", "output", "run", "view", "window", "bench", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
 WINDOW_FILE = "src/window/window.cpp"  # the only one that sees GLFW
-PANEL_FILE = "src/window/panel.cpp"  # the only one that sees Dear ImGui
+PANEL_FILES = [f"src/window/{name}.cpp" for name in ("panel", "start_page", "style")]  # the only ones that see Dear ImGui
 SUFFIXES = {".hpp", ".cpp", ".inc", ".glsl", ".comp", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 
@@ -41,7 +41,8 @@ def problem_of(path, name, root):
     if name.startswith("GLFW/"):
         return None if path == root / WINDOW_FILE else f"GLFW's headers belong in {WINDOW_FILE} alone"
     if name.startswith(("imgui", "backends/imgui")):
-        return None if path == root / PANEL_FILE else f"Dear ImGui's headers belong in {PANEL_FILE} alone"
+        inside = path in [root / file for file in PANEL_FILES]
+        return None if inside else f"Dear ImGui's headers belong in {', '.join(PANEL_FILES)} alone"
     if name.startswith(("glad/", "GL/", "EGL/")):
         inside = any(path.is_relative_to(root / "src" / allowed) for allowed in GL_MODULES)
         return None if inside else f"OpenGL's headers belong in {', '.join(GL_MODULES)} alone"

@@ -36,11 +36,19 @@ struct Hit {
   vec3 albedo;
 };
 
+/// A vertex's normal and strain as one of its triangles has them. Across a sharp edge surfaces are not smooth: there the triangle has its
+/// own normal.
+vec4 surface_at(uint vertex, vec3 face) {
+  const float crease = 0.85;  // cosine: sharper than 32 degrees to either side
+  vec4 surface = smooth_surface[vertex];
+  return dot(surface.xyz, face) < crease ? vec4(face, surface.w) : surface;
+}
+
 Hit hit_of(uint seen, vec3 ray) {
   Corners at = corners_of(seen);
-  vec3 weights = weights_at(at, ray);
-  vec4 surface = mat3x4(smooth_surface[at.vertices[0]], smooth_surface[at.vertices[1]], smooth_surface[at.vertices[2]]) * weights;
-  vec3 normal = dot(surface.xyz, surface.xyz) > 1e-12 ? surface.xyz : face_normal(at);
+  vec3 weights = weights_at(at, ray), area = face_normal(at), face = area / max(length(area), 1e-30);
+  vec4 surface = mat3x4(surface_at(at.vertices[0], face), surface_at(at.vertices[1], face), surface_at(at.vertices[2], face)) * weights;
+  vec3 normal = dot(surface.xyz, surface.xyz) > 1e-12 ? surface.xyz : face;
   uint body = uint(rest_positions[at.vertices[0]].w);
   return Hit(mat3(at.a, at.b, at.c) * weights, side_seen(at) * normalize(normal),
              shows_strain ? viridis(min(surface.w / full_strain, 1.0)) : body_colors[body].rgb);

@@ -191,7 +191,9 @@ void add_run(CLI::App& program, RunOptions& options) {
 void add_view(CLI::App& program, app::ViewOptions& options) {
   CLI::App* view = program.add_subcommand("view", "Simulate a scene in a window, live");
   view->footer(app::view_help());
-  view->add_option("scene", options.scene, "Scene file (TOML), or a mesh (OBJ)")->required()->check(not_empty("name a file"));
+  view->add_option("scene", options.scene,
+                   "Scene file (TOML), or a mesh (OBJ); without one a start page has demos to choose from")
+      ->check(not_empty("name a file"));
   add_device(*view, options.device);
   add_overrides(*view, options.overrides);
   view->add_option("--speed", options.speed, "Simulated time in a second of real time [s] (default 1)")->check(number(1e-6, 1e6));

@@ -9,7 +9,7 @@
 namespace pliant::app {
 
 struct ViewOptions {
-  std::filesystem::path scene;         // or an OBJ file
+  std::filesystem::path scene;         // or an OBJ file; empty: a start page lets its user choose a demo
   DeviceChoice device;                 // its GPU is the window's
   std::vector<std::string> overrides;  // section.key=value
   double speed = 1;                    // simulated time in a second of real time [s]

@@ -425,6 +425,8 @@ void FrameRenderer::draw_lines(std::span<const LineEnd> ends) {
   impl_->overlay->draw(ends, impl_->options.camera, impl_->options.size);
 }
 
+std::uint32_t FrameRenderer::picture_texture() const { return impl_->picture->shaded.id(); }
+
 void FrameRenderer::copy_to_window() const {
   const auto w = static_cast<GLint>(impl_->options.size.x), h = static_cast<GLint>(impl_->options.size.y);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

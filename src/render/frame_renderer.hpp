@@ -71,6 +71,8 @@ class FrameRenderer {
   void draw_lines(std::span<const LineEnd> ends);
   /// Waits for the last draw() and reads its picture.
   [[nodiscard]] Image read() const;
+  /// Returns the OpenGL texture of the last picture, until the size changes. Its first row is the lowest.
+  [[nodiscard]] std::uint32_t picture_texture() const;
   /// Copies the last picture, pixel by pixel, to the bottom left of the window whose context is current.
   void copy_to_window() const;
 

@@ -544,6 +544,7 @@ void read_grounds(const toml::node& node, std::vector<GroundDescription>& ground
 
 void read_table(TableReader& table, SceneDescription& scene) {
   table.read("title", scene.title);
+  table.read("about", scene.about);
   table.section("simulation", scene.simulation);
   table.section("collision", scene.collision);
   table.section("output", scene.output);

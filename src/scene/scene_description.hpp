@@ -169,6 +169,7 @@ struct GroundDescription {
 
 struct SceneDescription {
   std::string title;
+  std::string about;           // what the scene shows, and what to try
   std::filesystem::path file;  // mesh paths are relative to its folder
   SimulationDescription simulation;
   CollisionDescription collision;

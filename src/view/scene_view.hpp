@@ -26,6 +26,8 @@ class SceneView {
   void draw(const Look& wanted);
   /// Copies the latest picture, with its lines, into the window whose context is current.
   void show();
+  /// Returns the OpenGL texture of the latest picture without its lines. Its first row is the lowest.
+  [[nodiscard]] std::uint32_t picture_texture() const { return renderer_.picture_texture(); }
   /// Returns the latest picture without its lines.
   [[nodiscard]] render::Image picture() const { return renderer_.read(); }
 

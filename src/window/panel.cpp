@@ -1,8 +1,6 @@
-// Draws the panel with Dear ImGui and its OpenGL backend. Nothing else includes Dear ImGui. It gets window events from takes(),
-// so that only window.cpp knows GLFW.
+// Draws the panel with Dear ImGui. It gets window events from takes(), so that only window.cpp knows GLFW.
 #include "window/panel.hpp"
 
-#include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -12,6 +10,7 @@
 #include <cmath>
 
 #include "dynamics/integrator.hpp"
+#include "window/style.hpp"
 
 namespace pliant::view {
 namespace {
@@ -225,19 +224,6 @@ void show_help(const glm::uvec2& size, const std::string& help) {
   ImGui::End();
 }
 
-void set_style(float scale) {
-  ImGui::StyleColorsDark();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = style.FrameRounding = style.GrabRounding = 4;
-  style.WindowBorderSize = 0;
-  style.Colors[ImGuiCol_WindowBg] = {0.07f, 0.08f, 0.10f, 0.88f};
-  style.Colors[ImGuiCol_PlotLines] = {0.95f, 0.62f, 0.25f, 1};
-  style.ScaleAllSizes(scale);
-  ImFontConfig font;
-  font.SizePixels = std::round(text_height * scale);
-  ImGui::GetIO().Fonts->AddFontDefault(&font);
-}
-
 }  // namespace
 
 /// The state of the mouse's buttons for ImGui's next picture, and the windows of the latest one.
@@ -261,18 +247,9 @@ struct Panel::Mouse {
   }
 };
 
-Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) {
-  IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
-  set_style(scale);
-  ImGui_ImplOpenGL3_Init("#version 450");
-}
+Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) { begin_style(scale, text_height); }
 
-Panel::~Panel() {
-  ImGui_ImplOpenGL3_Shutdown();
-  ImGui::DestroyContext();
-}
+Panel::~Panel() { end_style(); }
 
 bool Panel::takes(const WindowEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
@@ -295,17 +272,12 @@ bool Panel::takes(const WindowEvent& event) {
 }
 
 void Panel::begin(const glm::uvec2& size, double seconds) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
-  io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 0.1));
-  std::ranges::copy(mouse_->is_down, io.MouseDown);
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
+  std::ranges::copy(mouse_->is_down, ImGui::GetIO().MouseDown);
+  begin_picture(size, seconds);
 }
 
 void Panel::end() {
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  end_picture();
   mouse_->find_windows();
 }
 

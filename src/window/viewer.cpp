@@ -96,7 +96,7 @@ Viewer::Viewer(Window& window, std::unique_ptr<Device> device, LoadedScene scene
   if (options.starts_paused) playback_.pause();
   open(std::move(scene));
   if (options.report.empty()) return;
-  report_.open(options.report);
+  report_.open(options.report, std::ios::app);  // behind the start page's lines
   if (!report_)
     throw Error(ErrorKind::command_line, "--report", options.report.string() + " can't be written", "name another file");
 }

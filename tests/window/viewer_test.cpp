@@ -142,6 +142,29 @@ TEST_CASE("keys throw a ball, remove a body, and bring a hand that goes with the
   viewed.await(says("last soft body"));
 }
 
+TEST_CASE("without a scene a page of demos opens, and a click opens one", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Child program(
+      {"sh", "-c", "exec \"$0\" \"$@\" 2>&1", program_path(), "view", "--paused", "--device", "cpu", "--report", "/dev/stdout"},
+      {{"DISPLAY", display.name()}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"ASAN_OPTIONS", "detect_leaks=0"}}, source_dir());
+  const auto await = [&](const std::string& what) {
+    std::string line;
+    while (line.find(what) == std::string::npos) line = program.read_line();
+    return line;
+  };
+  await("\"start_page\"");
+  std::string window = display.run("xdotool search --sync --onlyvisible --name pliant | head -1");
+  window.erase(window.find_last_not_of('\n') + 1);
+  (void)display.run("xdotool windowfocus --sync " + window + " mousemove --window " + window + " 150 150");
+  await("\"start_page\"");
+  (void)display.run("xdotool click 1");
+  CHECK_THAT(await("\"scene\""), Catch::Contains("scenes/demos/ball_pit.toml"));
+  (void)display.run("xdotool windowfocus --sync " + window + " key Escape");
+  CHECK(program.wait_for_end() == 0);
+}
+
 TEST_CASE("a file dropped on the window is opened, and a bad one leaves the scene as it is", "[gl][long]") {
   if (is_skipped()) return;
   const VirtualDisplay display;

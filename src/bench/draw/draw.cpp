@@ -1,6 +1,7 @@
 #include "bench/draw/draw.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bench/common/step_cases.hpp"
@@ -98,6 +99,42 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
   return share_lost(median(std::move(with)), median(std::move(without)));
 }
 
+// Plays the scene from its start to its end, or for so long a time.
+Played play(Device& device, Drawing& drawing, const TimePlan& plan) {
+  constexpr double longest_play = 20;  // [s]
+  const double duration = static_cast<double>(plan.steps) * plan.time_step;
+  drawing.restart();
+  device.finish();
+  Played played;
+  std::uint64_t made = 0;
+  double seconds = 0;
+  while ((played.pictures + 1) * a_sixtieth <= duration + 1e-9 && seconds < longest_play && !drawing.is_broken()) {
+    ++played.pictures;
+    const auto due = static_cast<std::uint64_t>(std::floor(played.pictures * a_sixtieth / plan.time_step + 1e-9));
+    Stopwatch simulating, drawn;
+    simulating.time([&] {
+      drawing.step(due - made);
+      device.finish();
+    });
+    made = due;
+    drawn.time([&] {
+      drawing.draw();
+      device.finish();
+    });
+    const double picture = simulating.seconds() + drawn.seconds();
+    seconds += picture;
+    played.late += picture > a_sixtieth ? 1 : 0;
+    played.simulation_milliseconds += 1e3 * simulating.seconds();
+    played.drawing_milliseconds += 1e3 * drawn.seconds();
+    played.slowest_picture_milliseconds = std::max(played.slowest_picture_milliseconds, 1e3 * picture);
+  }
+  if (played.pictures > 0) {
+    played.simulation_milliseconds /= played.pictures;
+    played.drawing_milliseconds /= played.pictures;
+  }
+  return played;
+}
+
 void warm_up(Device& device, Drawing& drawing) {
   Stopwatch watch;
   while (watch.seconds() < warming_time)
@@ -127,6 +164,7 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
           .milliseconds_per_frame = 1e3 * frame.median,
           .fastest_milliseconds_per_frame = 1e3 * frame.fastest,
           .steps_lost = frame.median < a_sixtieth && !options.quick ? steps_lost(device, drawing, frames) : std::nullopt,
+          .played = options.quick || what.plan.tolerance ? std::nullopt : std::optional(play(device, drawing, what.plan)),
           .milliseconds = std::move(passes)};
 }
 

@@ -24,6 +24,15 @@ struct DrawOptions {
 /// steps with and without a picture [s].
 [[nodiscard]] double share_lost(double seconds_with_picture, double seconds_without);
 
+/// A scene that was played as a viewer does, 60 pictures a simulated second, each when its steps are made.
+struct Played {
+  std::uint32_t pictures = 0;
+  std::uint32_t late = 0;                   // that took longer than a sixtieth of a second
+  double simulation_milliseconds = 0;       // mean over pictures
+  double drawing_milliseconds = 0;          // the same
+  double slowest_picture_milliseconds = 0;  // of both together
+};
+
 /// The members' names are the keys of the file. A pass `shadow` has the key `shadow_milliseconds`.
 struct DrawRow {
   std::string scene;
@@ -37,6 +46,7 @@ struct DrawRow {
   /// share_lost of steps from the start. It is empty if the measurement is quick, if a picture or a step alone takes longer than
   /// a sixtieth of a second, or if steps became non-finite.
   std::optional<double> steps_lost;
+  std::optional<Played> played;                              // empty if the measurement is quick
   std::vector<std::pair<std::string, double>> milliseconds;  // median of each pass over frames with a mark after each pass
 };
 

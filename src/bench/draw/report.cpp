@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/common/report_parts.hpp"
 
 namespace pliant::bench {
@@ -19,6 +21,14 @@ Json row_json(const DrawRow& row) {
                {"milliseconds_per_frame", row.milliseconds_per_frame},
                {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame},
                {"steps_lost", row.steps_lost}};
+  if (row.played) {
+    const auto& [pictures, late, simulation, drawing, slowest] = *row.played;
+    json.add("played_pictures", pictures);
+    json.add("late_pictures", late);
+    json.add("simulation_milliseconds_per_picture", simulation);
+    json.add("drawing_milliseconds_per_picture", drawing);
+    json.add("slowest_picture_milliseconds", slowest);
+  }
   for (const auto& [pass, milliseconds] : row.milliseconds) json.add(pass + "_milliseconds", milliseconds);
   return json;
 }
@@ -37,6 +47,13 @@ std::string to_table(const DrawResult& result) {
                          row.steps_lost ? fmt::format("{:.1f} %", 100 * *row.steps_lost) : "-");
     for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
   }
+  table += fmt::format("\n\n{:<{}} {:>9} {:>12} {:>12} {:>12} {:>9}", "played at 60 a second", std::max(width, std::size_t{21}),
+                       "pictures", "simulated ms", "drawn ms", "slowest ms", "late");
+  for (const DrawRow& row : result.rows)
+    if (row.played)
+      table += fmt::format("\n{:<{}} {:>9} {:>12.3g} {:>12.3g} {:>12.3g} {:>9}", row.scene, std::max(width, std::size_t{21}),
+                           row.played->pictures, row.played->simulation_milliseconds, row.played->drawing_milliseconds,
+                           row.played->slowest_picture_milliseconds, row.played->late);
   table += '\n';
   for (const std::string& note : result.notes) table += note + '\n';
   return table;

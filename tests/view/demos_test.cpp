@@ -1,0 +1,132 @@
+// The demos of the start page: they load, and what they promise of contact holds while somebody plays with them.
+#include "view/demos.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "simulation/overlap.hpp"
+#include "support/expect_error.hpp"
+#include "support/has.hpp"
+#include "support/paths.hpp"
+#include "support/scratch.hpp"
+#include "view/session.hpp"
+#include "view/thrown_ball.hpp"
+
+using namespace pliant;
+using namespace pliant::view;
+
+namespace {
+
+std::vector<Demo> shipped_demos() { return find_demos(source_dir() + "/scenes/demos"); }
+
+double from_environment(const char* name, double otherwise) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtod(text, nullptr);
+}
+
+std::unique_ptr<Device> device_to_play_on() {
+  const char* const text = std::getenv("PLIANT_SOAK_DEVICE");
+  return text != nullptr && std::string_view(text) == "gpu" ? make_gpu_device(0) : make_cpu_device(0, 32);
+}
+
+// Pulls, throws and shakes at random.
+class Player {
+ public:
+  Player(Session& session, unsigned seed) : session_(session), random_(seed) {}
+
+  void play() {
+    const double what = between(0, 1);
+    if (what < 0.1)
+      throw_ball();
+    else if (what < 0.15)
+      session_.shake();
+    else if (what < 0.6)
+      pull();
+    else
+      session_.pull({});
+  }
+  [[nodiscard]] int thrown() const { return thrown_; }
+  [[nodiscard]] int pulled() const { return pulled_; }
+
+ private:
+  double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  glm::dvec3 somewhere(double size) { return {between(-size, size), between(0.2, size), between(-size, size)}; }
+
+  // One that would touch something at once is not thrown.
+  void throw_ball() try {
+    const double size = scene_radius(session_.model(), session_.start());
+    const glm::dvec3 from = somewhere(2 * size);
+    session_.add(ball_to_throw(session_.model(), session_.start(), {from, -from}, session_.scene().simulation.gravity));
+    ++thrown_;
+  } catch (const Error&) {
+  }
+
+  void pull() {
+    const Model& model = session_.model();
+    const auto vertex = static_cast<std::uint32_t>(between(0, model.vertex_count() - 1e-9));
+    if (model.body_of(vertex).is_rigid()) return;
+    session_.pull(Pull{.vertex = vertex, .target = somewhere(scene_radius(model, session_.start()))});
+    ++pulled_;
+  }
+
+  Session& session_;
+  std::mt19937 random_;
+  int thrown_ = 0, pulled_ = 0;
+};
+
+TEST_CASE("each demo says what to try, and begins") {
+  const std::vector<Demo> demos = shipped_demos();
+  CHECK(demos.size() >= 7);
+  const auto device = make_cpu_device(0, 32);
+  for (const Demo& demo : demos) {
+    CAPTURE(demo.scene);
+    CHECK_FALSE(demo.title.empty());
+    CHECK_THAT(demo.about, Catch::Contains("Try: "));
+    Session session(*device, load(demo.scene));
+    session.advance_toward(2.0 / 60, 1000);
+    CHECK_FALSE(session.breakdown());
+    CHECK(session.simulation().intersections().pairs == 0);
+  }
+}
+
+TEST_CASE("a folder without demos is an error, and a bad scene among them is left out") {
+  const test::ScratchFolder folder;
+  check_says(error_of([&] { return find_demos(folder.path); }), {"has no demos", "name a scene"});
+  std::ofstream(folder.path / "bad.toml") << "[[body]]\n";
+  std::ofstream(folder.path / "good.toml") << "[[body]]\nmesh = \"icosphere:0\"\n";
+  const std::vector<Demo> demos = find_demos(folder.path);
+  REQUIRE(demos.size() == 1);
+  CHECK(demos[0].title == "good");
+}
+
+// PLIANT_DEMO_SECONDS of each demo are simulated, on PLIANT_SOAK_DEVICE. Every tenth step is looked at in fp64.
+TEST_CASE("in each demo bodies stay apart and finite while somebody plays", "[long]") {
+  const double seconds = from_environment("PLIANT_DEMO_SECONDS", 0.4);
+  const auto device = device_to_play_on();
+  for (const Demo& demo : shipped_demos()) {
+    CAPTURE(demo.scene);
+    Session session(*device, load(demo.scene));
+    Player player(session, 7);
+    double looked = 0;
+    while (session.time() < seconds && !session.breakdown()) {
+      if (session.time() >= looked) {
+        player.play();
+        looked += 0.25;
+      }
+      for (int step = 0; step < 10 && !session.breakdown(); ++step) session.step_once();
+      const std::vector<glm::dvec3> positions = session.simulation().state().world_positions(session.model());
+      CHECK(count_touching_pairs(session.model(), positions) == 0);
+    }
+    CHECK_FALSE(session.breakdown());
+    if (seconds > 5) CHECK((player.thrown() > 0 && player.pulled() > 0));
+    std::printf("%-28s %6.1f s played, %d balls thrown, %d pulls\n", demo.scene.stem().c_str(), session.time(), player.thrown(),
+                player.pulled());
+  }
+}
+
+}  // namespace
