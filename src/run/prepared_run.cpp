@@ -87,6 +87,22 @@ void warn_of_step(PreparedRun& run) {
                   run.plan.time_step, run.plan.time_step / run.plan.step_bound, run.plan.integrator->name, run.plan.step_bound));
 }
 
+// Steps see a path only where they end.
+void warn_of_paths(PreparedRun& run) {
+  if (run.plan.tolerance) return;
+  for (const BodyDescription& body : run.scene.bodies)
+    for (std::size_t k = 1; k < body.path.size(); ++k) {
+      const PathKeyDescription &from = body.path[k - 1], &to = body.path[k];
+      if ((from.position == to.position && from.rotation == to.rotation) || to.time - from.time >= 2 * run.plan.time_step)
+        continue;
+      run.warnings.push_back(
+          fmt::format("steps of {:.3g} s miss part of the path of \"{}\", which has keys {:.3g} s apart; write a "
+                      "time_step of at most {:.3g}",
+                      run.plan.time_step, body.name, to.time - from.time, (to.time - from.time) / 2));
+      break;
+    }
+}
+
 void warn_of_no_step(PreparedRun& run, const RunOptions& options) {
   if (!run.plan.tolerance && run.plan.steps == 0 && !options.steps && run.scene.simulation.duration > 0)
     run.warnings.push_back(
@@ -159,6 +175,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   warn_of_idle_keys(run);
   warn_of_integrator(run);
   warn_of_step(run);
+  warn_of_paths(run);
   warn_of_no_step(run, options);
   if (options.resume.empty()) check_start(run);  // else the run begins elsewhere
   run.build_time.stop();

@@ -225,6 +225,7 @@ void expect_none_of(const TableReader& table, std::initializer_list<const char*>
 }
 
 void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) {
+  const char* const instead_of_path = body.is_container ? "path" : "change kind";
   if (body.kind != BodyKind::scripted) expect_none_of(table, {"path", "repeats"}, "is for bodies of the kind \"scripted\"");
   if (body.kind == BodyKind::immovable)
     expect_none_of(table, {"velocity", "spin", "stretch", "pressure"}, "a static body neither moves nor changes its shape");
@@ -234,7 +235,7 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
   if (body.path.empty())
     expect_none_of(table, {"repeats"}, "has no path to repeat");
   else
-    expect_none_of(table, {"velocity", "spin"}, "a body with a path moves along it alone");
+    expect_none_of(table, {"velocity", "spin"}, "what has a path moves along it alone", instead_of_path);
 }
 
 constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", "vertex_mass",
@@ -257,7 +258,9 @@ void note_idle(const TableReader& table, BodyDescription& body) {
 void forget_motion_of_rows(TableReader& table, BodyKind kind) {
   if (kind == BodyKind::soft)
     table.forget_behind({"path", "repeats"});
-  else
+  else if (kind == BodyKind::scripted)
+    table.forget_behind({"restitution"});
+  if (kind != BodyKind::soft)
     table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "stiffness", "total_stiffness", "vertex_mass",
                          "total_mass", "damping", "path", "repeats"});
 }
@@ -463,7 +466,7 @@ const std::vector<Choice<ContainerShape>> container_shapes = {{"box", ContainerS
 std::string box_mesh(TableReader& table) {
   glm::dvec3 size(0.0);
   bool open = false;
-  expect_none_of(table, {"radius"}, "a box has sizes", "write size = [2, 1, 2]");
+  expect_none_of(table, {"radius"}, "a box has sizes", "write shape = \"sphere\"");
   table.require("size");
   table.read("size", size, box_side);
   table.read("open", open);
@@ -471,7 +474,7 @@ std::string box_mesh(TableReader& table) {
 }
 
 std::string sphere_mesh(TableReader& table, BodyDescription& container) {
-  expect_none_of(table, {"size", "open"}, "a sphere has a radius alone", "write radius = 1");
+  expect_none_of(table, {"size", "open"}, "a sphere has a radius alone", "write shape = \"box\"");
   table.require("radius");
   table.read("radius", container.scale, positive);
   return "icosphere:3";

@@ -183,6 +183,11 @@ const ModelBody& most_demanding(const TimePlan& plan, const Model& model) {
 std::uint64_t count_steps(const SceneDescription& scene, const Model& model, const TimePlan& plan, double time_step) {
   const double count = std::round(scene.simulation.duration / time_step);
   if (count <= physics::most_steps()) return static_cast<std::uint64_t>(count);
+  if (!scene.simulation.time_step && turn_bound(model) < plan.step_bound)
+    throw Error(origin_of_length(scene),
+                fmt::format("the run takes more than 3e8 steps, because body \"{}\" turns at up to {:.3g} rad/s on its path",
+                            fastest_turning(model)->name, fastest_turning(model)->path->fastest_spin()),
+                "let it turn more slowly, or shorten the duration");
   if (!scene.simulation.time_step && time_step < 1 / plan.frame_rate)
     throw Error(origin_of_length(scene),
                 fmt::format("the run takes more than 3e8 steps, because body \"{}\" needs them as short as {:.3g} s",

@@ -83,6 +83,10 @@ TEST_CASE("one of bodies in rows may be of another kind than those on a path") {
     CHECK(scene.bodies[0].path.size() == 2);
     CHECK(scene.bodies[1].path.empty());
   }
+  const SceneDescription one = load_text(
+      "[[body]]\nname = \"ball\"\nmesh = \"icosphere:1\"\ncount = [2, 1, 1]\nspacing = [3, 0, 0]\nrestitution = 0.5\n"
+      "velocity = [1, 0, 0]\n\"[1,0,0]\" = { kind = \"scripted\", path = [{ time = 0 }, { time = 1, position = [0, 1, 0] }] }\n");
+  CHECK((one.bodies[0].restitution == 0.5 && !one.bodies[1].restitution && one.bodies[1].velocity == glm::dvec3(0.0)));
 }
 
 TEST_CASE("a key of rows is idle only if it is for all of their bodies") {
