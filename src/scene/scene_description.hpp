@@ -68,7 +68,7 @@ enum class TreeRefit {
 };
 
 struct TreeDescription {
-  TreeSplit split = TreeSplit::centre;
+  TreeSplit split = TreeSplit::median;
   unsigned fan_out = 8;                    // children of a node, at most
   std::optional<TreeRefit> refit = {};     // if empty, what suits the device
   std::optional<unsigned> max_depth = {};  // splits from the root to a leaf. If empty, it grows with the triangle count

@@ -34,8 +34,11 @@ LoadedScene with_settings(const LoadedScene& scene, const Settings& wanted) {
   SimulationDescription& simulation = changed.description.simulation;
   simulation.integrator.value = wanted.integrator;
   simulation.time_step = wanted.time_step;
+  simulation.tolerance = wanted.tolerance;
   simulation.damping_law = wanted.damping_law;
   changed.description.collision.elasticity = wanted.elasticity;
+  changed.description.collision.friction = wanted.friction;
+  changed.description.collision.restitution = wanted.restitution;
   changed.start.model = with_materials(std::move(changed.start.model), wanted.materials);
   return changed;
 }
@@ -164,7 +167,15 @@ void Session::restart() {
 
 Settings Session::settings() const {
   const SimulationDescription& of = scene_->description.simulation;
-  Settings settings{of.integrator.value, of.time_step, damping_law_of(scene()), elasticity_of(scene().collision), {}};
+  const CollisionDescription& contacts = scene_->description.collision;
+  Settings settings{.integrator = of.integrator.value,
+                    .time_step = of.time_step,
+                    .tolerance = of.tolerance,
+                    .damping_law = damping_law_of(scene()),
+                    .elasticity = elasticity_of(contacts),
+                    .friction = contacts.friction,
+                    .restitution = contacts.restitution,
+                    .materials = {}};
   for (const ModelBody& body : scene_->start.model.bodies)
     settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
   return settings;

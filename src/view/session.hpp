@@ -23,9 +23,11 @@ struct LoadedScene {
 /// The values of a scene that can change while it plays.
 struct Settings {
   std::string integrator;
-  std::optional<double> time_step;  // [s]; empty: automatic, or by the scene's tolerance
+  std::optional<double> time_step;  // [s]; empty: automatic, or by the tolerance
+  std::optional<double> tolerance;  // of steps that have no fixed length
   DampingLaw damping_law = DampingLaw::none;
-  double elasticity = 0;
+  double elasticity = 0, friction = 0;  // of contacts, where a body has none of its own
+  std::optional<double> restitution;
   std::vector<Material> materials;  // one a body
   bool operator==(const Settings&) const = default;
 };

@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "dynamics/integrator.hpp"
 #include "window/style.hpp"
@@ -34,12 +38,13 @@ void say_muted(const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-/// Values can't be typed, because keys belong to the viewer.
+/// Of whole numbers, which can't be typed.
 constexpr ImGuiSliderFlags by_mouse = ImGuiSliderFlags_NoInput | ImGuiSliderFlags_AlwaysClamp;
 
+/// Ctrl and a click let a number be typed. Keys belong to it until the enter key.
 bool slide(const char* label, double& value, double low, double high, const char* format, bool logarithmic = true) {
   return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
-                             by_mouse | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+                             ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
 }
 
 void choose_scene(const Facts& facts, Wishes& wishes) {
@@ -98,6 +103,12 @@ void edit_bodies(const Facts& facts, Wishes& wishes) {
     ImGui::PopID();
   }
   slide("elasticity", wishes.settings.elasticity, 0, 1, "%.2f", false);
+  slide("friction", wishes.settings.friction, 0, 2, "%.2f", false);
+  bool restores = wishes.settings.restitution.has_value();
+  if (ImGui::Checkbox("restitution", &restores)) wishes.settings.restitution = restores ? std::optional(0.5) : std::nullopt;
+  if (!restores) return;
+  ImGui::SameLine();
+  slide("##restitution", *wishes.settings.restitution, 0, 1, "%.2f", false);
 }
 
 void choose_integrator(std::string& chosen) {
@@ -108,7 +119,12 @@ void choose_integrator(std::string& chosen) {
 }
 
 void choose_step(const Facts& facts, Settings& settings) {
-  if (facts.tolerance) return say("steps by a tolerance of {:g}", *facts.tolerance);
+  bool by_tolerance = settings.tolerance.has_value();
+  if (ImGui::Checkbox("steps by a tolerance", &by_tolerance)) {
+    settings.tolerance = by_tolerance ? std::optional(1e-5) : std::nullopt;
+    settings.time_step.reset();
+  }
+  if (by_tolerance) return void(slide("tolerance", *settings.tolerance, 1e-9, 1e-2, "%.1e"));
   bool is_automatic = !settings.time_step;
   double step = settings.time_step.value_or(facts.time_step);
   slide("time step", step, 1e-5, 0.1, "%.6f s");
@@ -224,6 +240,12 @@ void show_help(const glm::uvec2& size, const std::string& help) {
   ImGui::End();
 }
 
+// What a number is edited with, beside characters.
+using TypingKey = std::pair<std::string_view, ImGuiKey_>;
+constexpr TypingKey typing_keys[] = {{"enter", ImGuiKey_Enter},         {"escape", ImGuiKey_Escape}, {"tab", ImGuiKey_Tab},
+                                     {"backspace", ImGuiKey_Backspace}, {"delete", ImGuiKey_Delete}, {"left", ImGuiKey_LeftArrow},
+                                     {"right", ImGuiKey_RightArrow}};
+
 }  // namespace
 
 /// The state of the mouse's buttons for ImGui's next picture, and the windows of the latest one.
@@ -247,12 +269,28 @@ struct Panel::Mouse {
   }
 };
 
-Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) { begin_style(scale, text_height); }
+Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) {
+  begin_style(scale, text_height);
+  for (const auto& [name, key] : typing_keys) ImGui::GetIO().KeyMap[key] = key;  // as an index of KeysDown
+}
 
 Panel::~Panel() { end_style(); }
 
+// Keys that write nothing are down for one picture.
+bool Panel::types(const std::string& key) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (!io.WantTextInput) return false;
+  const auto found = std::ranges::find(typing_keys, key, &TypingKey::first);
+  if (found != std::end(typing_keys))
+    io.KeysDown[found->second] = true;
+  else if (key.size() == 1)
+    io.AddInputCharacter(static_cast<unsigned>(std::tolower(static_cast<unsigned char>(key[0]))));
+  return true;
+}
+
 bool Panel::takes(const WindowEvent& event) {
   ImGuiIO& io = ImGui::GetIO();
+  if (const auto* key = std::get_if<KeyPressed>(&event)) return types(key->name);
   const auto at = [&](const glm::dvec2& place) { io.MousePos = {static_cast<float>(place.x), static_cast<float>(place.y)}; };
   if (const auto* moved = std::get_if<MouseMoved>(&event)) {
     at(moved->to);
@@ -261,6 +299,7 @@ bool Panel::takes(const WindowEvent& event) {
   if (const auto* pressed = std::get_if<MousePressed>(&event)) {
     at(pressed->place);
     if (!mouse_->takes_press()) return false;
+    io.KeyCtrl = pressed->with_control;
     return mouse_->is_down[static_cast<std::size_t>(pressed->button)] = true;
   }
   if (const auto* released = std::get_if<MouseReleased>(&event))
@@ -278,6 +317,8 @@ void Panel::begin(const glm::uvec2& size, double seconds) {
 
 void Panel::end() {
   end_picture();
+  std::ranges::fill(ImGui::GetIO().KeysDown, false);
+  ImGui::GetIO().KeyCtrl = false;  // characters would count as shortcuts
   mouse_->find_windows();
 }
 

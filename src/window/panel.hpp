@@ -51,9 +51,9 @@ class Panel {
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  /// Takes a mouse event, and returns whether it belongs to the panel. A press over the panel's windows belongs to it, and so do
-  /// moves until the release. A turn of the wheel there belongs to it, too. Pass it every mouse event, even while it is hidden,
-  /// but at most one press or release a picture.
+  /// Takes an event, and returns whether it belongs to the panel. A press over the panel's windows belongs to it, and so do moves
+  /// until the release. A turn of the wheel there belongs to it, too, and keys while a number is typed. Pass it every event, even
+  /// while it is hidden, but at most one press or release a picture.
   bool takes(const WindowEvent& event);
   /// Draws into the window, `seconds` after the last time. `help` is a text to show over all, or empty.
   void draw(const glm::uvec2& size, double seconds, const Facts& facts, Wishes& wishes, const std::string& help);
@@ -65,6 +65,7 @@ class Panel {
   [[nodiscard]] std::size_t window_count() const;
 
  private:
+  bool types(const std::string& key);
   void begin(const glm::uvec2& size, double seconds);
   void end();
   struct Mouse;

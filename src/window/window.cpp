@@ -4,7 +4,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -56,7 +58,12 @@ gl::WindowContext context_of(GLFWwindow* window) {
 // Returns the name of a key that writes nothing, or an empty text if pliant has no name for it.
 std::string name_of_key(int key) {
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return std::string("F").append(std::to_string(key - GLFW_KEY_F1 + 1));
-  return key == GLFW_KEY_TAB ? "tab" : key == GLFW_KEY_ESCAPE ? "escape" : "";
+  static constexpr std::pair<int, const char*> names[] = {
+      {GLFW_KEY_TAB, "tab"},        {GLFW_KEY_ESCAPE, "escape"},       {GLFW_KEY_ENTER, "enter"},
+      {GLFW_KEY_KP_ENTER, "enter"}, {GLFW_KEY_BACKSPACE, "backspace"}, {GLFW_KEY_DELETE, "delete"},
+      {GLFW_KEY_LEFT, "left"},      {GLFW_KEY_RIGHT, "right"}};
+  const auto found = std::ranges::find(names, key, &std::pair<int, const char*>::first);
+  return found != std::end(names) ? found->second : "";
 }
 
 // Returns the name of a key that writes a character: that character in capitals. If it is not Latin, the name is the letter at

@@ -15,7 +15,8 @@ namespace pliant::view {
 enum class MouseButton { left, right };
 
 struct KeyPressed {
-  /// What the key writes in the keyboard's layout, in capitals, or "space", "tab", "escape" or "F1" to "F12".
+  /// What the key writes in the keyboard's layout, in capitals, or "space", "tab", "escape", "enter",
+  /// "backspace", "delete", "left", "right" or "F1" to "F12".
   std::string name;
   bool is_repeat = false;  // the key is being held
 };

@@ -252,6 +252,24 @@ TEST_CASE("changed settings are those of a scene that has them from the start") 
   CHECK(same_bits(motion_of(from_start), motion_of(changed)));
 }
 
+TEST_CASE("friction, restitution and a tolerance change while a scene plays, too") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, colliding());
+  session.advance_toward(0.02, 100);
+  Settings settings = session.settings();
+  CHECK((settings.friction == 0.5 && !settings.restitution && !settings.tolerance));
+  settings.friction = 0.1;
+  settings.restitution = 0.4;
+  settings.time_step.reset();
+  settings.tolerance = 1e-5;
+  session.change(settings);
+  CHECK(session.settings() == settings);
+  CHECK(session.plan().tolerance == 1e-5);
+  CHECK((session.scene().collision.friction == 0.1 && session.scene().collision.restitution == 0.4));
+  session.advance_toward(0.1, 1000);
+  CHECK(session.report().adaptive.has_value());
+}
+
 TEST_CASE("settings without a plan leave a session as it was") {
   const auto device = make_cpu_device(1, 32);
   Session session(*device, colliding());

@@ -161,7 +161,7 @@ TEST_CASE("leaves are the same for each fan-out, and nodes with many children ar
 
 TEST_CASE("a split separates centroids about the centre of the longest axis of the node's box") {
   const Model model = three_bodies();
-  const Forest forest = build(model);
+  const Forest forest = build(model, {.split = TreeSplit::centre, .fan_out = 2});
   for (const TreeNode& node : forest.nodes) {
     if (node.is_leaf()) continue;
     const Bounds box = bounds(model, forest, node);

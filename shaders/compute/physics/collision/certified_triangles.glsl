@@ -9,6 +9,14 @@ SHARED_BEGIN
 // Three points or three edges side by side: number k in component k of each vector, and the first one again in w.
 struct Three { vec4 x; vec4 y; vec4 z; };
 
+FN Three three_of(IN(vec4) x, IN(vec4) y, IN(vec4) z) {
+  Three all;
+  all.x = x;
+  all.y = y;
+  all.z = z;
+  return all;
+}
+
 FN Three three(IN(vec3) p, IN(vec3) q, IN(vec3) r) {
   Three all;
   all.x = vec4(p.x, q.x, r.x, p.x);
@@ -21,22 +29,14 @@ FN Three less(IN(Three) all, IN(vec3) p) {
   EXACT vec4 x = all.x - vec4(p.x);
   EXACT vec4 y = all.y - vec4(p.y);
   EXACT vec4 z = all.z - vec4(p.z);
-  Three result;
-  result.x = x;
-  result.y = y;
-  result.z = z;
-  return result;
+  return three_of(x, y, z);
 }
 
 FN Three scaled(IN(Three) all, float scale) {
   EXACT vec4 x = all.x * scale;
   EXACT vec4 y = all.y * scale;
   EXACT vec4 z = all.z * scale;
-  Three result;
-  result.x = x;
-  result.y = y;
-  result.z = z;
-  return result;
+  return three_of(x, y, z);
 }
 
 // From each corner to the next.
@@ -45,11 +45,7 @@ FN Three edges_of(IN_ARRAY(vec3, corner, 3)) {
   EXACT vec4 x = to.x - from.x;
   EXACT vec4 y = to.y - from.y;
   EXACT vec4 z = to.z - from.z;
-  Three edge;
-  edge.x = x;
-  edge.y = y;
-  edge.z = z;
-  return edge;
+  return three_of(x, y, z);
 }
 
 FN vec3 number(IN(Three) all, int k) { return vec3(all.x[k], all.y[k], all.z[k]); }
@@ -58,22 +54,14 @@ FN Three cross_of_each(IN(vec3) a, IN(Three) b) {
   EXACT vec4 x = b.z * a.y - b.y * a.z;
   EXACT vec4 y = b.x * a.z - b.z * a.x;
   EXACT vec4 z = b.y * a.x - b.x * a.y;
-  Three product;
-  product.x = x;
-  product.y = y;
-  product.z = z;
-  return product;
+  return three_of(x, y, z);
 }
 
 FN Three cross_of_each(IN(Three) a, IN(Three) b) {
   EXACT vec4 x = a.y * b.z - a.z * b.y;
   EXACT vec4 y = a.z * b.x - a.x * b.z;
   EXACT vec4 z = a.x * b.y - a.y * b.x;
-  Three product;
-  product.x = x;
-  product.y = y;
-  product.z = z;
-  return product;
+  return three_of(x, y, z);
 }
 
 // The shadows of all on one axis, and of one point on all axes. They round alike.
