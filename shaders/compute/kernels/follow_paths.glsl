@@ -17,7 +17,7 @@ PARAMETER(uint, body_count)
 
 void follow_paths(uint b) {
   if (status[b].activity != scripted) return;
-  double h = next_part(step_parts[0], control[0].time_left), per_second = h > double(0) ? double(1) / h : double(0);
+  double h = next_part(step_parts[0], control[0].time_left), per_second = h > double(0) ? ratio(double(1), h) : double(0);
   double time = path_state[b].time + path_state[b].pace * h;
   PathPoint now = path_state[b].now, next = point_on_path(path[b], time);
   dvec3 velocity = per_second * (LOAD3(next.centre, 0u) - LOAD3(now.centre, 0u));

@@ -44,6 +44,12 @@ struct PathState {
   uint padding;
 };
 
+// Rounds once, where a GPU's compiler may take a shorter way.
+FN double ratio(double a, double b) {
+  EXACT double quotient = a / b;
+  return quotient;
+}
+
 // A body that waits tries again at half the pace. Otherwise it would hit what it presses as fast in each step. If it goes, its pace grows.
 FN double pace_after(double pace, bool waits) {
   return waits ? max(double(0.5) * pace, double(1) / double(1024)) : min(double(1.1) * pace, double(1));
@@ -56,13 +62,13 @@ FN double cubic(double from, double to, double rate_from, double rate_to, double
 }
 FN double rate_of_cubic(double from, double to, double rate_from, double rate_to, double s, double duration) {
   double rest = double(1) - s;
-  return double(6) * s * rest * ((to - from) / duration) + rest * (double(1) - double(3) * s) * rate_from +
+  return double(6) * s * rest * ratio(to - from, duration) + rest * (double(1) - double(3) * s) * rate_from +
          s * (double(3) * s - double(2)) * rate_to;
 }
 
 // The time at which the keys say where the path is at a time. It lies between the first key's and the last one's.
 FN double time_along(IN(Path) path, double time, double first, double last) {
-  if (path.repeats != 0u && time > last) time -= floor((time - first) / (last - first)) * (last - first);
+  if (path.repeats != 0u && time > last) time -= floor(ratio(time - first, last - first)) * (last - first);
   return max(first, min(time, last));
 }
 
@@ -71,12 +77,12 @@ FN Quaternion quaternion_of(IN(PathPoint) p) { return quaternion(p.quaternion[0]
 // The turn from one rotation to another by Cayley's map: the axis times the tangent of half the angle.
 FN dvec3 half_turn_between(Quaternion from, Quaternion to) {
   Quaternion turn = product(to, conjugate(from));
-  return dvec3(turn.x, turn.y, turn.z) / turn.w;
+  return dvec3(ratio(turn.x, turn.w), ratio(turn.y, turn.w), ratio(turn.z, turn.w));
 }
 
 // Returns where the path is at a time [s] between two keys.
 FN PathPoint point_between(IN(PathKey) a, IN(PathKey) b, double time) {
-  double duration = b.time - a.time, s = (time - a.time) / duration;
+  double duration = b.time - a.time, s = ratio(time - a.time, duration);
   PathPoint p;
   double q[4], rate[4];
   for (uint k = 0u; k < 3u; ++k) {
@@ -87,9 +93,10 @@ FN PathPoint point_between(IN(PathKey) a, IN(PathKey) b, double time) {
     q[k] = cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
     rate[k] = rate_of_cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
   }
-  double size = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  EXACT double size = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   Quaternion at = normalized(quaternion(q[0], q[1], q[2], q[3]));
-  Quaternion turning = product(quaternion(rate[0] / size, rate[1] / size, rate[2] / size, rate[3] / size), conjugate(at));
+  Quaternion turning = product(quaternion(ratio(rate[0], size), ratio(rate[1], size), ratio(rate[2], size), ratio(rate[3], size)),
+                               conjugate(at));
   dvec3 spin = double(2) * dvec3(turning.x, turning.y, turning.z);
   STORE3(p.spin, 0u, spin)
   p.quaternion[0] = at.x;
