@@ -107,7 +107,7 @@ const std::array<Search, 7> searches = {Search{"pliant"},
                                         Search{"pliant, bottom-up", ContactSearch::tree, {.refit = TreeRefit::bottom_up}},
                                         Search{"pliant, fan-out 2", ContactSearch::tree, {.fan_out = 2}},
                                         Search{"pliant, fan-out 4", ContactSearch::tree, {.fan_out = 4}},
-                                        Search{"pliant, median", ContactSearch::tree, {.split = TreeSplit::median}},
+                                        Search{"pliant, centre", ContactSearch::tree, {.split = TreeSplit::centre}},
                                         Search{"pliant, surface area", ContactSearch::tree, {.split = TreeSplit::surface_area}},
                                         Search{"brute force", ContactSearch::brute_force}};
 

@@ -38,7 +38,7 @@ std::size_t rows_of(const std::vector<CollisionRow>& rows, const std::string& en
 TEST_CASE("pliant and other libraries find the same pairs of triangles, on one thread and all") {
   const std::vector<CollisionRow> rows = quick_rows({.threads = 2});
   constexpr std::size_t cases = 2 * 3;  // sizes and overlaps
-  for (const char* engine : {"pliant", "pliant, median", "pliant, surface area"}) CHECK(rows_of(rows, engine) == 2 * cases);
+  for (const char* engine : {"pliant", "pliant, centre", "pliant, surface area"}) CHECK(rows_of(rows, engine) == 2 * cases);
   CHECK(rows_of(rows, "brute force") == 2 * cases / 2);  // small ones alone
   for (const auto& libraries : {embree_trees(), fcl_trees(), bullet_trees()})
     for (const TreeLibrary& library : libraries) CHECK(rows_of(rows, library.name) == cases);
