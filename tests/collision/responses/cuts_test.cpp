@@ -217,13 +217,16 @@ TEST_CASE("bodies that spin while they hook into each other gain no energy") {
   CHECK(seen.last < seen.first);
 }
 
-// Each crumples around the other, and most kicks do not settle from some 1,300 parts on.
+// Each crumples around the other, and most kicks do not settle from some 1,300 parts on. The trees are those of the table in
+// docs/contact.md. With others contacts come in another order, and motions become others.
 TEST_CASE("kicks that do not settle give no energy", "[long]") {
   const bench::Partner sphere{.mesh = generate_mesh("icosphere:4")};
   const bench::Meeting meeting = bench::meeting_of(sphere, sphere, {.edges_a_step = 2});
   const auto device = make_cpu_device(2, 32);
+  CollisionDescription collision = by_impulses;
+  collision.tree.split = TreeSplit::centre;
   Simulation simulation(*device, meeting.start.model, meeting.start.state, plan_of(Method{"verlet", meeting.time_step}),
-                        by_impulses);
+                        collision);
   const EnergySwing swing = energy_swing_of(simulation, meeting.start, 42, 64);
   CHECK(simulation.report().unsettled_contacts > 0);
   CHECK(swing.least < -0.5);
