@@ -6,6 +6,8 @@ install(TARGETS pliant EXPORT pliant_targets ARCHIVE DESTINATION ${CMAKE_INSTALL
 install(EXPORT pliant_targets NAMESPACE pliant:: DESTINATION ${package_dir})
 if(TARGET pliant_app)
   install(TARGETS pliant_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY scenes/demos DESTINATION share/pliant/scenes)  # the viewer's start page looks there
+  install(FILES meshes/bunny.obj meshes/teapot.obj DESTINATION share/pliant/meshes)
 endif()
 
 # Headers include each other from src/ and from shaders/compute/.

@@ -20,7 +20,8 @@ std::uint64_t total(const Control& control, std::uint32_t counter) {
 
 // What has to be known between steps, and what a report has.
 constexpr std::string_view clocks[] = {"control", "step_parts", "quiet_steps"};
-constexpr std::string_view reported[] = {"control", "step_parts", "pace", "contact_total", "status", "slept", "tally", "path_state"};
+constexpr std::string_view reported[] = {"control", "step_parts", "pace",  "contact_total",
+                                         "status",  "slept",      "tally", "path_state"};
 
 void add_collision_counts(StepReport& report, const Control& control) {
   report.contact_steps = control.contact_steps;
@@ -211,17 +212,21 @@ void Simulation::pull(const Pull& by, double seconds) {
   device_.run(grip_->passes(half()));
 }
 
-void Simulation::send(std::uint32_t body, const BodyPath& path) {
-  PLIANT_EXPECT(model_.bodies[body].path && model_.bodies[body].path->keys.size() == path.keys.size());
-  auto& ways = bodies_.arrays.get<physics::Path>("path");
-  physics::Path way = path.way;
-  way.first_key = ways.download(body, 1).front().first_key;
-  physics::PathState state = bodies_.path_states->download(body, 1).front();
+void Simulation::send(std::uint32_t body, std::span<const physics::PathKey> keys) {
+  PLIANT_EXPECT(model_.bodies[body].path && model_.bodies[body].path->keys.size() == keys.size());
+  const physics::Path way = bodies_.arrays.get<physics::Path>("path").download(body, 1).front();
+  physics::PathState state = path_state(body);
   state.time = 0;
-  ways.upload(std::span(&way, 1), body);
-  bodies_.arrays.get<physics::PathKey>("path_key").upload(path.keys, way.first_key);
+  bodies_.arrays.get<physics::PathKey>("path_key").upload(keys, way.first_key);
   bodies_.path_states->upload(std::span(&state, 1), body);
 }
+
+std::vector<physics::PathKey> Simulation::path_keys(std::uint32_t body) const {
+  const physics::Path way = bodies_.arrays.get<physics::Path>("path").download(body, 1).front();
+  return bodies_.arrays.get<physics::PathKey>("path_key").download(way.first_key, way.key_count);
+}
+
+physics::PathState Simulation::path_state(std::uint32_t body) const { return bodies_.path_states->download(body, 1).front(); }
 
 const Control& Simulation::control() {
   if (!known_control_) {

@@ -115,9 +115,12 @@ class Simulation {
   [[nodiscard]] std::uint64_t launches_of_steps() const { return launches_of_steps_; }
   /// Queues a change of velocities between steps, as if the body had been pulled for `seconds` [s]. See Grip.
   void pull(const Pull& by, double seconds);
-  /// Sends a scripted body along another path with as many keys, from the path's time 0 on. Later steps go there, and saved
-  /// states hold it.
-  void send(std::uint32_t body, const BodyPath& path);
+  /// Sends a scripted body along other keys, as many as before, from their time 0 on. They must begin where it is. Later steps
+  /// go there, and saved states hold it.
+  void send(std::uint32_t body, std::span<const physics::PathKey> keys);
+  /// The next two wait for the queued steps. They return what a scripted body does: the keys that it goes along, and where it is.
+  [[nodiscard]] std::vector<physics::PathKey> path_keys(std::uint32_t body) const;
+  [[nodiscard]] physics::PathState path_state(std::uint32_t body) const;
   /// The next four wait for the queued steps.
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();

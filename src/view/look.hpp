@@ -25,6 +25,7 @@ struct Look {
   CameraDescription camera;
   glm::uvec2 size{0};  // [pixels]
   Shows shows;
+  std::uint64_t bodies_version = 0;  // of the session
 
   bool operator==(const Look&) const = default;
 };

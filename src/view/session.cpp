@@ -10,6 +10,7 @@
 #include "core/extension.hpp"
 #include "mesh/generators.hpp"
 #include "model/load_bodies.hpp"
+#include "render/camera.hpp"
 #include "scene/load_scene.hpp"
 #include "simulation/start_check.hpp"
 
@@ -60,6 +61,22 @@ std::unique_ptr<Simulation> make_simulation(Device& device, const LoadedScene& s
 }
 
 }  // namespace
+
+Settings settings_of(const LoadedScene& scene) {
+  const SimulationDescription& of = scene.description.simulation;
+  const CollisionDescription& contacts = scene.description.collision;
+  Settings settings{.integrator = of.integrator.value,
+                    .time_step = of.time_step,
+                    .tolerance = of.tolerance,
+                    .damping_law = damping_law_of(scene.description),
+                    .elasticity = elasticity_of(contacts),
+                    .friction = contacts.friction,
+                    .restitution = contacts.restitution,
+                    .materials = {}};
+  for (const ModelBody& body : scene.start.model.bodies)
+    settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
+  return settings;
+}
 
 LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides) {
   if (is_obj(file) && !overrides.empty())
@@ -147,45 +164,69 @@ bool Session::step_back() {
 }
 
 void Session::restart() {
-  history_.clear();
   if (before_edits_) {
+    const TimePlan plan = plan_time(before_edits_->description, before_edits_->start.model);
+    auto simulation = make_simulation(*device_, *before_edits_, before_edits_->start.state, plan);
+    plan_ = plan;
+    begin_with(std::move(simulation), 0, 0);
     scene_ = std::move(before_edits_);
-    plan_ = plan_time(scene_->description, scene_->start.model);
-    beginning_.clear();
+    beginning_ = simulation_->save();
     hand_.reset();
-    pull_.reset();
-    ++bodies_version_;
-  }
-  if (beginning_.empty()) {
+    bodies_are_others();
+  } else if (beginning_.empty()) {
     begin_with(simulation_on(*device_, scene_->start.state), 0, 0);
     beginning_ = simulation_->save();
   } else {
     go_to(beginning_);
   }
+  history_.clear();
   record();
 }
 
-Settings Session::settings() const {
-  const SimulationDescription& of = scene_->description.simulation;
-  const CollisionDescription& contacts = scene_->description.collision;
-  Settings settings{.integrator = of.integrator.value,
-                    .time_step = of.time_step,
-                    .tolerance = of.tolerance,
-                    .damping_law = damping_law_of(scene()),
-                    .elasticity = elasticity_of(contacts),
-                    .friction = contacts.friction,
-                    .restitution = contacts.restitution,
-                    .materials = {}};
-  for (const ModelBody& body : scene_->start.model.bodies)
-    settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
-  return settings;
+double Session::radius() const {
+  const ModelAndState& start = unedited().start;
+  return render::box_around(start.state.world_positions(start.model)).radius();
 }
 
 void Session::change(const Settings& wanted) {
-  LoadedScene changed = with_settings(*scene_, wanted);
   const bool starts_anew = report_.breakdown.has_value();
+  LoadedScene changed = with_settings(starts_anew ? *scene_ : scene_now(), wanted);
+  if (starts_anew && hand_) lay_hand_down(changed.start);
   const State from = starts_anew ? changed.start.state : simulation_->state();
+  std::unique_ptr<const LoadedScene> before;
+  if (before_edits_) before = std::make_unique<const LoadedScene>(with_settings(*before_edits_, settings_before_edits(wanted)));
   go_on_with(std::move(changed), from, starts_anew);
+  if (before) before_edits_ = std::move(before);
+}
+
+// Materials of bodies that are there no more stay as they were.
+Settings Session::settings_before_edits(const Settings& wanted) const {
+  Settings settings = wanted;
+  settings.materials = settings_of(*before_edits_).materials;
+  for (std::size_t b = 0; b < settings.materials.size(); ++b) {
+    const auto same = std::ranges::find(model().bodies, before_edits_->start.model.bodies[b].name, &ModelBody::name);
+    if (same != model().bodies.end())
+      settings.materials[b] = wanted.materials[static_cast<std::size_t>(same - model().bodies.begin())];
+  }
+  return settings;
+}
+
+LoadedScene Session::scene_now() const {
+  LoadedScene now = *scene_;
+  if (hand_) now.start.model.bodies[hand_->body].path->keys = simulation_->path_keys(hand_->body);
+  return now;
+}
+
+void Session::lay_hand_down(ModelAndState& start) const {
+  for (physics::PathKey& key : start.model.bodies[hand_->body].path->keys) {
+    std::ranges::copy(start.state.poses[hand_->body].origin, key.position);
+    std::ranges::fill(key.velocity, 0.0);
+  }
+}
+
+void Session::bodies_are_others() {
+  pull_.reset();
+  ++bodies_version_;
 }
 
 void Session::go_on_with(LoadedScene scene, const State& from, bool starts_anew) {
@@ -204,15 +245,16 @@ void Session::go_on_with(LoadedScene scene, const State& from, bool starts_anew)
 }
 
 void Session::go_on_with_bodies(LoadedScene changed, const State& from) {
+  if (report_.breakdown)
+    throw Error(ErrorKind::input, "", "the state is not finite, so its bodies can't change", "go back, or to the start");
   std::unique_ptr<const LoadedScene> before = before_edits_ ? nullptr : std::make_unique<const LoadedScene>(*scene_);
   go_on_with(std::move(changed), from, false);
   if (before) before_edits_ = std::move(before);
-  pull_.reset();
-  ++bodies_version_;
+  bodies_are_others();
 }
 
-void Session::add(const BodySetup& setup) {
-  LoadedScene changed = *scene_;
+std::uint32_t Session::add(const BodySetup& setup) {
+  LoadedScene changed = scene_now();
   std::vector<BodyDescription>& descriptions = changed.description.bodies;
   const auto place = std::ranges::find(descriptions, true, &BodyDescription::is_container);
   const auto index = static_cast<std::size_t>(place - descriptions.begin());
@@ -222,6 +264,7 @@ void Session::add(const BodySetup& setup) {
   descriptions.insert(place, setup.description);
   go_on_with_bodies(std::move(changed), now.state);
   if (hand_ && index <= hand_->body) ++hand_->body;
+  return static_cast<std::uint32_t>(index);
 }
 
 void Session::remove(std::uint32_t body) {
@@ -229,7 +272,7 @@ void Session::remove(std::uint32_t body) {
   const bool is_last = std::ranges::count_if(model().bodies, [](const ModelBody& b) { return !b.is_rigid(); }) == 1;
   if (is_last && !model().bodies[body].is_rigid())
     throw Error(ErrorKind::input, model().bodies[body].name, "is the last soft body", "leave it there");
-  LoadedScene changed = *scene_;
+  LoadedScene changed = scene_now();
   const ModelAndState now = without_body({scene_->start.model, simulation_->state()}, body);
   changed.start = without_body(changed.start, body);
   changed.description.bodies.erase(changed.description.bodies.begin() + body);
@@ -241,17 +284,20 @@ void Session::remove(std::uint32_t body) {
 }
 
 void Session::shake() {
-  LoadedScene changed = *scene_;
+  LoadedScene changed = scene_now();
   bool has_changed = false;
   for (std::size_t b = 0; b < changed.start.model.bodies.size(); ++b) {
     ModelBody& body = changed.start.model.bodies[b];
     BodyDescription& description = changed.description.bodies[b];
-    if (!body.is_container || (body.path && !description.path.empty() && description.path != shake_of(body))) continue;
-    description.path = shake_of(body);
+    if (!body.is_container) continue;
     if (body.path) {
-      simulation_->send(static_cast<std::uint32_t>(b), *body.path);
+      const auto index = static_cast<std::uint32_t>(b);
+      const bool is_shaken = description.path == shake_of(body);  // now or before
+      if (is_shaken && simulation_->path_state(index).time >= body.path->keys.back().time)
+        simulation_->send(index, body.path->keys);
       continue;
     }
+    description.path = shake_of(body);
     const physics::Pose& pose = changed.start.state.poses[b];
     const glm::dvec3 arm = physics::rotate_back(pose, glm::make_vec3(pose.origin) - description.position);
     description.kind = body.kind = BodyKind::scripted;
@@ -262,7 +308,7 @@ void Session::shake() {
 }
 
 void Session::put_hand(const glm::dvec3& place, double radius) {
-  if (hand_) take_hand();
+  PLIANT_EXPECT(!hand_);
   BodySetup setup{generate_mesh("icosphere:2"), {}};
   BodyDescription& description = setup.description;
   description.name = hand_name;
@@ -272,10 +318,8 @@ void Session::put_hand(const glm::dvec3& place, double radius) {
   description.position = place;
   description.path = {{.time = 0}, {.time = 1}};
   description.color = {0.9, 0.75, 0.65};
-  add(setup);
-  const auto found = std::ranges::find(model().bodies, hand_name, &ModelBody::name);
-  hand_ = Hand{static_cast<std::uint32_t>(found - model().bodies.begin()), radius};
-  hand_path_ = *found->path;
+  const std::uint32_t body = add(setup);
+  hand_ = Hand{body, radius};
 }
 
 void Session::take_hand() {
@@ -285,22 +329,16 @@ void Session::take_hand() {
 // The path begins with the place and velocity that the hand has there.
 void Session::send_hand(const glm::dvec3& target, double seconds) {
   PLIANT_EXPECT(hand_ && seconds > 0);
-  const physics::PathPoint now = hand_path_.at(path_time(hand_->body));
-  hand_path_.keys.front() = hand_path_.keys.back();
-  physics::PathKey &from = hand_path_.keys.front(), &to = hand_path_.keys.back();
+  const physics::PathState now = simulation_->path_state(hand_->body);
+  std::vector<physics::PathKey> keys = simulation_->path_keys(hand_->body);
+  physics::PathKey &from = keys.front(), &to = keys.back();
   from.time = 0;
   to.time = seconds;
-  std::ranges::copy(now.centre, from.position);
-  std::ranges::copy(now.velocity, from.velocity);
+  std::ranges::copy(now.now.centre, from.position);
+  std::ranges::transform(now.now.velocity, from.velocity, [&](double v) { return now.pace * v; });
   STORE3(to.position, 0, target)
   STORE3(to.velocity, 0, glm::dvec3(0.0))
-  simulation_->send(hand_->body, hand_path_);
-}
-
-double Session::path_time(std::uint32_t body) const {
-  for (const ScriptReport& script : simulation_->report().response.scripts)
-    if (script.body == body) return script.time;
-  return 0;
+  simulation_->send(hand_->body, keys);
 }
 
 void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ = timed); }

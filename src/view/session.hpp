@@ -32,6 +32,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
+[[nodiscard]] Settings settings_of(const LoadedScene& scene);
+
 /// A small sphere that presses into bodies where a mouse is.
 struct Hand {
   std::uint32_t body = 0;
@@ -76,29 +78,34 @@ class Session {
   void advance_toward(double time, std::uint64_t most_steps);
   /// Makes one step.
   void step_once();
-  /// Makes later steps pull a body, or none if `by` is empty.
+  /// Makes later steps pull a body, or none if `by` is empty. A change of bodies ends it.
   void pull(const std::optional<Pull>& by) { pull_ = by; }
+  [[nodiscard]] const std::optional<Pull>& pulled() const { return pull_; }
   /// Records the current state, to go back to. Copies it to the CPU.
   void record();
   /// Goes back by one step. It restores the latest state recorded before, and makes the steps in between again, without pulls.
   /// The bits are the same if those steps had no pulls. Returns false if no state is left.
   bool step_back();
-  /// Goes back to the start. Bodies that were added are gone, and those that were removed are there again.
+  /// Goes back to the start. Bodies that were added are gone, and those that were removed are there again. Throws Error if the
+  /// device has no room for them, and changes nothing.
   void restart();
+  /// Returns the radius of the sphere around the scene's own bodies at the start [m].
+  [[nodiscard]] double radius() const;
   [[nodiscard]] unsigned deepest_level() const { return simulation_->collider().forest().depth; }  // of the trees
-  [[nodiscard]] Settings settings() const;
+  [[nodiscard]] Settings settings() const { return settings_of(*scene_); }
   /// Goes on from the current state with other settings, or from the start if that state is not finite. Recorded states are
   /// forgotten. If plan_time can't plan the scene's steps, or bodies intersect that the response keeps apart, it throws Error and
   /// changes nothing.
   void change(const Settings& wanted);
-  /// Adds a body to the current state. Throws Error if it touches one that is there, and changes nothing. Recorded states are
-  /// forgotten.
-  void add(const BodySetup& setup);
+  /// Adds a body to the current state, and returns its index. Throws Error if it touches one that is there, or if the state is
+  /// not finite, and changes nothing. Recorded states are forgotten.
+  std::uint32_t add(const BodySetup& setup);
   /// Takes a body out of the current state, but not the last soft one. Recorded states are forgotten.
   void remove(std::uint32_t body);
-  /// Shakes containers that have no motion of their own for a second.
+  /// Moves containers to and fro for about a second, but those that the scene moves, or that are being shaken. They are scripted
+  /// bodies from then on, until restart().
   void shake();
-  /// Puts a hand there, or takes it away. Throws Error as add() does.
+  /// Puts a hand there if there is none, or takes it away. Throws Error as add() does.
   void put_hand(const glm::dvec3& place, double radius);
   void take_hand();
   [[nodiscard]] const std::optional<Hand>& hand() const { return hand_; }
@@ -124,14 +131,17 @@ class Session {
   void go_to(std::string_view saved);
   void go_on_with(LoadedScene changed, const State& from, bool starts_anew);
   void go_on_with_bodies(LoadedScene changed, const State& from);
-  [[nodiscard]] double path_time(std::uint32_t body) const;
+  void bodies_are_others();
+  [[nodiscard]] const LoadedScene& unedited() const { return before_edits_ ? *before_edits_ : *scene_; }
+  [[nodiscard]] LoadedScene scene_now() const;     // with the path that the hand goes along
+  void lay_hand_down(ModelAndState& start) const;  // gives it a path that rests where it was put
+  [[nodiscard]] Settings settings_before_edits(const Settings& wanted) const;
 
   Device* device_;
   std::unique_ptr<const LoadedScene> scene_;         // other settings and bodies make another one, because a model never changes
   std::unique_ptr<const LoadedScene> before_edits_;  // what restart() goes back to; null: no bodies were added or removed
   std::uint64_t bodies_version_ = 0;
   std::optional<Hand> hand_;
-  BodyPath hand_path_;
   TimePlan plan_;
   std::unique_ptr<Simulation> simulation_;
   std::string beginning_;        // saved state at the start; empty: settings have been changed since

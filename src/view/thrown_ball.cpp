@@ -8,7 +8,6 @@
 
 #include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
-#include "render/camera.hpp"
 
 namespace pliant::view {
 namespace {
@@ -24,10 +23,8 @@ std::string free_name(const Model& model) {
 
 }  // namespace
 
-double scene_radius(const Model& model, const State& start) { return render::box_around(start.world_positions(model)).radius(); }
-
-BodySetup ball_to_throw(const Model& model, const State& start, const Ray& ray, const glm::dvec3& gravity) {
-  const double size = scene_radius(model, start), radius = 0.1 * size;
+BodySetup ball_to_throw(const Model& model, double scene_radius, const Ray& ray, const glm::dvec3& gravity) {
+  const double radius = 0.1 * scene_radius;
   const auto like = std::ranges::find_if(model.bodies, [](const ModelBody& body) { return !body.is_rigid(); });
   BodySetup setup{generate_mesh("icosphere:2"), {}};
   const double vertices = static_cast<double>(setup.mesh.positions.size());
@@ -37,8 +34,8 @@ BodySetup ball_to_throw(const Model& model, const State& start, const Ray& ray, 
   ball.mesh = "icosphere:2";
   ball.scale = radius;
   ball.position = ray.origin + 2 * radius * direction;
-  // across the scene in half a second, or as fast as gravity would make it on the way
-  ball.velocity = std::max(2 * size, std::sqrt(2 * glm::length(gravity) * size)) * direction;
+  // across the scene in a second, or as fast as gravity makes it on the way to the middle
+  ball.velocity = std::max(2 * scene_radius, std::sqrt(2 * glm::length(gravity) * scene_radius)) * direction;
   ball.color = default_color(model.bodies.size());
   if (like == model.bodies.end()) return setup;
   const double part = std::pow(radius / like->radius, 3);

@@ -27,7 +27,7 @@ double speed_of(Session& session) {
   const double begin = clock_time();
   session.step_once();  // builds the kernels
   const double before = session.time(), from = clock_time();
-  while (clock_time() - begin < measuring_time || session.time() == before) session.step_once();
+  while (!session.breakdown() && (clock_time() - begin < measuring_time || session.time() == before)) session.step_once();
   return (session.time() - before) / (clock_time() - from);
 }
 
@@ -79,8 +79,19 @@ void StartPage::handle(const WindowEvent& event) {
   if (const auto* released = std::get_if<MouseReleased>(&event))
     io.MouseDown[released->button == MouseButton::left ? 0 : 1] = false;
   if (const auto* scrolled = std::get_if<MouseScrolled>(&event)) io.MouseWheel += static_cast<float>(scrolled->notches);
-  if (const auto* dropped = std::get_if<FilesDropped>(&event)) chosen_ = dropped->files.front();
+  if (const auto* dropped = std::get_if<FilesDropped>(&event)) choose_file(dropped->files.front());
   if (const auto* key = std::get_if<KeyPressed>(&event); key != nullptr && key->name == "escape") window_.close();
+}
+
+// A file that is no scene leaves the page as it is.
+void StartPage::choose_file(const std::filesystem::path& file) {
+  try {
+    static_cast<void>(Session(device_, load(file), 0));
+    chosen_ = file;
+  } catch (const std::exception& error) {
+    message_ = error.what();
+    fmt::print(stderr, "pliant: {}\n", message_);
+  }
 }
 
 // The session stays where it is after measuring: its start is what is drawn.
@@ -114,6 +125,7 @@ void StartPage::draw() {
   ImGui::SetWindowFontScale(1);
   ImGui::SameLine(0, between);
   ImGui::TextDisabled("Click a demo, or drop a scene or an OBJ file here. %s.", device_.info().name.c_str());
+  if (!message_.empty()) ImGui::TextWrapped("%s", message_.c_str());
   ImGui::BeginChild("demos", {0, 0}, false, 0);
   const float across = ImGui::GetContentRegionAvail().x;
   const int columns = std::max(1, static_cast<int>((across + between) / (narrowest * unit + between)));
@@ -144,7 +156,7 @@ void StartPage::draw_entry(Entry& entry, float width) {
     is_chosen = ImGui::Button(entry.speed.empty() ? "..." : "no picture", size);
   }
   ImGui::PopStyleVar();
-  if (is_chosen) chosen_ = entry.demo.scene;
+  if (is_chosen && (entry.view || entry.speed.empty())) choose_file(entry.demo.scene);
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
   ImGui::TextUnformatted(entry.demo.title.c_str());
   ImGui::TextDisabled("%s", entry.demo.about.c_str());

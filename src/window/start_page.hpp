@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "device/device.hpp"
@@ -30,6 +31,7 @@ class StartPage {
  private:
   struct Entry;
   void handle(const WindowEvent& event);
+  void choose_file(const std::filesystem::path& file);
   void prepare_next();
   void draw();
   void draw_entry(Entry& entry, float width);
@@ -39,6 +41,7 @@ class StartPage {
   std::vector<std::unique_ptr<Entry>> entries_;
   std::size_t prepared_ = 0;
   std::optional<std::filesystem::path> chosen_;
+  std::string message_;  // why a file can't be opened
 };
 
 }  // namespace pliant::view

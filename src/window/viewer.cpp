@@ -134,7 +134,6 @@ void Viewer::open(LoadedScene scene) {
   scenes_ = std::move(scenes);
   shows_ = shows;
   camera_ = view_->first_camera();
-  pull_.reset();
   observer_.forget();
   shown_.reset();
   is_breakdown_told_ = false;
@@ -177,22 +176,21 @@ void Viewer::handle(const MousePressed& event) {
   const std::optional<std::uint32_t> vertex = pick_vertex(session_->model(), positions, ray_through(camera_, event.place, size));
   if (!vertex) return;
   pulled_from_ = glm::dvec3(glm::vec3(positions[*vertex]));
-  session_->pull(pull_ = Pull{.vertex = *vertex, .target = pulled_from_});
+  session_->pull(Pull{.vertex = *vertex, .target = pulled_from_});
 }
 
 void Viewer::handle(const MouseReleased& event) {
   if (event.button != MouseButton::left) return;
-  pull_.reset();
-  session_->pull(pull_);
+  session_->pull(std::nullopt);
 }
 
 void Viewer::handle(const MouseMoved& event) {
   mouse_ = event.to;
   if (!event.held) return;
   const glm::dvec2 size(at_least_a_pixel(window_.framebuffer_size()));
-  if (pull_) {
-    pull_->target = meet_plane(ray_through(camera_, event.to, size), pulled_from_, render::axes_of(camera_).back);
-    return session_->pull(pull_);
+  if (std::optional<Pull> pull = session_->pulled()) {
+    pull->target = meet_plane(ray_through(camera_, event.to, size), pulled_from_, render::axes_of(camera_).back);
+    return session_->pull(pull);
   }
   camera_ = (*event.held == MouseButton::left ? orbit : pan)(camera_, event.from, event.to, size);
 }
@@ -280,7 +278,7 @@ Ray Viewer::ray_at_mouse() const {
 }
 
 void Viewer::throw_ball() {
-  session_->add(ball_to_throw(session_->model(), session_->start(), ray_at_mouse(), session_->scene().simulation.gravity));
+  session_->add(ball_to_throw(session_->model(), session_->radius(), ray_at_mouse(), session_->scene().simulation.gravity));
   observer_.count_anew();
 }
 
@@ -289,22 +287,23 @@ void Viewer::remove_body() {
   const std::optional<std::uint32_t> vertex = pick_vertex(session_->model(), positions, ray_at_mouse());
   if (!vertex) return void(message_ = "there is no body under the mouse");
   session_->remove(session_->model().body_index(*vertex));
-  pull_.reset();
   observer_.count_anew();
 }
 
 void Viewer::shake() {
   if (std::ranges::none_of(session_->model().bodies, &ModelBody::is_container)) message_ = "there is no container to shake";
   session_->shake();
+  observer_.count_anew();
 }
 
 void Viewer::toggle_hand() {
+  observer_.count_anew();
   if (session_->hand()) return session_->take_hand();
   const Ray ray = ray_at_mouse();
   const glm::dvec3 direction = glm::normalize(ray.direction);
   const std::vector<glm::vec4> positions = session_->simulation().world_positions();
   const std::optional<std::uint32_t> under_it = pick_vertex(session_->model(), positions, ray);
-  const double radius = 0.08 * scene_radius(session_->model(), session_->start());
+  const double radius = 0.08 * session_->radius();
   const glm::dvec3 aim = under_it ? glm::dvec3(glm::vec3(positions[*under_it])) : camera_.target;
   hand_distance_ = std::max(glm::dot(aim - ray.origin, direction) - (under_it ? 3 * radius : 0), 2 * radius);
   session_->put_hand(ray.origin + hand_distance_ * direction, radius);
@@ -364,7 +363,7 @@ void Viewer::save_picture() {
 
 void Viewer::close() { window_.close(); }
 
-Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_}; }
+Look Viewer::look() const { return {session_->step(), camera_, window_.framebuffer_size(), shows_, session_->bodies_version()}; }
 
 // Draws nothing if the window already shows this look, unless the panel or the help lies over it.
 void Viewer::draw() {
@@ -437,7 +436,7 @@ void Viewer::fulfil() {
   if (wanted.is_paused != before.is_paused) pause_or_go_on();
   if (wanted.is_on_gpu != before.is_on_gpu) try_to([this] { switch_device(); });
   if (wanted.settings != before.settings) try_to([&] { change(wanted.settings); });
-  if (wanted.restarts) restart();
+  if (wanted.restarts) try_to([this] { restart(); });
   if (wanted.steps) step_once();
   if (wanted.steps_back) step_back();
   if (wanted.scene) try_to([&] { open_file(*wanted.scene); });
@@ -474,7 +473,7 @@ void Viewer::tell() {
                      {"paused", playback_.is_paused()},
                      {"speed", playback_.speed()},
                      {"device", name_of(device_->info().kind)},
-                     {"pulls", pull_.has_value()},
+                     {"pulls", session_->pulled().has_value()},
                      {"bodies", session_->model().bodies.size()},
                      {"hand", session_->hand().has_value()},
                      {"wireframe", shows_.wireframe},

@@ -103,11 +103,10 @@ class Viewer {
   Observer observer_;
   std::deque<WindowEvent> events_;             // not handled yet
   std::vector<std::filesystem::path> scenes_;  // in the folder of the one that is shown
-  std::optional<Pull> pull_;
-  glm::dvec3 pulled_from_{0.0};  // where the vertex was picked [m]
-  glm::dvec2 mouse_{0.0};        // its latest place [pixels]
-  double hand_distance_ = 0;     // of the hand before the eye [m]
-  std::string message_;          // cleared by the next key or wish, except those for the panel and the help
+  glm::dvec3 pulled_from_{0.0};                // where the vertex was picked [m]
+  glm::dvec2 mouse_{0.0};                      // its latest place [pixels]
+  double hand_distance_ = 0;                   // of the hand before the eye [m]
+  std::string message_;                        // cleared by the next key or wish, except those for the panel and the help
   bool is_breakdown_told_ = false;
   std::string shown_title_;
   std::uint64_t picture_ = 0;

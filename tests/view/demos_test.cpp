@@ -60,18 +60,19 @@ class Player {
 
   // One that would touch something at once is not thrown.
   void throw_ball() try {
-    const double size = scene_radius(session_.model(), session_.start());
+    const double size = session_.radius();
     const glm::dvec3 from = somewhere(2 * size);
-    session_.add(ball_to_throw(session_.model(), session_.start(), {from, -from}, session_.scene().simulation.gravity));
+    session_.add(ball_to_throw(session_.model(), size, {from, -from}, session_.scene().simulation.gravity));
     ++thrown_;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    CHECK_THAT(error.what(), Catch::Contains("intersect"));
   }
 
   void pull() {
     const Model& model = session_.model();
     const auto vertex = static_cast<std::uint32_t>(between(0, model.vertex_count() - 1e-9));
     if (model.body_of(vertex).is_rigid()) return;
-    session_.pull(Pull{.vertex = vertex, .target = somewhere(scene_radius(model, session_.start()))});
+    session_.pull(Pull{.vertex = vertex, .target = somewhere(session_.radius())});
     ++pulled_;
   }
 

@@ -550,4 +550,101 @@ TEST_CASE("a hand goes where it is sent, pushes what it meets, and is taken away
   CHECK((!session.hand() && session.model().bodies.size() == 3));
 }
 
+// Returns how far the body's vertices go at most while `act` acts.
+double shift_of(Session& session, const std::function<std::uint32_t()>& body, const std::function<void()>& act) {
+  const auto before = positions_of_body(session, body());
+  act();
+  const auto after = positions_of_body(session, body());
+  double farthest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) farthest = std::max(farthest, glm::distance(before[i], after[i]));
+  return farthest;
+}
+
+TEST_CASE("a hand stays on its way whatever else changes, and never jumps") {
+  const auto device = make_cpu_device(2, 32);
+  Session session(*device, boxed());
+  session.put_hand({-0.7, 1.6, -0.7}, 0.1);
+  const auto hand = [&] { return session.hand()->body; };
+  const glm::dvec3 corners[] = {{0.7, 1.6, -0.7}, {-0.7, 1.6, -0.7}};
+  const auto lead = [&](int corner) {
+    for (int k = 0; k < 10; ++k) {
+      session.send_hand(corners[corner % 2], 0.5);
+      session.step_once();
+    }
+  };
+  const std::function<void()> changes[] = {[&] {
+                                             Settings settings = session.settings();
+                                             settings.friction = 0.4;
+                                             session.change(settings);
+                                           },
+                                           [&] {
+                                             session.add(small_ball({0.7, 1.6, 0.7}));
+                                           },
+                                           [&] { session.shake(); },
+                                           [&] { session.remove(0); },
+                                           [&] { session.shake(); },  // while it is being shaken
+                                           [&] { REQUIRE(session.step_back()); }};
+  int corner = 0;
+  for (const auto& change : changes) {
+    CAPTURE(corner);
+    lead(corner++);
+    session.record();
+    session.step_once();
+    const double in_a_step = 0.05;  // [m], at a speed of some 5 m/s at most
+    CHECK(shift_of(session, hand, change) < (corner == 6 ? in_a_step : 1e-12));
+    CHECK(shift_of(session, hand, [&] { session.step_once(); }) < in_a_step);
+    CHECK(shift_of(session, hand, [&] { lead(corner); }) < 10 * in_a_step);
+    CHECK(session.simulation().intersections().pairs == 0);
+  }
+}
+
+TEST_CASE("a shake that is asked for again in between goes on, and containers that the scene moves are not shaken") {
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "boxes.toml";
+  std::ofstream(file) << "[simulation]\ntime_step = 0.005\n[[body]]\nmesh = \"icosphere:1\"\nscale = 0.3\n"
+                         "[[container]]\nsize = [2, 2, 2]\n"
+                         "[[container]]\nsize = [2, 2, 2]\nposition = [5, 0, 0]\nspin = [0, 1, 0]\n";
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, load(file));
+  for (int k = 0; k < 60; ++k) {
+    if (k % 7 == 0) session.shake();
+    for (const std::uint32_t container : {1u, 2u})
+      CHECK(shift_of(
+                session, [&] { return container; }, [&] { session.step_once(); }) < 0.025);  // 5 m/s
+  }
+  CHECK(shift_of(
+            session, [] { return 2u; }, [&] { session.step_once(); }) > 0.004);  // at sqrt(2) m from its axis
+}
+
+TEST_CASE("a restart takes back bodies that came and went, and keeps settings") {
+  const auto device = make_cpu_device(1, 32);
+  Session session(*device, boxed());
+  const double radius = session.radius(), damping = session.settings().materials[0].damping;
+  session.add(small_ball({-0.5, 1.5, -0.5}));
+  session.remove(0);
+  CHECK(session.radius() == radius);
+  Settings settings = session.settings();
+  settings.friction = 0.4;
+  settings.materials[0].damping = 0.125;  // of the body that was the second one
+  session.change(settings);
+  session.restart();
+  REQUIRE(session.model().bodies.size() == 3);
+  CHECK(session.settings().friction == 0.4);
+  CHECK((session.model().bodies[0].damping == damping && session.model().bodies[1].damping == 0.125));
+}
+
+TEST_CASE("bodies of a state that is not finite do not change") {
+  const auto device = make_cpu_device(1, 32);
+  LoadedScene scene = colliding();
+  scene.description.simulation.time_step = 1e30;
+  Session session(*device, std::move(scene));
+  for (int k = 0; k < 10 && !session.breakdown(); ++k) session.step_once();
+  REQUIRE(session.breakdown());
+  CHECK_THROWS_WITH(session.add(small_ball({-0.5, 1.5, -0.5})), Catch::Contains("not finite"));
+  CHECK_THROWS_WITH(session.remove(0), Catch::Contains("not finite"));
+  session.restart();
+  session.add(small_ball({-0.5, 2.5, -0.5}));
+  CHECK(session.model().bodies.size() == 3);
+}
+
 }  // namespace

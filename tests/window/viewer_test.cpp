@@ -119,10 +119,13 @@ TEST_CASE("keys throw a ball, remove a body, and bring a hand that goes with the
   viewed.xdotool(viewed.move_to({160, 20}));
   viewed.press("b");
   viewed.await(bodies_are(3));
-  CHECK_FALSE(are_alike(viewed.saved_picture(), first));
+  const render::Image with_ball = viewed.saved_picture();
+  CHECK_FALSE(are_alike(with_ball, first));
+  CHECK(viewed.shows(with_ball));
   viewed.press("r");
   viewed.await(bodies_are(2));
   CHECK(are_alike(viewed.saved_picture(), first));
+  CHECK(viewed.shows(first));
   viewed.press("h");
   viewed.await([](const ReadJson& line) { return line["hand"].get<bool>() && line["bodies"] == 3; });
   viewed.press("h");
