@@ -20,8 +20,8 @@ struct Ray {
 /// Returns the ray of all points that are seen at `place` [pixels from the picture's top left]. `size` is the picture's [pixels].
 [[nodiscard]] Ray ray_through(const CameraDescription& camera, const glm::dvec2& place, const glm::dvec2& size);
 
-/// Finds the nearest triangle that the ray hits, and returns its corner next to the hit. Returns nothing if the ray hits none. Near walls of containers
-/// do not count.
+/// Finds the nearest triangle that the ray hits, and returns its corner next to the hit. Returns nothing if the ray hits none.
+/// Near walls of containers do not count.
 /// `positions` are those of the model's vertices [m].
 [[nodiscard]] std::optional<std::uint32_t> pick_vertex(const Model& model, std::span<const glm::vec4> positions, const Ray& ray);
 

@@ -83,8 +83,9 @@ class Session {
   [[nodiscard]] const std::optional<Pull>& pulled() const { return pull_; }
   /// Records the current state, to go back to. Copies it to the CPU.
   void record();
-  /// Goes back by one step. It restores the latest state recorded before, and makes the steps in between again, without pulls.
-  /// The bits are the same if those steps had no pulls. Returns false if no state is left.
+  /// Goes back by one step. It restores the latest state recorded before, and makes the steps in between again, without pulls,
+  /// and without what the hand and shaken containers were sent since. The bits are the same if there was none of that. Returns
+  /// false if no state is left.
   bool step_back();
   /// Goes back to the start. Bodies that were added are gone, and those that were removed are there again. Throws Error if the
   /// device has no room for them, and changes nothing.

@@ -117,13 +117,13 @@ TEST_CASE("a ring is a closed torus") {
   CHECK((report.closed && report.manifold && report.genus == 1 && report.component_count == 1));
   CHECK(report.inconsistent_edge_count == 0);
   CHECK(signed_volume(mesh) == Approx(2 * std::numbers::pi * std::numbers::pi * 0.0625).epsilon(0.03));
-  for (const glm::dvec3& p : mesh.positions)
-    CHECK(std::hypot(std::hypot(p.x, p.z) - 1, p.y) == Approx(0.25));
+  for (const glm::dvec3& p : mesh.positions) CHECK(std::hypot(std::hypot(p.x, p.z) - 1, p.y) == Approx(0.25));
 }
 
 TEST_CASE("a box's sizes and cells that can't be are an input error") {
-  for (const char* description : {"box:", "box:1,2,3", "box:1,2,3,0", "box:1,2,3,101", "box:0,2,3,4", "box:1,2,x,4",
-                                  "box:1,2,3,4,5", "crate:-1,2,3,4", "ring:1,8", "ring:0.2", "ring:0.2,0", "bowl:0", "box:1e7,2,3,4", "box:nan,1,1,1"}) {
+  for (const char* description :
+       {"box:", "box:1,2,3", "box:1,2,3,0", "box:1,2,3,101", "box:0,2,3,4", "box:1,2,x,4", "box:1,2,3,4,5", "crate:-1,2,3,4",
+        "ring:1,8", "ring:0.2", "ring:0.2,0", "bowl:0", "box:1e7,2,3,4", "box:nan,1,1,1"}) {
     CAPTURE(description);
     const Error error = error_of([&] { return generate_mesh(description); });
     CHECK(error.kind() == ErrorKind::input);

@@ -39,8 +39,8 @@ struct PathState {
   double time;       // of `now` on the body's own clock, which stands while the body waits [s]
   double next_time;  // of `next` [s]
   double pace;       // of that clock, 1 unless the body has just waited
-  double waited;   // what the clock is behind [s]
-  uint waits;      // steps, or parts of steps, in which it waited
+  double waited;     // what the clock is behind [s]
+  uint waits;        // steps, or parts of steps, in which it waited
   uint padding;
 };
 

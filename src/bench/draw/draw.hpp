@@ -46,7 +46,7 @@ struct DrawRow {
   /// share_lost of steps from the start. It is empty if the measurement is quick, if a picture or a step alone takes longer than
   /// a sixtieth of a second, or if steps became non-finite.
   std::optional<double> steps_lost;
-  std::optional<Played> played;                              // empty if the measurement is quick
+  std::optional<Played> played;                              // empty if the measurement is quick, or by a tolerance
   std::vector<std::pair<std::string, double>> milliseconds;  // median of each pass over frames with a mark after each pass
 };
 

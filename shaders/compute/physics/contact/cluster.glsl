@@ -23,7 +23,7 @@ struct Cluster {
 
   // Of an island, at its first body. Those of a body alone stand at the body until islands are known.
   double island_velocity[3];  // of its bodies by their masses, at the step's start, in the world [m/s]
-  uint cannot_fly;            // 1: it is a static body, or one of its bodies breaks apart
+  uint cannot_fly;            // 1: it does not move, or one of its bodies breaks apart
   uint is_disturbed;          // 1: one moves, or may be reached by one that does
   uint is_restless;           // 1: one has not been fit to sleep for long enough
   uint is_borne;              // 1: what does not move presses one
