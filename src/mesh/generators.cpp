@@ -194,7 +194,8 @@ TriangleMesh ring(std::string_view description, std::string_view argument) {
   double tube = 0;
   if (comma == std::string_view::npos || !is_number(argument.substr(0, comma), tube) || !(tube > 0 && tube < 1))
     throw Error(ErrorKind::input, fmt::format("mesh \"{}\"", description),
-                "does not say the tube's radius, above 0 and below 1, and a number of cells", "write ring:r,n, as in ring:0.2,32");
+                "does not say the tube's radius, above 0 and below 1, and a number of cells",
+                "write ring:r,n, as in ring:0.2,32");
   const unsigned around = std::max(cells_of(description, argument.substr(comma + 1), "ring:r,n"), 3u);
   const unsigned across = std::max(static_cast<unsigned>(std::lround(around * tube)), 3u);
   TriangleMesh mesh;
@@ -214,12 +215,9 @@ struct Generator {
   TriangleMesh (*generate)(std::string_view description, std::string_view argument);
 };
 
-constexpr Generator generators[] = {{"icosphere", "icosphere:n", icosphere},
-                                    {"cube", "cube:n", cube},
-                                    {"box", "box:x,y,z,n", box},
-                                    {"crate", "crate:x,y,z,n", crate},
-                                    {"bowl", "bowl:n", bowl},
-                                    {"ring", "ring:r,n", ring}};
+constexpr Generator generators[] = {
+    {"icosphere", "icosphere:n", icosphere}, {"cube", "cube:n", cube}, {"box", "box:x,y,z,n", box},
+    {"crate", "crate:x,y,z,n", crate},       {"bowl", "bowl:n", bowl}, {"ring", "ring:r,n", ring}};
 
 }  // namespace
 

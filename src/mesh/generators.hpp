@@ -19,7 +19,7 @@ namespace pliant {
 /// |---|---|
 /// | icosphere:n | a unit sphere of 10 * 4^n + 2 vertices, n from 0 to 7 |
 /// | cube:n | a cube of side 1 about the origin, with n * n cells a face and 6 n^2 + 2 vertices, n from 1 to 100 |
-/// | box:x,y,z,n | a box of these sizes about the origin, with n cells along its longest side and cells as square as they can be |
+/// | box:x,y,z,n | a box of these sizes about the origin, with n nearly square cells along its longest side |
 /// | crate:x,y,z,n | the same without its top |
 /// | bowl:n | the lower half of a unit sphere's surface, with 2 n by 2 n cells at its bottom and n up its sides |
 /// | ring:r,n | a torus about the y axis, of radius 1 to the middle of a tube of radius r, with n cells around |

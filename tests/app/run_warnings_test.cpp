@@ -59,12 +59,13 @@ Energies energies_in(const ScratchFolder& folder) {
 TEST_CASE("a run tells how late a scripted body is, what it gave, and which path its steps miss") {
   const ScratchFolder folder;
   const auto file = folder.path / "press.toml";
-  std::ofstream(file) << "[simulation]\nintegrator = \"cv8\"\ntime_step = 0.01\nduration = 0.8\ngravity = [0, -9.81, 0]\n[[ground]]\n"
-                         "[[body]]\nmesh = \"icosphere:1\"\nposition = [0, 1.05, 0]\ntotal_mass = 1\ntotal_stiffness = 2000\n"
-                         "[[body]]\nname = \"press\"\nkind = \"scripted\"\nmesh = \"box:2,0.2,2,4\"\n"
-                         "path = [{ time = 0, position = [0, 2.3, 0] }, { time = 0.5, position = [0, -0.2, 0] }]\n"
-                         "[[body]]\nname = \"shaker\"\nkind = \"scripted\"\nmesh = \"cube:1\"\nrepeats = true\nposition = [9, 5, 0]\n"
-                         "path = [{ time = 0 }, { time = 0.01, position = [0, 1, 0] }, { time = 0.02, position = [0, 0, 0] }]\n";
+  std::ofstream(file)
+      << "[simulation]\nintegrator = \"cv8\"\ntime_step = 0.01\nduration = 0.8\ngravity = [0, -9.81, 0]\n[[ground]]\n"
+         "[[body]]\nmesh = \"icosphere:1\"\nposition = [0, 1.05, 0]\ntotal_mass = 1\ntotal_stiffness = 2000\n"
+         "[[body]]\nname = \"press\"\nkind = \"scripted\"\nmesh = \"box:2,0.2,2,4\"\n"
+         "path = [{ time = 0, position = [0, 2.3, 0] }, { time = 0.5, position = [0, -0.2, 0] }]\n"
+         "[[body]]\nname = \"shaker\"\nkind = \"scripted\"\nmesh = \"cube:1\"\nrepeats = true\nposition = [9, 5, 0]\n"
+         "path = [{ time = 0 }, { time = 0.01, position = [0, 1, 0] }, { time = 0.02, position = [0, 0, 0] }]\n";
   const ProgramResult result = run_program("run " + file.string() + " --device cpu --out " + folder.path.string());
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.output, Catch::Contains("miss part of the path of \"shaker\"") && Catch::Contains("at most 0.005"));

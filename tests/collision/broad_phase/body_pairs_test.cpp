@@ -70,7 +70,8 @@ Pairs oracle_pairs(const Model& model, const std::vector<glm::vec4>& positions) 
   Pairs pairs;
   for (std::uint32_t a = 0; a < count; ++a)
     for (std::uint32_t b = a + 1; b < count; ++b)
-      if (!(model.bodies[a].is_rigid() && model.bodies[b].is_rigid()) && physics::overlaps(boxes[a], boxes[b])) pairs.emplace(a, b);
+      if (!(model.bodies[a].is_rigid() && model.bodies[b].is_rigid()) && physics::overlaps(boxes[a], boxes[b]))
+        pairs.emplace(a, b);
   return pairs;
 }
 
