@@ -214,6 +214,12 @@ void DeviceBodies::prepare_search() {
 void DeviceBodies::begin_anew() {
   for (const std::string_view boxes : {"body_box", "place_box"})
     arrays.get<physics::BoxBits>(boxes).upload(std::vector(body_count, empty_box()));
+  // Marks of steps that come after the restored one would pass for those of its next steps.
+  constexpr std::array<std::string_view, 1> marks{"treelet_step"};
+  if (!arrays.made_buffers(marks).empty()) {
+    auto& steps = arrays.get<std::uint32_t>(marks[0]);
+    steps.upload(std::vector<std::uint32_t>(steps.size()));
+  }
   look_at_bodies_at_rest();
 }
 
