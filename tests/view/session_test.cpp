@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <glm/geometric.hpp>
 
 #include "gl/context.hpp"
 #include "support/expect_error.hpp"
