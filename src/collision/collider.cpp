@@ -24,23 +24,21 @@ std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> 
 Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDescription& description, StepTraits steps,
                    std::optional<std::uint32_t> parallel_items, bool sleeps)
     : description_(description),
-      body_count_(bodies.body_count),
+      searches_(model.has_surfaces_to_touch()),
       has_rigid_(std::ranges::any_of(model.bodies, &ModelBody::is_rigid)),
       forest_(build_forest(model, model.rest_positions, description.tree)),
       body_pairs_(bodies, model, description.broad_phase),
       trees_(bodies, forest_, description, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
-      response_row_(row_of(description, searches() || !model.grounds.empty() || has_paths(model))) {
+      response_row_(row_of(description, searches_ || !model.grounds.empty() || has_paths(model))) {
   if (response_row_.make != nullptr)
     response_ = response_row_.make({bodies, model, description, forest_, body_pairs_, trees_, steps, sleeps});
 }
 
-bool Collider::searches() const { return body_count_ > 1 && !forest_.nodes.empty(); }
-
-bool Collider::uses_trees() const { return description_.search == ContactSearch::tree && searches(); }
+bool Collider::uses_trees() const { return description_.search == ContactSearch::tree && searches_; }
 
 std::vector<Pass> Collider::pairing_passes(std::uint32_t half) const {
-  if (!searches()) return {};
+  if (!searches_) return {};
   std::vector<Pass> passes = body_pairs_.pairing_passes();
   if (has_rigid_) passes.insert(passes.begin(), bounding_pass(half));
   return passes;
@@ -57,7 +55,7 @@ std::vector<Pass> Collider::finding_passes() const {
 }
 
 std::vector<Pass> Collider::testing_passes(std::uint32_t half) const {
-  if (!searches()) return {};
+  if (!searches_) return {};
   if (!uses_trees()) return {touching_.brute_force_pass(half)};
   return trees_.serving_passes(touching_.testing_pass(half), "test_unlisted_pairs", touching_.test_parameters(half));
 }

@@ -25,15 +25,15 @@ class Collider {
   [[nodiscard]] Response* response() { return response_.get(); }
   /// Returns what is known of the response. It is "none" if contacts are not answered.
   [[nodiscard]] const ResponseRow& response_row() const { return response_row_; }
-  /// Returns whether there are two bodies and triangles to touch.
-  [[nodiscard]] bool searches() const;
+  /// Returns whether there are two surfaces to touch.
+  [[nodiscard]] bool searches() const { return searches_; }
   /// Returns whether a search refits and descends trees, instead of testing every two triangles.
   [[nodiscard]] bool uses_trees() const;
 
   /// Bounds every body at `half`. A step does that itself as it ends, but for rigid bodies.
   [[nodiscard]] Pass bounding_pass(std::uint32_t half) const { return body_pairs_.bounding_pass(half); }
   /// Returns how many pairs of bodies a search looks at, or leaves out because their boxes are apart.
-  [[nodiscard]] std::uint32_t pair_count() const { return searches() ? body_pairs_.pair_count() : 0; }
+  [[nodiscard]] std::uint32_t pair_count() const { return searches_ ? body_pairs_.pair_count() : 0; }
   /// Return the passes of a search at `half`, which run in this order:
   /// - Pairing finds pairs of bodies. If there are rigid ones, it bounds bodies first.
   /// - Refitting and finding have passes only if the search uses trees: for the trees' boxes, and for pairs of leaves.
@@ -53,8 +53,7 @@ class Collider {
 
  private:
   CollisionDescription description_;
-  std::uint32_t body_count_;
-  bool has_rigid_;
+  bool searches_, has_rigid_;
   Forest forest_;
   BodyPairs body_pairs_;
   TreeSearch trees_;

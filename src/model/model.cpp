@@ -13,6 +13,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/expect.hpp"
+#include "mesh/report.hpp"
 #include "model/body_error.hpp"
 #include "model/inflation.hpp"
 
@@ -47,6 +48,12 @@ physics::Pose make_pose(const glm::dvec3& origin, const glm::dquat& q, const glm
   return pose;
 }
 
+int winding_of(const TriangleMesh& mesh) {
+  const MeshReport report = report_mesh(mesh);
+  const bool is_sphere = report.manifold && report.component_count == 1 && report.genus == 0;
+  return is_sphere && report.volume ? (*report.volume > 0 ? 1 : -1) : 0;
+}
+
 ModelBody describe_body(const BodySetup& setup, const Model& model) {
   const BodyDescription& description = setup.description;
   const double n = static_cast<double>(setup.mesh.positions.size());
@@ -64,6 +71,8 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   if (body.is_rigid()) body.stiffness = body.damping = 0;
   body.surface = description.surface;
   body.restitution = description.restitution;
+  body.self_contact = description.self_contact;
+  if (body.self_contact) body.winding = winding_of(setup.mesh);
   body.color = description.color;
   return body;
 }
@@ -243,6 +252,10 @@ ModelAndState without_body(const ModelAndState& bodies, std::size_t index) {
   for (std::size_t b = 0; b < bodies.model.bodies.size(); ++b)
     if (b != index) append_copy(bodies, b, result);
   return result;
+}
+
+bool Model::has_surfaces_to_touch() const {
+  return !triangles.empty() && (bodies.size() > 1 || std::ranges::any_of(bodies, &ModelBody::self_contact));
 }
 
 double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::round(std::log2(radius))) : 1.0; }

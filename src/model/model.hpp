@@ -47,7 +47,9 @@ struct ModelBody {
   Inflation inflation;
   SurfaceDescription surface;
   std::optional<double> restitution;
-  glm::dvec3 color{1.0};              // linear RGB
+  bool self_contact = false;  // as in a BodyDescription
+  int winding = 0;        // of a body with self-contact, if its surface is of a sphere's kind: 1 if wound outward, -1 if inward
+  glm::dvec3 color{1.0};  // linear RGB
   std::optional<BodyPath> path = {};  // of a scripted body
 
   /// Whether it keeps its shape and takes no impulses, as static and scripted bodies do. It has no springs.
@@ -71,6 +73,8 @@ struct Model {
   }
   [[nodiscard]] glm::dvec3 rest_position(std::size_t vertex) const { return glm::dvec3(rest_positions[vertex]); }  // [m]
   [[nodiscard]] const ModelBody& body_of(std::size_t vertex) const { return bodies[body_index(vertex)]; }
+  /// Returns whether there are two surfaces to touch: those of two bodies, or one that meets itself.
+  [[nodiscard]] bool has_surfaces_to_touch() const;
 };
 
 struct Material {

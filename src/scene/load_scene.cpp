@@ -228,9 +228,10 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
   const char* const instead_of_path = body.is_container ? "path" : "change kind";
   if (body.kind != BodyKind::scripted) expect_none_of(table, {"path", "repeats"}, "is for bodies of the kind \"scripted\"");
   if (body.kind == BodyKind::immovable)
-    expect_none_of(table, {"velocity", "spin", "stretch", "pressure"}, "a static body neither moves nor changes its shape");
+    expect_none_of(table, {"velocity", "spin", "stretch", "pressure", "self_contact"},
+                   "a static body neither moves nor changes its shape");
   if (body.kind != BodyKind::scripted) return;
-  expect_none_of(table, {"stretch", "pressure"}, "a scripted body does not change its shape");
+  expect_none_of(table, {"stretch", "pressure", "self_contact"}, "a scripted body does not change its shape");
   expect_none_of(table, {"restitution"}, "a scripted body takes no part in impacts that restitution restores");
   if (body.path.empty())
     expect_none_of(table, {"repeats"}, "has no path to repeat");
@@ -261,8 +262,8 @@ void forget_motion_of_rows(TableReader& table, BodyKind kind) {
   else if (kind == BodyKind::scripted)
     table.forget_behind({"restitution"});
   if (kind != BodyKind::soft)
-    table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "stiffness", "total_stiffness", "vertex_mass",
-                         "total_mass", "damping", "path", "repeats"});
+    table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "self_contact", "stiffness",
+                         "total_stiffness", "vertex_mass", "total_mass", "damping", "path", "repeats"});
 }
 
 void read_table(TableReader& table, PathKeyDescription& key) {
@@ -333,6 +334,8 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("damping", body.damping, not_negative);
   read_surface(table, body.surface);
   table.read("restitution", body.restitution, fraction);
+  table.read("self_contact", body.self_contact);
+  body.self_contact_where = table.where("self_contact");
   table.read("pressure", body.pressure, not_negative);
   table.read("pressure_law", body.pressure_law, pressure_laws);
   table.read("color", body.color, fraction);

@@ -152,6 +152,8 @@ struct BodyDescription {
   double damping = 1.0;                   // c [kg/s]
   SurfaceDescription surface;
   std::optional<double> restitution = {};  // the scene's if empty; a static body then has none
+  bool self_contact = false;               // whether contacts keep the body's own surface from passing through itself
+  Origin self_contact_where;               // of the key `self_contact`
   double pressure = 0.0;                   // inside, at the rest volume, with nothing outside [Pa]
   PressureLaw pressure_law = PressureLaw::gas;
   glm::dvec3 color = default_color(0);  // linear RGB, 0 to 1

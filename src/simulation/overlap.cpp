@@ -30,13 +30,15 @@ IndexedBox box_of(const ModelBody& body, std::span<const glm::dvec3> positions) 
   return box;
 }
 
+using Corners = std::array<std::uint32_t, 3>;
+
 // Relative to a corner, because positions in the world lose digits in fp32.
-bool may_touch(const Model& model, std::span<const glm::dvec3> positions, std::uint32_t s, std::uint32_t t) {
-  const glm::dvec3 origin = positions[model.triangles[s][0]];
+bool may_touch(std::span<const glm::dvec3> positions, const Corners& s, const Corners& t) {
+  const glm::dvec3 origin = positions[s[0]];
   glm::vec3 first[3], second[3];
   for (std::size_t k = 0; k < 3; ++k) {
-    first[k] = positions[model.triangles[s][k]] - origin;
-    second[k] = positions[model.triangles[t][k]] - origin;
+    first[k] = positions[s[k]] - origin;
+    second[k] = positions[t[k]] - origin;
   }
   return physics::triangles_may_touch(first, second);
 }
@@ -58,17 +60,34 @@ class Search {
       if (!goes_on) return;
       double nearest = std::numeric_limits<double>::infinity();
       for_each_near_triangles(model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
-                              [&](std::uint32_t s, std::uint32_t t) { nearest = std::min(nearest, distance(s, t)); });
+                              [&](std::uint32_t s, std::uint32_t t) {
+                                nearest = std::min(nearest, distance(model_.triangles[s], model_.triangles[t]));
+                              });
       if (nearest < most) goes_on = visit(std::min(a.index, b.index), std::max(a.index, b.index), nearest);
     });
+  }
+
+  // How many pairs of triangles of the body may touch elsewhere than where they share a vertex. Those that share an edge do not
+  // count.
+  std::uint64_t count_own_touching(const ModelBody& body) const {
+    std::uint64_t count = 0;
+    const IndexedBox all = box_of(body, positions_);
+    const double most = largest_margin(all, all);
+    for_each_near(triangles_near(model_, body, positions_, all, most), most, [&](const IndexedBox& s, const IndexedBox& t) {
+      count += own_triangles_touch(model_.triangles[s.index], model_.triangles[t.index]) ? 1 : 0;
+    });
+    return count;
   }
 
   // How many pairs of triangles may touch.
   std::uint64_t count_touching() const {
     std::uint64_t count = 0;
+    for (const ModelBody& body : model_.bodies)
+      if (body.self_contact) count += count_own_touching(body);
     for_each_near_bodies([&](const IndexedBox& a, const IndexedBox& b, double most) {
-      for_each_near_triangles(model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
-                              [&](std::uint32_t s, std::uint32_t t) { count += distance(s, t) > 0 ? 0 : 1; });
+      for_each_near_triangles(
+          model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
+          [&](std::uint32_t s, std::uint32_t t) { count += distance(model_.triangles[s], model_.triangles[t]) > 0 ? 0 : 1; });
     });
     return count;
   }
@@ -101,20 +120,34 @@ class Search {
     return physics::margin_of_rounding(epsilon_, size, physics::rounded_from(far, far, largest_));
   }
 
+  // Triangles that share a vertex touch elsewhere, too, if the edge across from it of one of them meets the other.
+  [[nodiscard]] bool own_triangles_touch(const Corners& s, const Corners& t) const {
+    const auto is_shared = [](const Corners& other) {
+      return [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); };
+    };
+    const auto shared = std::ranges::count_if(s, is_shared(t));
+    if (shared != 1) return shared == 0 && !(distance(s, t) > 0);
+    const auto edge_across = [&](const Corners& of, const Corners& other) {
+      const auto k = static_cast<std::size_t>(std::ranges::find_if(of, is_shared(other)) - of.begin());
+      return Corners{of[(k + 1) % 3], of[(k + 2) % 3], of[(k + 2) % 3]};
+    };
+    return !(distance(edge_across(s, t), t) > 0) || !(distance(s, edge_across(t, s)) > 0);
+  }
+
   // Of two triangles [m]. 0 if they may touch, infinite if proofs can tell that they are apart.
-  double distance(std::uint32_t s, std::uint32_t t) const {
+  double distance(const Corners& s, const Corners& t) const {
     physics64::Motion standing;
     double size = 0;
-    const glm::dvec3 origin = positions_[model_.triangles[s][0]];
+    const glm::dvec3 origin = positions_[s[0]];
     for (std::size_t k = 0; k < 6; ++k) {
-      const std::uint32_t vertex = k < 3 ? model_.triangles[s][k] : model_.triangles[t][k - 3];
+      const std::uint32_t vertex = k < 3 ? s[k] : t[k - 3];
       standing.start[k] = standing.end[k] = positions_[vertex] - origin;
       size = std::max(size, physics::sum_of_sizes(standing.start[k]));
     }
     const double far = physics::rounded_from(physics::sum_of_sizes(origin), physics::sum_of_sizes(origin), largest_);
     standing.margin = physics::margin_of_rounding(0x1p-52, size, far);
     const double found = physics64::closest_points(standing.start).distance;
-    if (may_touch(model_, positions_, s, t) && !physics64::stays_apart(standing)) {
+    if (may_touch(positions_, s, t) && !physics64::stays_apart(standing)) {
       standing.margin = 4 * 0x1p-52 * size;  // by which shadows alone err
       return physics64::stays_apart(standing) ? found : 0;
     }
@@ -203,6 +236,10 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
   found->way_out =
       way_out(vertices_of(first, positions), vertices_of(second, positions), gap_between(model, first, second, collision));
   return found;
+}
+
+std::uint64_t count_own_touching_pairs(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
+  return Search(model, positions, 64).count_own_touching(body);
 }
 
 std::uint64_t count_touching_pairs(const Model& model, std::span<const glm::dvec3> positions) {

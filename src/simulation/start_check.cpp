@@ -72,6 +72,18 @@ void expect_out_of_grounds(const Model& model, const State& state, const Collisi
   }
 }
 
+void expect_out_of_themselves(const Model& model, const State& state, const std::string& place) {
+  const std::vector<glm::dvec3> positions = state.world_positions(model);
+  for (const ModelBody& body : model.bodies) {
+    const std::uint64_t pairs = body.self_contact ? count_own_touching_pairs(model, body, positions) : 0;
+    if (pairs == 0) continue;
+    throw Error(ErrorKind::input, place,
+                fmt::format("body \"{}\" intersects itself in {} pair{} of triangles, so self-contact can't keep it apart",
+                            body.name, pairs, pairs == 1 ? "" : "s"),
+                "mend its mesh, such as by weld, or remove self_contact");
+  }
+}
+
 std::string described(const Model& model, const Overlap& overlap, int precision) {
   const std::string names =
       fmt::format("bodies \"{}\" and \"{}\"", model.bodies[overlap.first].name, model.bodies[overlap.second].name);
@@ -197,6 +209,7 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
   expect_out_of_grounds(model, simulation.state(), collision, place);
+  expect_out_of_themselves(model, simulation.state(), place);
   const int precision = simulation.precision();
   const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), collision, precision);
   if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));

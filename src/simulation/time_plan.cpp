@@ -74,7 +74,7 @@ void expect_method_estimates(const TimePlan& plan, const Origin& where) {
 
 // Steps of a fixed length are divided only where there is something to touch.
 bool divides_steps(const ResponseRow& response, const Model& model) {
-  return response.divides_steps && (model.bodies.size() > 1 || !model.grounds.empty());
+  return response.divides_steps && (model.bodies.size() > 1 || model.has_surfaces_to_touch() || !model.grounds.empty());
 }
 
 void expect_method_damps(const TimePlan& plan, const Origin& where, bool divides) {

@@ -112,7 +112,8 @@ physics::Status first_status(BodyKind kind) {
           .pressed_by_static = 0,
           .falls_asleep = 0,
           .asleep = 0,
-          .disturbed = 0};
+          .disturbed = 0,
+          .folds = 0};
 }
 
 std::vector<physics::Status> first_statuses(const Model& model) {
@@ -206,6 +207,7 @@ void DeviceBodies::prepare_search() {
   for (physics::Status& status : moving_on) {
     if (status.activity == physics::halted_for_now) status.activity = physics::moving;
     status.asleep = 0;
+    status.folds = 0;
   }
   statuses.upload(moving_on);
   look_at_bodies_at_rest();

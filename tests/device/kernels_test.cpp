@@ -340,6 +340,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   for (const ForceExample& example : force_examples()) example.set(setups.back().description);  // it feels all forces at once
   setups.back().description.stiffness = stiffness;
   setups.front().description.restitution = 0.5;
+  setups.front().description.self_contact = true;
   BodySetup plate = sphere(0);
   plate.description.name = "plate";
   plate.description.kind = BodyKind::immovable;

@@ -1,11 +1,12 @@
 // A kernel in rounds. One thread proves that two triangles stay apart while their corners move, or cuts these motions short. A round sees
-// the cuts of the rounds before.
+// the cuts of the rounds before. Of a body that meets itself one thread proves instead, if it can, that a triangle stays part of a star.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/box.glsl"
 #include "../physics/contact/cluster.glsl"
 #include "../physics/contact/separation.glsl"
+#include "../physics/contact/star.glsl"
 #include "../physics/contact/surface.glsl"
 SHARED_WRITE(contact_list)
 READ(triangle)
@@ -18,19 +19,23 @@ READ(status)
 READ(rest_position)
 READ(pose)
 READ(cluster)
+READ(surface)
+READ(place_box)
 SHARED_WRITE(cut)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
+PARAMETER(uint, watched_triangles)  // 0 if no body meets itself, and else all
 #include "parts/boxes_in_motion.glsl"
+#include "parts/star_centre.glsl"
 #include "parts/flight.glsl"
 #include "parts/cut_before.glsl"
 
 // If the list of pairs is full, no body moves.
 uint items_in_a_round() {
   uint count = contact_list[0].triangle_pair_count;
-  return count <= triangle_pair_capacity ? count : 0u;
+  return count <= triangle_pair_capacity ? count + watched_triangles : 0u;
 }
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
@@ -60,6 +65,25 @@ struct Case {
   bool outlasts_rounding;  // the margin, while only rounding in fp64 moves the triangles against each other
 };
 
+// How a vertex goes by its flight, and the part of its way beside that as cuts leave it so far.
+struct WaySoFar {
+  dvec3 together;  // [m]
+  dvec3 own;       // all of it [m]
+  real part;
+};
+
+WaySoFar way_so_far(uint i, dvec3 place, uint cut_round) {
+  uint b = body_of(i);
+  bool lost = lost_flight(i, cut_round);
+  dvec3 flight = flight_in_step(b, place);
+  WaySoFar w;
+  w.together = lost ? dvec3(0) : flight;
+  w.own = LOAD3(way, force_of(i));
+  if (lost) w.own += flight;
+  w.part = lost && !goes_on_alone(i, b) ? real(0) : real(uintBitsToFloat(cut_before(i, cut_round)));
+  return w;
+}
+
 double far_centre_of(uint i) { return sum_of_sizes(LOAD3(pose[body_of(i)].origin, 0u)); }
 
 Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
@@ -68,16 +92,13 @@ Case case_of(IN_ARRAY(uint, who, 6), uint cut_round) {
   real size = real(0);
   double far = rounded_from(sum_of_sizes(origin), max(far_centre_of(who[0]), far_centre_of(who[3])), largest_body);
   for (uint k = 0u; k < 6u; ++k) {
-    c.vertex[k] = who[k];
-    uint b = body_of(who[k]);
-    bool lost = lost_flight(who[k], cut_round);
-    c.part[k] = lost && !goes_on_alone(who[k], b) ? real(0) : real(uintBitsToFloat(cut_before(who[k], cut_round)));
     dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - origin;
-    dvec3 flight = flight_in_step(b, place), own = LOAD3(way, force_of(who[k])), together = lost ? dvec3(0) : flight;
-    if (lost) own += flight;
+    WaySoFar w = way_so_far(who[k], place, cut_round);
+    c.vertex[k] = who[k];
+    c.part[k] = w.part;
     c.motion.start[k] = real3(from);
-    c.motion.end[k] = real3(from + together + double(c.part[k]) * own);
-    c.together[k] = real3(together);
+    c.motion.end[k] = real3(from + w.together + double(w.part) * w.own);
+    c.together[k] = real3(w.together);
     real3 reach = max(abs(c.motion.start[k]), abs(c.motion.end[k]));
     size = max(size, (reach.x + reach.y) + reach.z);
   }
@@ -122,6 +143,17 @@ bool fly_together(IN(Case) c, uint cut_round) {
   return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
+// The corner of the first triangle that is one of the second, too, and which one of that it is, or no_corner.
+uvec2 shared_corner(IN(Case) c) {
+  uvec2 found = uvec2(uint(no_corner));
+  for (uint j = 0u; j < 3u; ++j)
+    for (uint k = 0u; k < 3u; ++k)
+      if (c.vertex[j] == c.vertex[3u + k]) found = uvec2(j, k);
+  return found;
+}
+
+const int most_pieces = 8;  // of the time of a step, for triangles of one body
+
 // Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other, and an earlier proof let them
 // come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one could fail: between large triangles
 // that are very near each other it does not find an axis well enough. Elsewhere they are proven to stand apart by half the margin.
@@ -135,7 +167,9 @@ bool are_proven(Case c, uint cut_round) {
       c.motion.margin *= real(0.5);
     }
   }
-  return stays_apart(c.motion);
+  bool is_own = body_of(c.vertex[0]) == body_of(c.vertex[3]);
+  uvec2 corners = is_own ? shared_corner(c) : uvec2(uint(no_corner));
+  return stays_apart_in_pieces(c.motion, int(corners.x), int(corners.y), is_own ? most_pieces : 1);
 }
 
 void stop_flight(uint i, uint cut_round) {
@@ -177,7 +211,56 @@ void cut_short(IN(Case) c, uint cut_round) {
   if (!first_stops && !second_stops) stop_all(c, cut_round);
 }
 
+// The triangle's corners, relative to a place that flies along with the body, if it flies.
+Facet facet_of(uint b, IN_ARRAY(uint, who, 3), uint cut_round, OUT(bool) all_stand) {
+  dvec3 centre = star_centre(b), centre_way = flies(who[0], cut_round) ? flight_in_step(b, centre) : dvec3(0);
+  Facet f;
+  all_stand = true;
+  for (uint k = 0u; k < 3u; ++k) {
+    dvec3 place = LOAD3(start, start_position_of(who[k])), from = place - centre;
+    WaySoFar w = way_so_far(who[k], place, cut_round);
+    f.start[k] = real3(from);
+    f.end[k] = real3(from + (w.together - centre_way) + double(w.part) * w.own);
+    all_stand = all_stand && w.part == real(0);
+  }
+  return f;
+}
+
+// Proves that a triangle of a star stays part of it. Then the body does not meet itself. Where it may, pairs of its triangles are listed.
+void certify_star(uint t, uint cut_round) {
+  uint b = body_of(triangle[corner_of(t, 0u)]);
+  if (surface[b].meets_itself == 0u || status[b].folds != 0u || is_still(status[b])) return;
+  uint who[3];
+  bool changed = false;
+  for (uint k = 0u; k < 3u; ++k) {
+    who[k] = triangle[corner_of(t, k)];
+    changed = changed || has_changed(who[k], cut_round);
+  }
+  if (!changed) return;
+  bool all_stand;
+  if (faces_out(facet_of(b, who, cut_round, all_stand), real(surface[b].winding))) return;
+  if (cut_round + 1u == cut_rounds) {
+    atomicAdd(contact_list[0].uncertified, 1u);
+    return;
+  }
+  atomicMax(contact_list[0].rounds_that_cut, cut_round + 1u);
+  for (uint k = 0u; k < 3u; ++k) atomicMin(cut[stop_of(vertex_count, who[k])], cut_round);
+  if (all_stand) stop_flight(who[0], cut_round);
+}
+
+bool share_edge(IN_ARRAY(uint, who, 6)) {
+  uint both = 0u;
+  for (uint j = 0u; j < 3u; ++j)
+    for (uint k = 3u; k < 6u; ++k) both += who[j] == who[k] ? 1u : 0u;
+  return both > 1u;
+}
+
 void certify(uint item, uint cut_round) {
+  uint pairs = contact_list[0].triangle_pair_count;
+  if (item >= pairs) {
+    certify_star(item - pairs, cut_round);
+    return;
+  }
   uvec2 triangles = uvec2(triangle_pair[item].x, triangle_pair[item].y & ~ways_meet);
   if (!overlaps(box_of_ways(triangles.x), box_of_ways(triangles.y))) return;
   uint who[6];
@@ -186,6 +269,7 @@ void certify(uint item, uint cut_round) {
     who[k] = triangle[corner_of(triangles.x, k)];
     who[3u + k] = triangle[corner_of(triangles.y, k)];
   }
+  if (share_edge(who)) return;
   for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k], cut_round);
   if (!changed) return;
   Case c = case_of(who, cut_round);

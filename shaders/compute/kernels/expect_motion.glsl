@@ -46,6 +46,7 @@ void empty_lists() {
 // have does not depend on others.
 double reach_beyond(uint b) {
   double edge = surface[b].edge;
+  if (status[b].folds != 0u) return reach_of_folds() * edge;
   if (status[b].calm >= quiet) return reach_in_edges() * edge;
   return clamp(double(uintBitsToFloat(room[b].to_others)), reach_in_edges() * edge, double(1000) * edge);
 }

@@ -55,7 +55,7 @@ Pair pair_of(uvec2 triangles) {
     p.place[k] = real3(LOAD3(start, start_position_of(p.vertex[k])) - origin);
     p.way[k] = real3(h * (LOAD3(expected, force_of(p.vertex[k])) - base));
   }
-  p.gap = real(gap_of_pair(surface[uint(rest_position[p.vertex[0]].w)], surface[uint(rest_position[p.vertex[3]].w)]));
+  p.gap = real(gap_of_pair(surface[body_of(p.vertex[0])], surface[body_of(p.vertex[3])]));
   return p;
 }
 
@@ -105,11 +105,17 @@ uint vertex_across(IN(Pair) p, uint face, uint edge) {
   return beyond == no_vertex ? no_vertex : surface[b].first_vertex + beyond;
 }
 
+// Whether a vertex is a corner of the other triangle of the pair. A body that meets itself has no contacts of a triangle with its corners.
+bool belongs_to_other(IN(Pair) p, uint face, uint i) {
+  uint other = face == 0u ? 3u : 0u;
+  return p.vertex[other] == i || p.vertex[other + 1u] == i || p.vertex[other + 2u] == i;
+}
+
 // Whether the triangle across an edge of one of the pair's is nearer to a point than the edge is.
 bool is_nearer_across(IN(Pair) p, uint face, uint edge, IN_ARRAY(real3, places, 6), IN(real3) closest, IN(real3) away, real part,
                       real slope) {
   uint beyond = vertex_across(p, face, edge);
-  if (beyond == no_vertex) return false;
+  if (beyond == no_vertex || belongs_to_other(p, face, beyond)) return false;
   uint from = 3u * face + edge, to = 3u * face + (edge == 2u ? 0u : edge + 1u);
   return leans_over(place_of(p, beyond, part) - closest, places[to] - places[from], away, slope);
 }
@@ -233,8 +239,12 @@ bool is_nearer_to_faces(IN(Pair) p, uint j, uint k, IN(Feature) f, IN_ARRAY(real
   real3 on_second = -(f.weight.z * places[f.corner.z] + f.weight.w * places[f.corner.w]);
   real3 away = on_first - on_second;
   uint third_of_first = j == 0u ? 2u : j - 1u, third_of_second = k == 0u ? 5u : 2u + k;
-  if (leans_over(places[third_of_first] - on_first, places[f.corner.y] - places[f.corner.x], -away, flat_slope)) return true;
-  if (leans_over(places[third_of_second] - on_second, places[f.corner.w] - places[f.corner.z], away, flat_slope)) return true;
+  if (!belongs_to_other(p, 0u, p.vertex[third_of_first]) &&
+      leans_over(places[third_of_first] - on_first, places[f.corner.y] - places[f.corner.x], -away, flat_slope))
+    return true;
+  if (!belongs_to_other(p, 1u, p.vertex[third_of_second]) &&
+      leans_over(places[third_of_second] - on_second, places[f.corner.w] - places[f.corner.z], away, flat_slope))
+    return true;
   return is_nearer_across(p, 0u, j, places, on_first, -away, part, flat_slope) ||
          is_nearer_across(p, 1u, k, places, on_second, away, part, flat_slope);
 }
@@ -266,6 +276,32 @@ uint owned_features(uvec2 triangles) {
   for (uint j = 0u; j < 3u; ++j)
     if ((first >> (3u + j) & 1u) != 0u) owned |= second >> 3u << (6u + 3u * j);
   return owned;
+}
+
+// Returns those features of two triangles that share no vertex.
+uint apart_features(IN(Pair) p) {
+  uint apart = 0x7fffu;
+  for (uint j = 0u; j < 3u; ++j)
+    for (uint k = 0u; k < 3u; ++k) {
+      if (p.vertex[j] != p.vertex[3u + k]) continue;
+      uint edges_at_k = 1u << k | 1u << (k == 0u ? 2u : k - 1u);
+      apart &= ~(1u << j | 8u << k | edges_at_k << (6u + 3u * j) | edges_at_k << (6u + 3u * (j == 0u ? 2u : j - 1u)));
+    }
+  return apart;
+}
+
+// Features of one body that are near each other at rest keep a gap that leaves them alone there.
+const real share_of_rest = real(0.4);
+real gap_at_rest(IN(Pair) p, uint feature) {
+  real3 rest[6];
+  for (uint k = 0u; k < 6u; ++k) rest[k] = real3(vec3(rest_position[p.vertex[k]]));
+  bool crosses;
+  Feature f;
+  if (feature < 6u)
+    f = vertex_and_triangle(feature, real(1), rest);
+  else
+    f = two_edges((feature - 6u) / 3u, (feature - 6u) % 3u, rest, crosses);
+  return share_of_rest * length(weighed(f, rest));
 }
 
 void meet_feature(IN(Pair) p, uint feature) {
@@ -308,8 +344,14 @@ void meet(uvec2 triangles, uint first, uint threads) {
   wanted = near_features(triangles, wanted);
   if (wanted == 0u) return;
   Pair p = pair_of(triangles);
-  for (uint feature = 0u; feature < 15u; ++feature)
-    if ((wanted >> feature & 1u) != 0u) meet_feature(p, feature);
+  bool is_own = body_of(p.vertex[0]) == body_of(p.vertex[3]);
+  if (is_own) wanted &= apart_features(p);
+  real gap = p.gap;
+  for (; wanted != 0u; wanted &= wanted - 1u) {
+    uint feature = uint(findLSB(wanted));
+    if (is_own) p.gap = min(gap, gap_at_rest(p, feature));
+    meet_feature(p, feature);
+  }
 }
 
 // Lists of pairs that leave threads over get 4 or 16 for each pair: on a GPU a pass takes as long as its slowest thread.

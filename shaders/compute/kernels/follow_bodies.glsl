@@ -119,7 +119,7 @@ void prepare_next_step(uint b) {
     body_box[b].lower[k] = place_box[b].lower[k] = 0xffffffffu;
     body_box[b].upper[k] = place_box[b].upper[k] = 0u;
   }
-  status[b].first_pair = 0u;
+  status[b].first_pair = status[b].folds = 0u;
   if (status[b].falls_asleep != 0u) note_motion(b);
   frame_change[b].turned = 0u;
   meeting[b] = 0u;

@@ -21,7 +21,10 @@ WRITE(cluster)
 READ(grid_list)
 READ(grid_entry)
 READ(grid_level)
+READ(ground)
 PARAMETER(uint, body_count)
+PARAMETER(uint, ground_count)
+#include "parts/bound_step.glsl"
 #include "parts/reach.glsl"
 
 // The largest that a number of the first box can be above one of the second.
@@ -73,6 +76,12 @@ void push_away(uint a, uint b, double speed) {
   }
 }
 
+// How far a box reaches along a normal, at least.
+double least_along(dvec3 normal, IN(Box) box) {
+  dvec3 centre = double(0.5) * (dvec3(box.lower) + dvec3(box.upper)), half_size = double(0.5) * (dvec3(box.upper) - dvec3(box.lower));
+  return dot(normal, centre) - dot(abs(normal), half_size);
+}
+
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }  // by forces and impulses
 
 // If the first body moves, it disturbs the other one, which it may reach. One that sleeps is not disturbed if it surely does not. From
@@ -105,10 +114,6 @@ void join(uint a, uint b) {
     a = earlier;
     b = before;
   }
-}
-
-void bound_step(double longest) {
-  if (longest < step_parts[0].full) atomicMin(step_parts[0].longest, floatBitsToUint(float(longest)));
 }
 
 Box box_to_meet(uint b) { return reach_box_of(b); }
@@ -157,11 +162,22 @@ void bound_pressed(uint b) {
   if (pressed[b] != 0u && step_parts[0].parts + 1u - pressed[b] <= pressed_for) bound_step(surface[b].longest_pressed);
 }
 
+// A ground must not dent a body that meets itself by more than a quarter edge at once.
+void bound_dents(uint b) {
+  Box places = box_of_bits(body_box[b]), velocities = box_of_bits(body_motion[b]);
+  for (uint g = 0u; g < ground_count && surface[b].meets_itself != 0u; ++g) {
+    dvec3 normal = LOAD3(ground[g].normal, 0u);
+    double height = least_along(normal, places) - ground[g].offset;
+    bound_speed(-least_along(normal, velocities), max(height, double(0)) + double(0.25) * surface[b].edge);
+  }
+}
+
 void limit_step(uint item) {
   uint b = body_of(item);
   if (b != no_body && moves(b)) {
     begin_flight(b);
     bound_pressed(b);
+    bound_dents(b);
     bound_room(b);
   }
   visit_pairs(item);

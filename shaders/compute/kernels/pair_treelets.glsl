@@ -30,7 +30,7 @@ void pair_treelets(uint item) {
     uvec4 first = tree[near_pair[pair].x], second = tree[near_pair[pair].y];
     for (uint s = first.x + item % of_a_pair; s < first.x + first.y; s += of_a_pair) {
       PaddedBox box = box_of_node(treelet[s].first_node);
-      for (uint t = second.x; t < second.x + second.y; ++t)
+      for (uint t = first.x == second.x ? s : second.x; t < second.x + second.y; ++t)
         if (overlaps(box, box_of_node(treelet[t].first_node))) list_treelets(s, t);
       tests += second.y;
     }

@@ -59,6 +59,7 @@ struct Status {
   uint falls_asleep;       // 1: it sleeps from the end of this step on
   uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it
   uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island; or something has moved it
+  uint folds;              // 1: its surface may meet itself in this step
 };
 
 // Values of Status.calm. The first such step still expects motion, because of those before it. Nor does a body disturb others from

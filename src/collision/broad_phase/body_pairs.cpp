@@ -21,9 +21,12 @@ std::uint32_t pairs_that_may_touch(const Model& model) {
   return moving * (moving - std::min(moving, 1u)) / 2 + moving * fixed;
 }
 
-std::uint32_t room_for_pairs(std::uint32_t body_count) {
-  const std::uint32_t all = body_count * (body_count - std::min(body_count, 1u)) / 2;
-  return std::clamp(all, 1u, std::max(fewest_near_pairs, near_pairs_of_body * body_count));
+// A body that meets itself is a pair of its own.
+std::uint32_t room_for_pairs(const Model& model) {
+  const auto bodies = static_cast<std::uint32_t>(model.bodies.size());
+  const auto own = static_cast<std::uint32_t>(std::ranges::count_if(model.bodies, &ModelBody::self_contact));
+  const std::uint32_t all = bodies * (bodies - std::min(bodies, 1u)) / 2 + own;
+  return std::clamp(all, 1u, std::max(fewest_near_pairs, near_pairs_of_body * bodies));
 }
 
 // Twice as many lists as bodies, at least, or none without a grid.
@@ -38,7 +41,7 @@ std::uint32_t lists_for(BroadPhase broad_phase, const DeviceBodies& bodies) {
 BodyPairs::BodyPairs(DeviceBodies& bodies, const Model& model, BroadPhase broad_phase)
     : bodies_(bodies),
       pair_count_(pairs_that_may_touch(model)),
-      most_pairs_(room_for_pairs(bodies.body_count)),
+      most_pairs_(room_for_pairs(model)),
       grid_lists_(lists_for(broad_phase, bodies)),
       threads_of_body_(bodies.arrays.device().info().kind == DeviceKind::gpu ? 27 : 1) {
   PLIANT_EXPECT(bodies.body_count <= 65535);

@@ -70,11 +70,12 @@ double smallest_gap(std::span<const physics::Surface> surfaces) {
   return std::isinf(smallest) ? 0 : smallest;
 }
 
-// All pairs of triangles of different bodies of which one moves, if they are not too many.
+// All pairs of triangles of different bodies of which one moves, and of one that meets itself, if they are not too many.
 std::uint32_t room_for_triangle_pairs(const Model& model) {
   std::uint64_t triangles = 0, moving = 0, pairs = 0;
   for (const ModelBody& body : model.bodies) {
     pairs += (body.is_rigid() ? moving : triangles) * body.triangle_count;
+    if (body.self_contact) pairs += std::uint64_t{body.triangle_count} * body.triangle_count / 2;
     triangles += body.triangle_count;
     if (!body.is_rigid()) moving += body.triangle_count;
   }
@@ -95,7 +96,7 @@ class Impulse final : public Response {
         body_pairs_(setting.body_pairs),
         trees_(setting.trees),
         scripted_bodies_(setting.bodies, setting.model),
-        has_pairs_(setting.model.bodies.size() > 1 && !setting.forest.nodes.empty()),
+        has_pairs_(setting.model.has_surfaces_to_touch()),
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
         triangle_pair_capacity_(room_for_triangle_pairs(setting.model)),
@@ -103,6 +104,8 @@ class Impulse final : public Response {
         items_at_once_(setting.bodies.arrays.device().items_of_lists(setting.bodies.body_count)) {
     std::vector<physics::Surface> surfaces = surfaces_of(setting);
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
+    if (std::ranges::any_of(setting.model.bodies, &ModelBody::self_contact))
+      watched_triangles_ = static_cast<std::uint32_t>(setting.forest.triangles.size());
     smallest_gap_ = smallest_gap(surfaces);
     bodies_.arrays.make("triangle_around", surroundings_of(setting.model, setting.forest, surfaces));
     bodies_.arrays.make("surface", surfaces);
@@ -132,10 +135,11 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     std::ranges::move(scripted_bodies_.bounding_passes(), std::back_inserter(passes));
+    if (watched_triangles_ > 0) passes.push_back(make_pass(arrays, "watch_folds", {}, watched_triangles_));
     std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
     if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
     std::ranges::move(scripted_bodies_.following_passes(), std::back_inserter(passes));
-    passes.push_back(make_pass(arrays, "expect_motion", {{"ground_count", ground_count_}}, bodies_.vertex_count));
+    passes.push_back(make_pass(arrays, "expect_motion", {}, bodies_.vertex_count));
     if (keeps_impulses()) {
       passes.push_back(make_pass(arrays, "keep_impulses",
                                  {{"kept_slot_count", kept_slot_count()}, {"contacts_at_once", items_at_once_}}, items_at_once_));
@@ -155,9 +159,7 @@ class Impulse final : public Response {
       passes.back().beside_next = ground_count_ > 0;  // both only add to the list of contacts
     }
     if (ground_count_ > 0)
-      passes.push_back(make_pass(arrays, "meet_grounds",
-                                 {{"contact_capacity", contact_capacity_}, {"ground_count", ground_count_}},
-                                 bodies_.vertex_count));
+      passes.push_back(make_pass(arrays, "meet_grounds", {{"contact_capacity", contact_capacity_}}, bodies_.vertex_count));
     passes.push_back(make_pass(
         arrays, "take_up_impulses",
         {{"contact_capacity", contact_capacity_}, {"kept_slot_count", kept_slot_count()}, {"contacts_at_once", items_at_once_}},
@@ -229,8 +231,7 @@ class Impulse final : public Response {
     const std::uint32_t threads =
         std::clamp(arrays.device().parallel_items(bodies_.body_count) / bodies_.body_count, 1u, bodies_.body_count);
     return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
-            make_pass(arrays, "limit_quiet_steps", {{"ground_count", ground_count_}, {"threads_of_a_body", threads}},
-                      threads * bodies_.body_count),
+            make_pass(arrays, "limit_quiet_steps", {{"threads_of_a_body", threads}}, threads * bodies_.body_count),
             make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}}, bodies_.body_count)};
   }
   std::vector<Pass> after_quiet_steps() const override {
@@ -241,10 +242,7 @@ class Impulse final : public Response {
     const Arrays& arrays = bodies_.arrays;
     std::vector<Pass> passes = scripted_bodies_.moving_passes(from_half);
     passes.push_back(make_pass(arrays, "expect_cuts",
-                               {{"from_half", from_half},
-                                {"ground_count", ground_count_},
-                                {"least_speed", least_speed()},
-                                {"largest_body", largest_body_}},
+                               {{"from_half", from_half}, {"least_speed", least_speed()}, {"largest_body", largest_body_}},
                                bodies_.vertex_count));
     if (restores_)
       passes.push_back(make_pass(arrays, "sum_impacts",
@@ -254,8 +252,9 @@ class Impulse final : public Response {
                                   {"least_speed", least_speed()}},
                                  items_at_once_));
     if (has_pairs_)
-      passes.push_back(
-          round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity_}, {"largest_body", largest_body_}}));
+      passes.push_back(round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity_},
+                                              {"largest_body", largest_body_},
+                                              {"watched_triangles", watched_triangles_}}));
     passes.push_back(make_pass(
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}},
@@ -276,6 +275,7 @@ class Impulse final : public Response {
     std::vector<physics::Ground> grounds;
     for (const Ground& ground : setting.model.grounds) grounds.push_back(ground_of(ground, setting.description));
     ground_count_ = static_cast<std::uint32_t>(grounds.size());
+    bodies_.arrays.set_parameter("ground_count", ground_count_);
     if (grounds.empty()) grounds.push_back({});
     bodies_.arrays.make("ground", grounds);
   }
@@ -429,7 +429,8 @@ class Impulse final : public Response {
   const TreeSearch& trees_;
   ScriptedBodies scripted_bodies_;
   bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
-  std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0;
+  std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0,
+                                                                            watched_triangles_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision
@@ -451,7 +452,10 @@ physics::Surface surface_of(const Model& model, const ModelBody& body, const Col
           .diameter = 2 * body.radius,
           .nearness = 0,
           .first_vertex = body.first_vertex,
-          .to_mesh = 0};
+          .to_mesh = 0,
+          .meets_itself = body.self_contact ? 1u : 0u,
+          .padding = 0,
+          .winding = double(body.winding)};
 }
 
 physics::Ground ground_of(const Ground& ground, const CollisionDescription& description) {

@@ -29,6 +29,14 @@ void expect_immovable_allowed(const SceneDescription& scene, const ResponseRow& 
       fail_at(body.kind_where, body.kind == BodyKind::scripted ? "a body can't be scripted" : "a body can't be static");
 }
 
+void expect_self_contact_allowed(const SceneDescription& scene, const ResponseRow& row) {
+  if (row.keeps_apart) return;
+  for (const BodyDescription& body : scene.bodies)
+    if (body.self_contact)
+      throw Error(body.self_contact_where, fmt::format("a body does not meet itself with the response \"{}\"", row.name),
+                  "remove self_contact, or write response = \"impulse\" in [collision], which is the default");
+}
+
 void expect_search_allowed(const CollisionDescription& collision, const ResponseRow& row) {
   if (row.allows_brute_force || collision.search != ContactSearch::brute_force) return;
   throw Error(collision.search_where, fmt::format("the response \"{}\" finds pairs by trees alone", row.name),
@@ -53,6 +61,7 @@ const ResponseRow& find_response(const Named& name) {
 const ResponseRow& response_of(const SceneDescription& scene) {
   const ResponseRow& row = find_response(scene.collision.response);
   expect_immovable_allowed(scene, row);
+  expect_self_contact_allowed(scene, row);
   expect_search_allowed(scene.collision, row);
   return row;
 }

@@ -99,6 +99,7 @@ class BodyTree {
 void add_tree(Forest& forest, const Model& model, std::uint32_t body, std::span<const glm::vec4> positions,
               const TreeDescription& description) {
   const ModelBody& range = model.bodies[body];
+  forest.self_contact.push_back(range.self_contact);
   forest.roots.push_back(range.triangle_count > 0 ? static_cast<std::uint32_t>(forest.nodes.size()) : no_node);
   if (range.triangle_count == 0) return;
   std::vector<TreeItem> items;

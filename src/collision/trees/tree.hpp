@@ -30,6 +30,7 @@ struct Forest {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // vertex indices, in leaf order
   std::vector<std::uint32_t> triangle_ids;              // leaf order -> index into Model::triangles
   std::vector<std::uint32_t> roots;                     // one for each body, no_node if it has no triangles
+  std::vector<bool> self_contact;                       // for each body, whether its tree is compared with itself, too
   unsigned depth = 0;                                   // of the deepest node, where a root has depth 0
 };
 

@@ -55,13 +55,16 @@ std::uint32_t most_treelet_pairs(const Treelets& treelets, std::uint32_t most_ne
 
 TreeRefit default_refit(DeviceKind device) { return device == DeviceKind::gpu ? TreeRefit::bottom_up : TreeRefit::hybrid; }
 
-// Returns how many pairs there are of two leaves of different bodies.
+// Returns how many pairs of leaves a search may find: of different bodies, and of one that meets itself.
 std::uint64_t all_leaf_pairs(const Forest& forest) {
   std::uint64_t leaves = 0, pairs = 0, of_body = 0;
+  std::size_t body = forest.roots.size();
   for (std::size_t n = forest.nodes.size(); n-- > 0;) {
     of_body += forest.nodes[n].is_leaf() ? 1 : 0;
     if (forest.nodes[n].parent != no_node) continue;
-    pairs += leaves * of_body;
+    do --body;
+    while (forest.roots[body] != n);
+    pairs += leaves * of_body + (forest.self_contact[body] ? of_body * (of_body + 1) / 2 : 0);
     leaves += std::exchange(of_body, 0);
   }
   return pairs;

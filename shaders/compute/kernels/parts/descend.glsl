@@ -1,6 +1,7 @@
 // descend_trees() descends pairs of treelets, one of either tree of two near bodies, down to pairs of leaves whose boxes overlap.
-// It hands these to found_leaves(). Groups share the pairs out between them. The threads of a group have one list of pairs of
-// nodes that overlap and are not opened yet, and open the latest ones, a pair each.
+// It hands these to found_leaves(). A tree that is compared with itself gives each two leaves once, and each leaf with itself. Groups share
+// the pairs out between them. The threads of a group have one list of pairs of nodes that overlap and are not opened yet, and open the
+// latest ones, a pair each.
 READ(near_pair)
 READ(tree)
 READ(treelet)
@@ -10,8 +11,13 @@ PARAMETER(uint, treelet_pair_capacity)
 NEAR(uvec2, open_pair, most_open_pairs)
 NEAR(uint, open_count, 1)
 
+// A node that is compared with itself opens as the first of the pair. Then each of its children meets the node, and of that those children
+// that are not before it.
+bool is_child(uint n, uvec4 of) { return of.x <= n && n < of.y; }
+
 // Which of the two opens: the wider one, but never a leaf.
-bool first_opens(uvec4 a, uvec4 b, IN(PaddedBox) box_a, IN(PaddedBox) box_b) {
+bool first_opens(uvec2 pair, uvec4 a, uvec4 b, IN(PaddedBox) box_a, IN(PaddedBox) box_b) {
+  if (is_child(pair.x, b)) return false;
   if (b.x == 0u) return true;
   if (a.x == 0u) return false;
   vec4 size_a = box_a.upper - box_a.lower;
@@ -33,8 +39,8 @@ void meet_nodes(uvec2 pair, bool are_leaves) {
 uint open_nodes(uvec2 pair) {
   uvec4 a = node[pair.x], b = node[pair.y];
   PaddedBox box_a = box_of_node(pair.x), box_b = box_of_node(pair.y);
-  bool opens_a = first_opens(a, b, box_a, box_b), stays_leaf = (opens_a ? b.x : a.x) == 0u;
-  uint first = opens_a ? a.x : b.x, end = opens_a ? a.y : b.y;
+  bool opens_a = first_opens(pair, a, b, box_a, box_b), stays_leaf = (opens_a ? b.x : a.x) == 0u;
+  uint first = opens_a ? a.x : max(b.x, is_child(pair.x, b) ? pair.x : 0u), end = opens_a ? a.y : b.y;
   PaddedBox stays = box_a;
   if (opens_a) stays = box_b;
   for (uint n = first; n < end; ++n)
@@ -87,7 +93,8 @@ uint descend_all(uint group) {
     uvec4 a = tree[near_pair[pair].x], b = tree[near_pair[pair].y];
     for (uint first = group % of_a_pair; first < a.y * b.y; first += of_a_pair * THREADS) {
       uint k = first + THREAD * of_a_pair;
-      if (k < a.y * b.y) tests += meet_treelets(a.x + k % a.y, b.x + k / a.y, false);
+      uint s = a.x + k % a.y, t = b.x + k / a.y;
+      if (k < a.y * b.y && (a.x != b.x || s <= t)) tests += meet_treelets(s, t, false);
       tests += open_all();
     }
   }

@@ -60,6 +60,9 @@ uint overlapping(IN(PaddedBox) box, uint t, uint among, bool by_ways) {
   return near;
 }
 
+// Those of 32 triangles from t on that stand behind s: each two of a leaf meet once.
+uint behind(uint s, uint t) { return s < t ? ~0u : s - t >= 31u ? 0u : ~0u << (s - t + 1u); }
+
 // The leaves' boxes leave out most triangles before they are compared with each other.
 void list_triangles(uvec2 leaves, uint first, uint stride) {
   uvec4 a = node[leaves.x], b = node[leaves.y];
@@ -71,6 +74,7 @@ void list_triangles(uvec2 leaves, uint first, uint stride) {
       PaddedBox cages = box_of_cages(s);
       if (!overlaps(cages, of_second)) continue;
       uint near = overlapping(cages, t, among, false);
+      if (leaves.x == leaves.y) near &= behind(s, t);
       if (near == 0u) continue;
       list_pairs(s, t, near, overlapping(box_of_ways(s), t, near, true));
       if (has_rigid_bodies != 0u) end_flight_beside_rigid(s, t, near);

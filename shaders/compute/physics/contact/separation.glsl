@@ -129,5 +129,79 @@ FN bool stays_apart(IN(Motion) m) {
   return has_axis(m, between);
 }
 
+// Do two triangles stay apart, but for a corner that they share? A plane through that corner proves it if it has the other two corners of
+// each on its own side at both ends. Then their directions from that corner, with those of the second triangle turned round, all go along
+// its normal, and so does the closest point to the origin in the hull of the directions.
+struct Fans {
+  real3 way[8];        // from the corner to the others at the start, then at the end [m]. Those of the second triangle are turned round
+  real3 direction[8];
+};
+
+// Corners `of_first` and `of_second` are the same one.
+FN Fans fans_at(IN(Motion) m, int of_first, int of_second) {
+  Fans f;
+  for (int n = 0; n < 2; ++n) {
+    int j = (of_first + 1 + n) % 3, k = 3 + (of_second + 1 + n) % 3;
+    f.way[n] = m.start[j] - m.start[of_first];
+    f.way[2 + n] = m.start[3 + of_second] - m.start[k];
+    f.way[4 + n] = m.end[j] - m.end[of_first];
+    f.way[6 + n] = m.end[3 + of_second] - m.end[k];
+  }
+  for (int n = 0; n < 8; ++n) f.direction[n] = f.way[n] / length(f.way[n]);
+  return f;
+}
+
+FN bool all_go_along(IN(real3) axis, IN(Fans) f, real margin) {
+  real least = margin * ((abs(axis.x) + abs(axis.y)) + abs(axis.z));
+  bool all = true;
+  for (int n = 0; n < 8; ++n) all = all && shadow(axis, f.way[n]) > least;
+  return all;
+}
+
+FN bool stays_apart_at_corner(IN(Motion) m, int of_first, int of_second) {
+  Fans f = fans_at(m, of_first, of_second);
+  real3 axis = real3(0);
+  for (int n = 0; n < 8; ++n) axis += f.direction[n];
+  Simplex s;
+  s.corners = 0;
+  for (int k = 0; k < 16; ++k) {
+    if (all_go_along(axis, f, m.margin)) return true;
+    real3 worst = f.direction[0];
+    for (int n = 1; n < 8; ++n)
+      if (dot(axis, f.direction[n]) < dot(axis, worst)) worst = f.direction[n];
+    s.corner[s.corners++] = worst;
+    real3 closest = closest_to_origin(s);
+    axis = axis_across(s, closest);
+  }
+  return false;
+}
+
+FN Motion piece_of(IN(Motion) m, int piece, int pieces) {
+  if (pieces == 1) return m;
+  real from = real(piece) / real(pieces), to = real(piece + 1) / real(pieces);
+  Motion p = m;
+  for (int k = 0; k < 6; ++k) {
+    p.start[k] = m.start[k] + from * (m.end[k] - m.start[k]);
+    p.end[k] = m.start[k] + to * (m.end[k] - m.start[k]);
+  }
+  return p;
+}
+
+const int no_corner = 3;
+
+// The same of triangles that may share a corner, for pieces of the time, up to so many. Triangles that turn together may need another axis
+// for each. If they share no corner, `of_first` and `of_second` are no_corner.
+FN bool stays_apart_in_pieces(IN(Motion) m, int of_first, int of_second, int most_pieces) {
+  for (int pieces = 1; pieces <= most_pieces; pieces *= 2) {
+    bool all = true;
+    for (int piece = 0; piece < pieces && all; ++piece) {
+      Motion part = piece_of(m, piece, pieces);
+      all = of_first == no_corner ? stays_apart(part) : stays_apart_at_corner(part, of_first, of_second);
+    }
+    if (all) return true;
+  }
+  return false;
+}
+
 REAL_END
 #endif
