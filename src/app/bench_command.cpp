@@ -107,6 +107,8 @@ std::optional<bench::ContactStudy> study_of(BenchStudy only) {
       return bench::ContactStudy::rest;
     case BenchStudy::cost:
       return bench::ContactStudy::cost;
+    case BenchStudy::self:
+      return bench::ContactStudy::self;
   }
   return {};
 }

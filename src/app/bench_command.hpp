@@ -14,7 +14,7 @@ enum class BenchDevices { automatic, cpu, gpu, all };
 enum class BenchSuite { forces, steps, precision, stability, contact, collision, draw };
 
 /// What the suite contact is made of (bench/contact/contact.hpp).
-enum class BenchStudy { all, apart, impacts, rest, cost };
+enum class BenchStudy { all, apart, impacts, rest, cost, self };
 
 struct BenchOptions {
   BenchSuite suite = BenchSuite::forces;

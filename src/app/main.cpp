@@ -265,7 +265,8 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
                               {{"apart", app::BenchStudy::apart},
                                {"impacts", app::BenchStudy::impacts},
                                {"rest", app::BenchStudy::rest},
-                               {"cost", app::BenchStudy::cost}},
+                               {"cost", app::BenchStudy::cost},
+                               {"self", app::BenchStudy::self}},
                               "One study alone");
   add_device_suite(*bench, options, app::BenchSuite::collision, "collision",
                    "Finding all pairs of triangles that touch, beside other libraries' trees");

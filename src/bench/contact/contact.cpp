@@ -21,6 +21,7 @@
 #include "bench/contact/encounter.hpp"
 #include "bench/contact/meeting.hpp"
 #include "bench/contact/rest.hpp"
+#include "bench/contact/self_cost.hpp"
 #include "bench/contact/witness.hpp"
 #include "core/error.hpp"
 #include "core/larger.hpp"
@@ -364,6 +365,21 @@ void add_costs(std::vector<Task>& tasks, const ContactOptions& options) {
                            place, true});
 }
 
+// Spheres are stars. A ring is none, so that its tree is compared with itself.
+void add_self_costs(std::vector<Task>& tasks, const ContactOptions& options) {
+  for (const Place& place : places(options.devices))
+    for (const char* mesh : {"icosphere:2", "icosphere:3", "icosphere:4", "ring:0.3,16", "ring:0.3,32", "ring:0.3,64"})
+      for (const bool rests : {false, true}) {
+        const double vertices = static_cast<double>(generate_mesh(mesh).positions.size());
+        if (place.precision != 32 || (options.quick && vertices > 300)) continue;
+        tasks.push_back({fmt::format("self-contact, {}, {}", mesh, name_of(place)), 0.5 + 2e-6 * vertices * vertices,
+                         [=](Device& device, const std::stop_token&) {
+                           return std::vector<ContactRow>{measure_self_cost(device, mesh, rests)};
+                         },
+                         place, true});
+      }
+}
+
 // --- all
 
 std::vector<std::string> notes_of(const std::vector<ContactRow>& rows) {
@@ -405,6 +421,7 @@ ContactResult bench_contact(const ContactOptions& options, const Progress& progr
   if (is_asked(ContactStudy::rest)) add_rest(tasks, options);
   if (is_asked(ContactStudy::impacts)) add_impacts(tasks, options);
   if (is_asked(ContactStudy::cost)) add_costs(tasks, options);
+  if (is_asked(ContactStudy::self)) add_self_costs(tasks, options);
   if (tasks.empty())
     throw Error(ErrorKind::command_line, "--only", "impacts are measured on the CPU alone", "use --device cpu or all");
   const auto alone = std::ranges::stable_partition(tasks, runs_beside_others);

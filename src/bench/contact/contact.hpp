@@ -3,6 +3,7 @@
 // - what an impact gives, by the length of the step: whether it converges, and how it depends on elasticity and stiffness
 // - how still bodies rest
 // - what contact costs in a step
+// - what self-contact costs in a step of a body that does not touch itself
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +17,7 @@
 namespace pliant::bench {
 
 /// What the suite is made of, in the order of the list above.
-enum class ContactStudy { apart, impacts, rest, cost };
+enum class ContactStudy { apart, impacts, rest, cost, self };
 
 struct ContactOptions {
   Selection devices;
@@ -98,7 +99,19 @@ struct CostRow {
   double microseconds_without = 0;  // of the same with response = "none"
 };
 
-using ContactRow = std::variant<ApartRow, ImpactRow, RestRow, CostRow>;
+/// Steps of one body that does not touch itself, with self-contact and without.
+struct SelfCostRow {
+  std::string mesh;
+  DeviceKind device = DeviceKind::cpu;
+  int precision = 32;
+  std::uint64_t vertices = 0;
+  bool rests = false;               // on a ground; else it flies
+  std::uint64_t cut_vertices = 0;   // whose motion was cut short
+  double microseconds_without = 0;  // of a part of a step
+  double microseconds = 0;          // of the same with self-contact
+};
+
+using ContactRow = std::variant<ApartRow, ImpactRow, RestRow, CostRow, SelfCostRow>;
 
 struct ContactResult {
   std::vector<ContactRow> rows;

@@ -37,6 +37,12 @@ std::string line(const CostRow& row) {
                      row.microseconds - row.microseconds_apart, row.microseconds_without);
 }
 
+std::string line(const SelfCostRow& row) {
+  return fmt::format("{:<12} {:<6} {:>4} {:>8} {:>7} {:>6} {:>9.1f} {:>9.1f} {:>6.2f}\n", row.mesh, name_of(row.device),
+                     row.precision, row.vertices, row.rests ? "rests" : "flies", row.cut_vertices, row.microseconds_without,
+                     row.microseconds, row.microseconds / row.microseconds_without);
+}
+
 template <class Row>
 std::string lines_of(const ContactResult& result, const std::string& header) {
   std::string lines;
@@ -105,6 +111,18 @@ Json row_json(const CostRow& row) {
           {"microseconds_without", row.microseconds_without}};
 }
 
+Json row_json(const SelfCostRow& row) {
+  return {{"kind", "self"},
+          {"mesh", row.mesh},
+          {"device", name_of(row.device)},
+          {"precision", row.precision},
+          {"vertices", row.vertices},
+          {"rests", row.rests},
+          {"cut_vertices", row.cut_vertices},
+          {"microseconds_without", row.microseconds_without},
+          {"microseconds", row.microseconds}};
+}
+
 }  // namespace
 
 std::string to_table(const ContactResult& result) {
@@ -121,6 +139,8 @@ std::string to_table(const ContactResult& result) {
                                                  "steps", "contacts", "cut", "edges/h", "drift"));
   table += lines_of<CostRow>(result, fmt::format("{:<6} {:>4} {:>8} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "cost", "bits",
                                                  "vertices", "edges/h", "contacts", "us", "apart", "more", "without"));
+  table += lines_of<SelfCostRow>(result, fmt::format("{:<12} {:<6} {:>4} {:>8} {:>7} {:>6} {:>9} {:>9} {:>6}\n", "self", "device",
+                                                     "bits", "vertices", "body", "cut", "us off", "us on", "ratio"));
   for (const std::string& note : result.notes) table += note + '\n';
   return table;
 }
@@ -137,6 +157,8 @@ const char* name_of(ContactStudy study) {
       return "rest";
     case ContactStudy::cost:
       return "cost";
+    case ContactStudy::self:
+      return "self";
   }
   return "";
 }

@@ -106,6 +106,17 @@ TEST_CASE("the suite contact makes one study alone if it is told to") {
   }
 }
 
+TEST_CASE("the suite contact measures self-contact of bodies that do not touch themselves") {
+  const ContactResult result = bench_contact({.devices = {.cpu = true, .threads = 2}, .only = ContactStudy::self, .quick = true},
+                                             [](double, std::string_view) { return true; });
+  REQUIRE(result.rows.size() == 4);  // sphere and ring, in flight and at rest
+  for (const ContactRow& any : result.rows) {
+    const auto* row = std::get_if<SelfCostRow>(&any);
+    REQUIRE(row != nullptr);
+    CHECK((row->microseconds > 0 && row->microseconds_without > 0 && row->cut_vertices == 0));
+  }
+}
+
 TEST_CASE("the suite contact ends early if it is told to, without rows of what was not done") {
   const ContactResult result =
       bench_contact({.devices = {.cpu = true, .threads = 2}, .quick = true}, [](double, std::string_view) { return false; });
