@@ -2,6 +2,8 @@
 #include "simulation/overlap.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -67,23 +69,24 @@ class Search {
     });
   }
 
-  // How many pairs of triangles of the body may touch elsewhere than where they share a vertex. Those that share an edge do not
-  // count.
-  std::uint64_t count_own_touching(const ModelBody& body) const {
-    std::uint64_t count = 0;
+  // Looks at the body's triangles, beyond where they share a vertex. Those that share an edge do not count.
+  OwnContacts own_contacts(const ModelBody& body) const {
+    OwnContacts found;
     const IndexedBox all = box_of(body, positions_);
     const double most = largest_margin(all, all);
     for_each_near(triangles_near(model_, body, positions_, all, most), most, [&](const IndexedBox& s, const IndexedBox& t) {
-      count += own_triangles_touch(model_.triangles[s.index], model_.triangles[t.index]) ? 1 : 0;
+      const double apart = own_distance(model_.triangles[s.index], model_.triangles[t.index]);
+      found.touching += apart > 0 ? 0 : 1;
+      found.too_near += apart > 0 && !std::isinf(apart) ? 1 : 0;
     });
-    return count;
+    return found;
   }
 
   // How many pairs of triangles may touch.
   std::uint64_t count_touching() const {
     std::uint64_t count = 0;
     for (const ModelBody& body : model_.bodies)
-      if (body.self_contact) count += count_own_touching(body);
+      if (body.self_contact) count += own_contacts(body).touching;
     for_each_near_bodies([&](const IndexedBox& a, const IndexedBox& b, double most) {
       for_each_near_triangles(
           model_, model_.bodies[a.index], a, model_.bodies[b.index], b, positions_, most,
@@ -120,18 +123,19 @@ class Search {
     return physics::margin_of_rounding(epsilon_, size, physics::rounded_from(far, far, largest_));
   }
 
-  // Triangles that share a vertex touch elsewhere, too, if the edge across from it of one of them meets the other.
-  [[nodiscard]] bool own_triangles_touch(const Corners& s, const Corners& t) const {
-    const auto is_shared = [](const Corners& other) {
+  // As distance(), of two triangles of one body. Those that share a vertex touch elsewhere, too, if the edge across from it of
+  // one of them meets the other.
+  [[nodiscard]] double own_distance(const Corners& s, const Corners& t) const {
+    const auto is_of = [](const Corners& other) {
       return [&](std::uint32_t vertex) { return std::ranges::find(other, vertex) != other.end(); };
     };
-    const auto shared = std::ranges::count_if(s, is_shared(t));
-    if (shared != 1) return shared == 0 && !(distance(s, t) > 0);
+    const auto shared = std::ranges::count_if(s, is_of(t));
+    if (shared != 1) return shared == 0 ? distance(s, t) : std::numeric_limits<double>::infinity();
     const auto edge_across = [&](const Corners& of, const Corners& other) {
-      const auto k = static_cast<std::size_t>(std::ranges::find_if(of, is_shared(other)) - of.begin());
+      const auto k = static_cast<std::size_t>(std::ranges::find_if(of, is_of(other)) - of.begin());
       return Corners{of[(k + 1) % 3], of[(k + 2) % 3], of[(k + 2) % 3]};
     };
-    return !(distance(edge_across(s, t), t) > 0) || !(distance(s, edge_across(t, s)) > 0);
+    return std::min(distance(edge_across(s, t), t), distance(s, edge_across(t, s)));
   }
 
   // Of two triangles [m]. 0 if they may touch, infinite if proofs can tell that they are apart.
@@ -238,8 +242,8 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
   return found;
 }
 
-std::uint64_t count_own_touching_pairs(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions) {
-  return Search(model, positions, 64).count_own_touching(body);
+OwnContacts own_contacts(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions, int precision) {
+  return Search(model, positions, precision).own_contacts(body);
 }
 
 std::uint64_t count_touching_pairs(const Model& model, std::span<const glm::dvec3> positions) {

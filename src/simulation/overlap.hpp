@@ -29,12 +29,19 @@ struct Overlap {
 [[nodiscard]] std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dvec3> positions,
                                                   const CollisionDescription& collision, int precision);
 
-/// Returns how many pairs of triangles of the body touch, or are so near that fp64 cannot tell: some 1e-15 of their size. Those
-/// that share a vertex count if they touch elsewhere, and those that share an edge do not. `positions` are as above.
-[[nodiscard]] std::uint64_t count_own_touching_pairs(const Model& model, const ModelBody& body,
-                                                     std::span<const glm::dvec3> positions);
+/// Pairs of triangles of one body. Those that share a vertex count by what else of them touches, and those that share an edge not
+/// at all.
+struct OwnContacts {
+  std::uint64_t touching = 0;  // or so near that fp64 cannot tell: some 1e-15 of their size
+  std::uint64_t too_near = 0;  // to be proven apart by numbers of the precision asked for
+};
 
-/// Returns the same of two bodies, and of one with self-contact, in all. Looks at no two static bodies. `positions` are as above.
+/// `positions` are as above.
+[[nodiscard]] OwnContacts own_contacts(const Model& model, const ModelBody& body, std::span<const glm::dvec3> positions,
+                                       int precision);
+
+/// Returns how many pairs of triangles of two bodies, or of one with self-contact, touch. Looks at no two static bodies.
+/// `positions` are as above.
 [[nodiscard]] std::uint64_t count_touching_pairs(const Model& model, std::span<const glm::dvec3> positions);
 
 }  // namespace pliant

@@ -60,9 +60,8 @@ std::string way_out_of(std::span<const Ground* const> grounds, const Model& mode
                      way.y, way.z, gap);
 }
 
-void expect_out_of_grounds(const Model& model, const State& state, const CollisionDescription& collision,
+void expect_out_of_grounds(const Model& model, std::span<const glm::dvec3> positions, const CollisionDescription& collision,
                            const std::string& place) {
-  const std::vector<glm::dvec3> positions = state.world_positions(model);
   for (const ModelBody& body : model.bodies) {
     const std::vector<const Ground*> grounds = grounds_under(model, body, positions);
     if (grounds.empty()) continue;
@@ -72,15 +71,22 @@ void expect_out_of_grounds(const Model& model, const State& state, const Collisi
   }
 }
 
-void expect_out_of_themselves(const Model& model, const State& state, const std::string& place) {
-  const std::vector<glm::dvec3> positions = state.world_positions(model);
+void expect_out_of_themselves(const Model& model, std::span<const glm::dvec3> positions, int precision,
+                              const std::string& place) {
   for (const ModelBody& body : model.bodies) {
-    const std::uint64_t pairs = body.self_contact ? count_own_touching_pairs(model, body, positions) : 0;
-    if (pairs == 0) continue;
-    throw Error(ErrorKind::input, place,
-                fmt::format("body \"{}\" intersects itself in {} pair{} of triangles, so self-contact can't keep it apart",
-                            body.name, pairs, pairs == 1 ? "" : "s"),
-                "mend its mesh, such as by weld, or remove self_contact");
+    if (!body.self_contact) continue;
+    const OwnContacts own = own_contacts(model, body, positions, precision);
+    const std::uint64_t pairs = own.touching > 0 ? own.touching : own.too_near;
+    const std::string counted = fmt::format("in {} pair{} of triangles", pairs, pairs == 1 ? "" : "s");
+    if (own.touching > 0)
+      throw Error(ErrorKind::input, place,
+                  fmt::format("body \"{}\" intersects itself {}, so self-contact can't keep it apart", body.name, counted),
+                  "mend its mesh, such as by weld, or its stretch, or remove self_contact");
+    if (own.too_near > 0)
+      throw Error(
+          ErrorKind::input, place,
+          fmt::format("body \"{}\" is too near itself to prove in fp{} that it stays apart, {}", body.name, precision, counted),
+          precision == 32 ? "take --precision 64, or remove self_contact" : "remove self_contact");
   }
 }
 
@@ -208,10 +214,11 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
 
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
-  expect_out_of_grounds(model, simulation.state(), collision, place);
-  expect_out_of_themselves(model, simulation.state(), place);
+  const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
   const int precision = simulation.precision();
-  const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), collision, precision);
+  expect_out_of_grounds(model, positions, collision, place);
+  expect_out_of_themselves(model, positions, precision, place);
+  const std::optional<Overlap> overlap = find_overlap(model, positions, collision, precision);
   if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));
 }
 
@@ -219,7 +226,9 @@ void expect_provable(Simulation& simulation, const Model& model, const Collision
                      const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
   const int precision = simulation.precision();
-  const std::optional<Overlap> overlap = find_overlap(model, simulation.state().world_positions(model), collision, precision);
+  const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
+  expect_out_of_themselves(model, positions, precision, place);
+  const std::optional<Overlap> overlap = find_overlap(model, positions, collision, precision);
   if (overlap)
     throw Error(
         ErrorKind::input, place,

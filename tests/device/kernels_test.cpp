@@ -351,6 +351,12 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
     REQUIRE(feels(start.model.bodies.back(), force));
   }
   setups.push_back(plate);
+  BodySetup ring = body_of_mesh(generate_mesh("ring:0.3,8"));  // is no star, so its tree is compared with itself
+  ring.description.name = "ring";
+  ring.description.self_contact = true;
+  ring.description.position = {0, 8, 0};
+  ring.description.stretch = {0.1, 0.1, 1};  // so that it touches itself
+  setups.push_back(ring);
   BodySetup paddle = sphere(0);
   paddle.description.name = "paddle";
   paddle.description.kind = BodyKind::scripted;

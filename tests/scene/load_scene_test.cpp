@@ -285,7 +285,8 @@ TEST_CASE("the drawn floor is the first ground that is level and faces up") {
 }
 
 TEST_CASE("what never moves does not move, and a ground is told in one way") {
-  for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]", "stretch = [1, 2, 1]", "pressure = 1"})
+  for (const char* key :
+       {"velocity = [1, 0, 0]", "spin = [1, 0, 0]", "stretch = [1, 2, 1]", "pressure = 1", "self_contact = true"})
     check_input_error(smallest + "kind = \"static\"\n" + key + "\n", 4, {"neither moves nor changes", "remove"});
   check_input_error("[[ground]]\nheight = 1\nnormal = [1, 0, 0]\n" + smallest, 3, {"can't be combined with height"});
   check_input_error("[[ground]]\nnormal = [0, 0, 0]\n" + smallest, 2, {"has no direction"});
@@ -329,7 +330,7 @@ TEST_CASE("a scripted body has what moves it, and no other body has that") {
   for (const char* kind : {"", "kind = \"soft\"\n", "kind = \"static\"\n"})
     CHECK_THROWS_WITH(load_text(smallest + kind + path), Catch::Contains("of the kind \"scripted\""));
   const std::string scripted = smallest + "kind = \"scripted\"\n";
-  for (const char* key : {"stretch = [1, 2, 1]", "pressure = 1"})
+  for (const char* key : {"stretch = [1, 2, 1]", "pressure = 1", "self_contact = true"})
     check_input_error(scripted + key + "\n", 4, {"does not change its shape", "remove"});
   check_input_error(scripted + "restitution = 0.5\n", 4, {"restitution", "remove"});
   for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]"}) {

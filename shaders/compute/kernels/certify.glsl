@@ -26,7 +26,7 @@ PARAMETER(uint, vertex_count)
 PARAMETER(uint, body_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(double, largest_body)  // radius at rest [m]
-PARAMETER(uint, watched_triangles)  // 0 if no body meets itself, and else all
+PARAMETER(uint, triangles_if_watched)  // all of them if a body meets itself, and else 0
 #include "parts/boxes_in_motion.glsl"
 #include "parts/star_centre.glsl"
 #include "parts/flight.glsl"
@@ -35,7 +35,7 @@ PARAMETER(uint, watched_triangles)  // 0 if no body meets itself, and else all
 // If the list of pairs is full, no body moves.
 uint items_in_a_round() {
   uint count = contact_list[0].triangle_pair_count;
-  return count <= triangle_pair_capacity ? count + watched_triangles : 0u;
+  return count <= triangle_pair_capacity ? count + triangles_if_watched : 0u;
 }
 uint rounds_at_most() { return cut_rounds; }
 bool goes_on(uint cut_round) { return contact_list[0].rounds_that_cut > cut_round; }
@@ -63,6 +63,7 @@ struct Case {
   real3 together[6];  // its flight, which it goes in any case [m]
   Motion motion;
   bool outlasts_rounding;  // the margin, while only rounding in fp64 moves the triangles against each other
+  uvec2 corner;            // which one of either that they share, or no_corner
 };
 
 // How a vertex goes by its flight, and the part of its way beside that as cuts leave it so far.
@@ -143,21 +144,12 @@ bool fly_together(IN(Case) c, uint cut_round) {
   return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
-// The corner of the first triangle that is one of the second, too, and which one of that it is, or no_corner.
-uvec2 shared_corner(IN(Case) c) {
-  uvec2 found = uvec2(uint(no_corner));
-  for (uint j = 0u; j < 3u; ++j)
-    for (uint k = 0u; k < 3u; ++k)
-      if (c.vertex[j] == c.vertex[3u + k]) found = uvec2(j, k);
-  return found;
-}
-
 const int most_pieces = 8;  // of the time of a step, for triangles of one body
 
 // Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other, and an earlier proof let them
 // come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one could fail: between large triangles
 // that are very near each other it does not find an axis well enough. Elsewhere they are proven to stand apart by half the margin.
-// There is one call of the proof, because compilers for GPUs write it out for each.
+// There is one call of each proof, because compilers for GPUs write it out for each.
 bool are_proven(Case c, uint cut_round) {
   if (all_stopped(c)) {
     if (!flies(c.vertex[0], cut_round) && !flies(c.vertex[3], cut_round)) return true;
@@ -168,8 +160,7 @@ bool are_proven(Case c, uint cut_round) {
     }
   }
   bool is_own = body_of(c.vertex[0]) == body_of(c.vertex[3]);
-  uvec2 corners = is_own ? shared_corner(c) : uvec2(uint(no_corner));
-  return stays_apart_in_pieces(c.motion, int(corners.x), int(corners.y), is_own ? most_pieces : 1);
+  return stays_apart_in_pieces(c.motion, int(c.corner.x), int(c.corner.y), is_own ? most_pieces : 1);
 }
 
 void stop_flight(uint i, uint cut_round) {
@@ -238,8 +229,9 @@ void certify_star(uint t, uint cut_round) {
   }
   if (!changed) return;
   bool all_stand;
-  if (faces_out(facet_of(b, who, cut_round, all_stand), real(surface[b].winding))) return;
-  if (cut_round + 1u == cut_rounds) {
+  Facet f = facet_of(b, who, cut_round, all_stand);
+  if (faces_out(f, real(surface[b].winding), rounding_of_places(b, star_centre(b)))) return;
+  if (cut_round + 1u == cut_rounds || (all_stand && !flies(who[0], cut_round))) {
     atomicAdd(contact_list[0].uncertified, 1u);
     return;
   }
@@ -248,11 +240,13 @@ void certify_star(uint t, uint cut_round) {
   if (all_stand) stop_flight(who[0], cut_round);
 }
 
-bool share_edge(IN_ARRAY(uint, who, 6)) {
-  uint both = 0u;
+// How many corners two triangles share, and the place of the last such corner in either, or no_corner.
+uvec3 common_corners(IN_ARRAY(uint, who, 6)) {
+  uvec3 found = uvec3(0u, no_corner, no_corner);
   for (uint j = 0u; j < 3u; ++j)
-    for (uint k = 3u; k < 6u; ++k) both += who[j] == who[k] ? 1u : 0u;
-  return both > 1u;
+    for (uint k = 0u; k < 3u; ++k)
+      if (who[j] == who[3u + k]) found = uvec3(found.x + 1u, j, k);
+  return found;
 }
 
 void certify(uint item, uint cut_round) {
@@ -269,10 +263,12 @@ void certify(uint item, uint cut_round) {
     who[k] = triangle[corner_of(triangles.x, k)];
     who[3u + k] = triangle[corner_of(triangles.y, k)];
   }
-  if (share_edge(who)) return;
   for (uint k = 0u; k < 6u; ++k) changed = changed || has_changed(who[k], cut_round);
   if (!changed) return;
+  uvec3 both = body_of(who[0]) == body_of(who[3]) ? common_corners(who) : uvec3(0u, no_corner, no_corner);
+  if (both.x > 1u) return;  // they share an edge
   Case c = case_of(who, cut_round);
+  c.corner = uvec2(both.y, both.z);
   if (are_proven(c, cut_round)) return;
   if (cut_round + 1u == cut_rounds)
     atomicAdd(contact_list[0].uncertified, 1u);

@@ -27,6 +27,7 @@ PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
 #include "parts/bound.glsl"
 #include "parts/flight.glsl"
+#include "parts/height_above.glsl"
 #include "parts/store_vertex_box.glsl"
 
 void empty_lists() {
@@ -42,12 +43,20 @@ void empty_lists() {
   contact_list[0].has_dues = 0u;
 }
 
+// How much further than expected a vertex may go of a body that may meet itself, and so push itself [m]. In the first step it is not known yet what forces do: in a step h they move
+// vertices by up to about (h omega)^2 times the body's size.
+double reach_of_folds(uint b) {
+  double step_omega = step_parts[0].full * surface[b].frequency;
+  double by_forces = step_parts[0].last == double(0) ? step_omega * step_omega * surface[b].diameter : double(0);
+  return max(double(0.25) * surface[b].edge, by_forces);
+}
+
 // How much further than expected a vertex may go, on all sides [m]. Bodies that are far from all others have more room. What quiet ones
 // have does not depend on others.
 double reach_beyond(uint b) {
   double edge = surface[b].edge;
-  if (status[b].folds != 0u) return reach_of_folds() * edge;
   if (status[b].calm >= quiet) return reach_in_edges() * edge;
+  if (status[b].folds != 0u) return reach_of_folds(b);
   return clamp(double(uintBitsToFloat(room[b].to_others)), reach_in_edges() * edge, double(1000) * edge);
 }
 
@@ -63,11 +72,8 @@ dvec3 most_push(uint b) {
 
 // An island of which a cage comes near a ground has no flight.
 void end_flight_near_grounds(uint b, dvec3 lower, dvec3 upper) {
-  dvec3 centre = double(0.5) * (lower + upper), half_size = double(0.5) * (upper - lower);
   for (uint g = 0u; g < ground_count; ++g) {
-    dvec3 normal = LOAD3(ground[g].normal, 0u);
-    double height = dot(normal, centre) - dot(abs(normal), half_size) - ground[g].offset;
-    if (height < gap_above(ground[g], surface[b])) ATOMIC_STORE(cluster[cluster[b].island].is_beside_static, 1u);
+    if (height_above(g, lower, upper) < gap_above(ground[g], surface[b])) ATOMIC_STORE(cluster[cluster[b].island].is_beside_static, 1u);
   }
 }
 

@@ -27,6 +27,7 @@ PARAMETER(uint, threads_of_a_body)
 PARAMETER(uint, ground_count)
 #include "parts/quiet_region.glsl"
 #include "parts/dues.glsl"
+#include "parts/height_above.glsl"
 #include "parts/is_steady.glsl"
 
 void allow(uint steps) { atomicMin(quiet_steps[0].end, steps); }
@@ -53,10 +54,7 @@ bool may_be_quiet(uint b) {
 
 bool is_above(uint g, uint b, uint steps) {
   Box box = quiet_region(b, steps);
-  dvec3 normal = LOAD3(ground[g].normal, 0u), centre = double(0.5) * dvec3(box.lower + box.upper);
-  dvec3 half_size = double(0.5) * dvec3(box.upper - box.lower);
-  double height = dot(normal, centre) - dot(abs(normal), half_size) - ground[g].offset;
-  return height > double(2) * gap_above(ground[g], surface[b]) + surface[b].nearness;
+  return height_above(g, dvec3(box.lower), dvec3(box.upper)) > double(2) * gap_above(ground[g], surface[b]) + surface[b].nearness;
 }
 
 void look_at(uint b) {

@@ -1,5 +1,5 @@
 // Compares bodies that may reach each other, and bounds the length of the step. No two of their vertices may approach by more than the
-// distance of the bodies and a quarter edge. Bodies that could touch within two steps, and those that were pressed a while ago, have a
+// distance of the bodies and a quarter edge, and a body that meets itself may not approach a ground by more. Bodies that could touch within two steps, and those that were pressed a while ago, have a
 // bound of their own. It also finds how much further than expected bodies may move without meeting others that are far, how bodies that
 // meet may push each other, which bodies are one island, and which of them another one disturbs.
 #include "../physics/body.glsl"
@@ -25,6 +25,7 @@ READ(ground)
 PARAMETER(uint, body_count)
 PARAMETER(uint, ground_count)
 #include "parts/bound_step.glsl"
+#include "parts/height_above.glsl"
 #include "parts/reach.glsl"
 
 // The largest that a number of the first box can be above one of the second.
@@ -74,12 +75,6 @@ void push_away(uint a, uint b, double speed) {
     atomicMin(room[a].least_push[k], least);  // nobody waits for their results
     atomicMax(room[a].most_push[k], most);
   }
-}
-
-// How far a box reaches along a normal, at least.
-double least_along(dvec3 normal, IN(Box) box) {
-  dvec3 centre = double(0.5) * (dvec3(box.lower) + dvec3(box.upper)), half_size = double(0.5) * (dvec3(box.upper) - dvec3(box.lower));
-  return dot(normal, centre) - dot(abs(normal), half_size);
 }
 
 bool moves(uint b) { return surface[b].inverse_mass != double(0); }  // by forces and impulses
@@ -166,9 +161,9 @@ void bound_pressed(uint b) {
 void bound_dents(uint b) {
   Box places = box_of_bits(body_box[b]), velocities = box_of_bits(body_motion[b]);
   for (uint g = 0u; g < ground_count && surface[b].meets_itself != 0u; ++g) {
-    dvec3 normal = LOAD3(ground[g].normal, 0u);
-    double height = least_along(normal, places) - ground[g].offset;
-    bound_speed(-least_along(normal, velocities), max(height, double(0)) + double(0.25) * surface[b].edge);
+    double height = height_above(g, dvec3(places.lower), dvec3(places.upper));
+    double falls = -least_along(LOAD3(ground[g].normal, 0u), dvec3(velocities.lower), dvec3(velocities.upper));
+    bound_speed(falls, max(height, double(0)) + double(0.25) * surface[b].edge);
   }
 }
 

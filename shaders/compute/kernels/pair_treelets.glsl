@@ -30,9 +30,10 @@ void pair_treelets(uint item) {
     uvec4 first = tree[near_pair[pair].x], second = tree[near_pair[pair].y];
     for (uint s = first.x + item % of_a_pair; s < first.x + first.y; s += of_a_pair) {
       PaddedBox box = box_of_node(treelet[s].first_node);
-      for (uint t = first.x == second.x ? s : second.x; t < second.x + second.y; ++t)
+      uint begin = first.x == second.x ? s : second.x, end = second.x + second.y;
+      for (uint t = begin; t < end; ++t)
         if (overlaps(box, box_of_node(treelet[t].first_node))) list_treelets(s, t);
-      tests += second.y;
+      tests += end - begin;
     }
   }
   TALLY_UP(control[0].count[node_tests], tests)

@@ -50,7 +50,8 @@ void sum_impact(uint c) {
   if (impulse.x == real(0)) return;
   uint a = uint(rest_position[who.x].w), b = body_count;
   if (who.y != no_vertex) b = uint(rest_position[weight.y * weight.x > real(0) ? who.z : who.y].w);
-  if (a == b || is_scripted(a) || is_scripted(b)) return;  // its velocity is its path's, so no impact is restored against it
+  if (a == b) return;                                // a body has no impacts with itself
+  if (is_scripted(a) || is_scripted(b)) return;  // its velocity is its path's, so no impact is restored against it
   uint keeper = keeper_of_impact(a, b);
   real side = (weight.x > real(0)) == (a == keeper) ? real(1) : real(-1);
   real3 given = impulse.x * real3(contact_row[contact_rows * c]) + real3(impulse.y, impulse.z, impulse.w);

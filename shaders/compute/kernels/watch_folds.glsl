@@ -14,8 +14,10 @@ READ(start)
 READ(surplus)
 WRITE(step_parts)
 READ(place_box)
+READ(pose)
 READ(body_motion)
 WRITE(status)
+PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/bound_step.glsl"
 #include "parts/star_centre.glsl"
 
@@ -44,13 +46,14 @@ bool stays_star(uint t, uint b) {
     f.end[k] = real3(LOAD3(start, start_position_of(i)) + whole_step * expected_velocity(i) - centre_later);
   }
   real winding = real(surface[b].winding), depth = real(least_depth * surface[b].edge);
-  return faces_out(f, winding) && is_deep_below(f.start[0], f.start[1], f.start[2], winding, depth) &&
+  return faces_out(f, winding, rounding_of_places(b, centre)) && is_deep_below(f.start[0], f.start[1], f.start[2], winding, depth) &&
          is_deep_below(f.end[0], f.end[1], f.end[2], winding, depth);
 }
 
 void watch_folds(uint t) {
   uint b = uint(rest_position[triangle[corner_of(t, 0u)]].w);
-  if (surface[b].meets_itself == 0u || is_still(status[b])) return;
-  bound_edges(t, b);
-  if (!stays_star(t, b)) ATOMIC_STORE(status[b].folds, 1u);
+  if (surface[b].meets_itself == 0u) return;
+  bool stands = is_still(status[b]);  // so far. Whether something wakes it is found later, and then its pairs are looked at
+  if (!stands) bound_edges(t, b);
+  if (stands || !stays_star(t, b)) ATOMIC_STORE(status[b].folds, 1u);
 }

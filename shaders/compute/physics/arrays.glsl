@@ -60,7 +60,7 @@ ARRAY(treelet_pair, uvec2, pair, step, "treelets of near bodies whose boxes over
 ARRAY(node, uvec4, node, fixed, "of treelets, level by level: first child, one past the last child (both 0: leaf), first triangle, end of triangles")
 ARRAY(node_box, vec4, node, step, "[node][2] lower, upper [m]")
 ARRAY(triangle, uint, triangle, fixed, "[triangle][3] vertex indices, in leaf order")
-ARRAY(near_pair, uvec4, pair, step, "two bodies, then the next pair of each by its number + 1, or 0; in no fixed order")
+ARRAY(near_pair, uvec4, pair, step, "two bodies, then the next pair of each by its number + 1, or 0; in no fixed order. A body that may meet itself is both, without links")
 ARRAY(grid_list, uint, list, step, "the first body that stands in a list of the grid, by its number + 1; 0 between steps")
 ARRAY(grid_entry, GridEntry, body, step, "where the body stands in the grid of boxes")
 ARRAY(grid_level, uint, run, step, "[7] a bit for each level of the grid on which bodies stand; 0 between steps")

@@ -52,7 +52,7 @@ struct Status {
   uint deformed;           // 1: vertices move relative to each other, so springs have to be summed
   uint force_stale;        // 1: the spring forces kept from the step before do not hold
   uint calm;               // steps in a row that left the body where it was, counted up to at_rest: see below
-  uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest
+  uint partner_step;       // the latest step in which its box overlapped that of another, of which one was not at rest, or it might meet itself
   uint first_pair;         // one of the pairs of near bodies that it belongs to, by its number + 1; 0: none
   float slow_for;          // up to sleeps_after: how long it has been slow [s]; beyond: it is fit to sleep (find_sleepers.glsl)
   uint pressed_by_static;  // number of the latest part of a step in which a ground or a static body gave it an impulse, 0: none

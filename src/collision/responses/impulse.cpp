@@ -23,8 +23,10 @@ namespace pliant {
 namespace {
 
 constexpr double unbounded = 1e30;  // [s]
-// Heaps of small bodies had up to 7 pairs of triangles whose cages overlap for each triangle, and 0.16 contacts.
-constexpr std::uint64_t pairs_of_triangle = 16, fewest_triangle_pairs = 1u << 20, most_triangle_pairs = 1u << 22;
+// Heaps of small bodies had up to 7 pairs of triangles whose cages overlap for each triangle, and 0.16 contacts. A body that may
+// meet itself has some 20 pairs for each of its own, which are near their neighbours.
+constexpr std::uint64_t pairs_of_triangle = 16, own_pairs_of_triangle = 48, fewest_triangle_pairs = 1u << 20,
+                        most_triangle_pairs = 1u << 22;
 constexpr std::uint64_t fewest_contacts = 1u << 16, most_contacts = 1u << physics::kept_index_bits;
 constexpr std::uint64_t features_of_pair = 15;  // of two triangles, each of which may have a contact
 constexpr std::size_t contact_numbers = 4 * physics::contact_rows;
@@ -79,7 +81,9 @@ std::uint32_t room_for_triangle_pairs(const Model& model) {
     triangles += body.triangle_count;
     if (!body.is_rigid()) moving += body.triangle_count;
   }
-  const std::uint64_t room = std::clamp(pairs_of_triangle * triangles, fewest_triangle_pairs, most_triangle_pairs);
+  const bool has_own = std::ranges::any_of(model.bodies, &ModelBody::self_contact);
+  const std::uint64_t room =
+      std::clamp((has_own ? own_pairs_of_triangle : pairs_of_triangle) * triangles, fewest_triangle_pairs, most_triangle_pairs);
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pairs, 1, room));
 }
 
@@ -105,7 +109,7 @@ class Impulse final : public Response {
     std::vector<physics::Surface> surfaces = surfaces_of(setting);
     for (const ModelBody& body : setting.model.bodies) largest_body_ = std::max(largest_body_, body.radius);
     if (std::ranges::any_of(setting.model.bodies, &ModelBody::self_contact))
-      watched_triangles_ = static_cast<std::uint32_t>(setting.forest.triangles.size());
+      triangles_if_watched_ = static_cast<std::uint32_t>(setting.forest.triangles.size());
     smallest_gap_ = smallest_gap(surfaces);
     bodies_.arrays.make("triangle_around", surroundings_of(setting.model, setting.forest, surfaces));
     bodies_.arrays.make("surface", surfaces);
@@ -135,7 +139,8 @@ class Impulse final : public Response {
           round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     std::ranges::move(scripted_bodies_.bounding_passes(), std::back_inserter(passes));
-    if (watched_triangles_ > 0) passes.push_back(make_pass(arrays, "watch_folds", {}, watched_triangles_));
+    if (triangles_if_watched_ > 0)
+      passes.push_back(make_pass(arrays, "watch_folds", {{"largest_body", largest_body_}}, triangles_if_watched_));
     std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
     if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
     std::ranges::move(scripted_bodies_.following_passes(), std::back_inserter(passes));
@@ -254,7 +259,7 @@ class Impulse final : public Response {
     if (has_pairs_)
       passes.push_back(round_pass("certify", {{"triangle_pair_capacity", triangle_pair_capacity_},
                                               {"largest_body", largest_body_},
-                                              {"watched_triangles", watched_triangles_}}));
+                                              {"triangles_if_watched", triangles_if_watched_}}));
     passes.push_back(make_pass(
         arrays, "settle",
         {{"from_half", from_half}, {"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}},
@@ -430,7 +435,7 @@ class Impulse final : public Response {
   ScriptedBodies scripted_bodies_;
   bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
   std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0,
-                                                                            watched_triangles_ = 0;
+                                                                            triangles_if_watched_ = 0;
   double smallest_gap_ = 0, time_step_ = 0, largest_body_ = 0;
   const DeviceArray<physics::StepParts>* parts_ = nullptr;
   DeviceArray<std::uint32_t>*contacts_ = nullptr, *impulses_ = nullptr;  // numbers of the device's precision

@@ -94,6 +94,14 @@ TEST_CASE("what never moves needs a response that allows it") {
   CHECK(response_of(scene_of("[[ground]]\n" + plate, "impulse")).name == "impulse");
 }
 
+TEST_CASE("self-contact needs contact by impulses") {
+  const std::string text = smallest + "self_contact = true\n";
+  for (const std::string response : {"reflect", "none"})
+    check_says(error_of([&] { return response_of(scene_of(text, response)); }),
+               {"scene.toml:5: body.body0.self_contact", response.c_str(), "remove self_contact", "response = \"impulse\""});
+  CHECK(response_of(scene_of(text, "impulse")).name == "impulse");
+}
+
 TEST_CASE("brute force needs a response that allows it") {
   const std::string text = "search = \"brute_force\"\n" + smallest;
   check_says(error_of([&] { return response_of(scene_of(text, "impulse")); }),

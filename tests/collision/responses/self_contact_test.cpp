@@ -59,7 +59,7 @@ ModelAndState wrung_bar(const Wringing& by, bool self_contact) {
 }
 
 std::uint64_t own_pairs(Simulation& simulation, const Model& model) {
-  return count_own_touching_pairs(model, model.bodies.front(), simulation.state().world_positions(model));
+  return own_contacts(model, model.bodies.front(), simulation.state().world_positions(model), 64).touching;
 }
 
 // How a body without gravity goes on.
@@ -96,11 +96,12 @@ TEST_CASE("a bar that is wrung and pressed together does not pass through itself
       CAPTURE(precision, by.turning, by.pressing);
       const auto device = make_cpu_device(2, precision);
       const Method method{"cv8", 0.01, DampingLaw::none};
-      const Course met = course_of(*device, wrung_bar(by, true), method, 30, 2);
+      const ModelAndState start = wrung_bar(by, true);
+      const Course met = course_of(*device, start, method, 30, 2);
       CHECK(met.most_pairs == 0);
       CHECK(met.report.contact_steps > 0);
       CHECK(met.report.held_parts == 0);
-      CHECK(met.report.reverted_vertices == 0);
+      CHECK(met.report.reverted_vertices * 100 <= met.report.contact_steps * start.model.vertex_count());
       CHECK(met.most_energy <= met.first_energy * (1 + 1e-3));
       CHECK(met.momentum_change < (precision == 64 ? 1e-13 : 1e-6));
       CHECK(course_of(*device, wrung_bar(by, false), method, 30, 2).most_pairs > 0);
@@ -158,6 +159,58 @@ TEST_CASE("a body that does not touch itself moves to the bit as it would withou
       }
       CHECK(last[0].motion == last[1].motion);
     }
+}
+
+TEST_CASE("a body that begins out of shape is not cut short") {
+  for (const char* mesh : {"ring:0.3,32", "icosphere:2"}) {
+    CAPTURE(mesh);
+    BodySetup setup = meeting_itself(generate_mesh(mesh));
+    setup.description.stretch = {1.5, 1, 1};
+    const ModelAndState start = build_model({&setup, 1}, {0, -9.81, 0});
+    const auto device = make_cpu_device(2, 32);
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.5 / omega}), by_impulses);
+    simulation.advance(10);
+    CHECK(simulation.report().reverted_vertices == 0);
+  }
+}
+
+TEST_CASE("a body that another one wakes does not pass through itself") {
+  BodySetup ring = meeting_itself(generate_mesh("ring:0.3,12"));
+  ring.description.position = {0, 0.31, 0};
+  ring.description.damping = 0.3;
+  BodySetup ball = soft(generate_mesh("icosphere:1"), "ball");
+  ball.description.scale = 0.5;
+  ball.description.total_mass = 20;
+  ball.description.position = {1, 60, 0};
+  const std::array setups = {ring, ball};
+  ModelAndState start = build_model(setups, {0, -9.81, 0}, std::array{GroundDescription()});
+  TimePlan plan = plan_of(Method{"verlet", 0.01, DampingLaw::internal});
+  plan.sleep = true;
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, start.model, start.state, plan, by_impulses);
+  std::uint64_t asleep = 0, touching = 0;
+  for (int look = 0; look < 90; ++look) {
+    simulation.advance(5);
+    asleep = std::max(asleep, simulation.report().bodies_asleep);
+    touching += own_pairs(simulation, start.model);
+  }
+  CHECK(asleep == 1);
+  CHECK(simulation.report().bodies_asleep == 0);  // the ball has come
+  CHECK(touching == 0);
+  CHECK(simulation.report().held_parts == 0);
+}
+
+TEST_CASE("steps by a tolerance keep a bar out of itself, too") {
+  const ModelAndState start = wrung_bar({30, 20}, true);
+  const auto device = make_cpu_device(2, 64);
+  Simulation simulation(*device, start.model, start.state, plan_of(Adaptive{}, start.model), by_impulses);
+  std::uint64_t touching = 0;
+  for (double time = 0.02; time < 0.3; time += 0.02) {
+    simulation.advance_to(time);
+    touching += own_pairs(simulation, start.model);
+  }
+  CHECK(touching == 0);
+  CHECK(simulation.report().contact_steps > 0);
 }
 
 TEST_CASE("a wrung bar ends in the same bits on any number of threads, and when it was saved") {
@@ -236,13 +289,31 @@ TEST_CASE("a body that intersects itself at the start is an error that counts th
   const auto device = make_cpu_device(1, 32);
   Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.01}), by_impulses);
   const std::uint64_t pairs =
-      count_own_touching_pairs(start.model, start.model.bodies[0], start.state.world_positions(start.model));
+      own_contacts(start.model, start.model.bodies[0], start.state.world_positions(start.model), 32).touching;
   CHECK(pairs > 10);
   check_says(error_of([&] {
                expect_apart(simulation, start.model, by_impulses, "scene.toml");
                return 0;
              }),
              {"scene.toml", "\"body\"", ("in " + std::to_string(pairs) + " pairs").c_str()});
+}
+
+TEST_CASE("a body that is too near itself for proofs in fp32 is an error, and higher precision is its remedy") {
+  TriangleMesh sheets{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2e-7}, {1, 0, 2e-7}, {0, 1, 2e-7}}, {{0, 1, 2}, {3, 5, 4}}};
+  const BodySetup setup = meeting_itself(std::move(sheets));
+  ModelAndState start = build_model({&setup, 1}, glm::dvec3(0.0));
+  for (const int precision : {32, 64}) {
+    const auto device = make_cpu_device(1, precision);
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.01}), by_impulses);
+    const auto check = [&] {
+      expect_apart(simulation, start.model, by_impulses, "scene.toml");
+      return 0;
+    };
+    if (precision == 64)
+      CHECK(check() == 0);
+    else
+      check_says(error_of(check), {"too near itself", "fp32", "in 1 pair of triangles", "--precision 64"});
+  }
 }
 
 TEST_CASE("a bar is wrung and pressed flat between plates for ten thousand steps, and does not pass through itself", "[long]") {

@@ -23,11 +23,12 @@ FN real sum_of_sizes_of(IN(real3) p) { return (abs(p.x) + abs(p.y)) + abs(p.z); 
 
 // Whether the triangle turns its outside away from the place all the time. `winding` is -1 if its corners go clockwise seen from outside,
 // and else 1. The volume is a cubic of time. It is positive if its four coefficients in the Bernstein basis are. A volume of corners of this
-// size errs by at most 32 roundings of its cube, and a sum of three of them by thrice that.
-FN bool faces_out(IN(Facet) f, real winding) {
+// size errs by at most 32 roundings of its cube, and a sum of three of them by thrice that. `off` is how far positions in the world may be
+// off by rounding [m].
+FN bool faces_out(IN(Facet) f, real winding, real off) {
   real size = real(0);
   for (int k = 0; k < 3; ++k) size = max(size, max(sum_of_sizes_of(f.start[k]), sum_of_sizes_of(f.end[k])));
-  real margin = real(32) * real_epsilon * (size * size * size);
+  real margin = (real(32) * real_epsilon * size + real(3) * off) * (size * size);
   real first = triple_product(f.start[0], f.start[1], f.start[2]), last = triple_product(f.end[0], f.end[1], f.end[2]);
   real second = triple_product(f.end[0], f.start[1], f.start[2]) + triple_product(f.start[0], f.end[1], f.start[2]) +
                 triple_product(f.start[0], f.start[1], f.end[2]);

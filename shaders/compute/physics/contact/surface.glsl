@@ -48,7 +48,7 @@ struct ContactList {
   double last_part;          // what step_parts.last was at the part's start [s]. settle changes that while others read it
   uint triangle_pair_count;  // pairs of triangles whose cages overlap
   uint contact_count;        // contacts between them, and with grounds
-  uint uncertified;          // pairs of triangles that were not proven to stay apart
+  uint uncertified;          // pairs of triangles that were not proven to stay apart, and triangles of stars
   uint rounds_that_cut;      // of proofs, up to the last one that cut motions short
   uint arrivals;             // of work groups that wait for each other, 0 between kernels that go in rounds
   uint fastest;              // largest length of the expected velocities of vertices with contacts [m/s], as bits of a float
@@ -64,7 +64,6 @@ struct ContactList {
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
-FN double reach_of_folds() { return double(1) / double(4); }  // the same where its surface may meet itself, and push it
 
 // Returns the edge that distances of a pair count in [m]: the smaller one of bodies that move.
 FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
