@@ -12,6 +12,7 @@
 #include "bench/common/step_cases.hpp"
 #include "bench/contact/report.hpp"
 #include "bench/draw/report.hpp"
+#include "bench/drops/report.hpp"
 #include "bench/forces/report.hpp"
 #include "bench/precision/report.hpp"
 #include "bench/stability/report.hpp"
@@ -126,6 +127,12 @@ int measure_collision(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_collision);
 }
 
+int measure_drops(const BenchOptions& options) {
+  if (!options.quick) bench::expect_scenes(options.scenes);
+  const bench::DropsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_drops);
+}
+
 int measure_draw(const BenchOptions& options) {
   bench::expect_scenes(options.scenes);
   const bench::DrawOptions asked{.gpu_index = options.gpu_index.value_or(0),
@@ -151,6 +158,8 @@ int bench(const BenchOptions& options) {
       return measure_contact(options);
     case BenchSuite::collision:
       return measure_collision(options);
+    case BenchSuite::drops:
+      return measure_drops(options);
     case BenchSuite::draw:
       break;
   }

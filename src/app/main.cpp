@@ -245,7 +245,8 @@ void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
 
 void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* bench = program.add_subcommand(
-      "bench", "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, collision, draw");
+      "bench",
+      "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, collision, drops, draw");
   bench->require_subcommand(1);
   CLI::App* forces = add_device_suite(*bench, options, app::BenchSuite::forces, "forces",
                                       "Spring forces by size of the body, beside what the hardware allows");
@@ -270,6 +271,9 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
                               "One study alone");
   add_device_suite(*bench, options, app::BenchSuite::collision, "collision",
                    "Finding all pairs of triangles that touch, beside other libraries' trees");
+  CLI::App* drops = add_device_suite(*bench, options, app::BenchSuite::drops, "drops",
+                                     "Soft bodies that fall on a floor, beside Bullet's: time, space, volume and energy");
+  drops->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny beside it (default scenes)");
   add_draw_suite(*bench, options);
 }
 

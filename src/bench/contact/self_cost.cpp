@@ -1,7 +1,9 @@
 #include "bench/contact/self_cost.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
