@@ -54,7 +54,7 @@ TEST_CASE("bench contact makes one study alone if it is asked to, and says which
   const auto json = checked_results("contact --only cost --device cpu --threads 1", folder.path / "contact.json");
   CHECK(json["options"]["only"] == "cost");
   for (const auto& row : json["rows"]) CHECK(row["kind"] == "cost");
-  check_fails("contact --only price", 2, "price not in {apart,impacts,rest,cost}");
+  check_fails("contact --only price", 2, "price not in {apart,impacts,rest,cost,self}");
   if (!test::lacks_gl()) check_fails("contact --only impacts --device gpu", 2, "measured on the CPU alone");
 }
 
