@@ -83,7 +83,7 @@ ReadJson Viewed::await(const std::function<bool(const ReadJson&)>& is_wanted, st
 }
 
 std::string Viewed::await_text(const std::string& beginning) {
-  return await_line([&](const std::string& line) { return line.starts_with(beginning); }, patience);
+  return await_line([&](const std::string& line) { return line.starts_with(beginning); }, longest_wait);
 }
 
 render::Image Viewed::saved_picture() {

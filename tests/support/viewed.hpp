@@ -25,7 +25,7 @@ inline bool has_turned_by_a_quarter(const ReadJson& before, const ReadJson& afte
 
 /// How long a test waits for what it wants to read. Mesa compiles the kernels of contact for two minutes where they are not in its
 /// cache, and for longer beside other tests.
-constexpr std::chrono::minutes patience{10};
+constexpr std::chrono::minutes longest_wait{10};
 
 /// The program in its window. Leaks are not looked for, because the driver's libraries leave some. They are unloaded with the
 /// window, so no suppression knows their names afterwards.
@@ -47,7 +47,7 @@ class Viewed {
   void click(const glm::ivec2& at) const { xdotool(move_to(at) + "click 1"); }
   void drop(const std::filesystem::path& file) const { display_.drop(file, window_); }
   /// Reads reports until one is as wanted.
-  ReadJson await(const std::function<bool(const ReadJson&)>& is_wanted, std::chrono::minutes at_most = patience);
+  ReadJson await(const std::function<bool(const ReadJson&)>& is_wanted, std::chrono::minutes at_most = longest_wait);
   /// Reads lines until one begins with this.
   std::string await_text(const std::string& beginning);
   /// The picture that the program saves.

@@ -144,7 +144,7 @@ bool fly_together(IN(Case) c, uint cut_round) {
   return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
-const int most_pieces = 8;  // of the time of a step, for triangles of one body
+const real shortest_piece = real(1) / real(256);  // of the time of a step, for triangles of one body
 
 // Whether the triangles stay apart. If they fly along together, rounding alone moves them against each other, and an earlier proof let them
 // come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one could fail: between large triangles
@@ -160,7 +160,7 @@ bool are_proven(Case c, uint cut_round) {
     }
   }
   bool is_own = body_of(c.vertex[0]) == body_of(c.vertex[3]);
-  return stays_apart_in_pieces(c.motion, int(c.corner.x), int(c.corner.y), is_own ? most_pieces : 1);
+  return stays_apart_in_pieces(c.motion, int(c.corner.x), int(c.corner.y), is_own ? shortest_piece : real(1));
 }
 
 void stop_flight(uint i, uint cut_round) {

@@ -43,20 +43,12 @@ void empty_lists() {
   contact_list[0].has_dues = 0u;
 }
 
-// How much further than expected a vertex may go of a body that may meet itself, and so push itself [m]. In the first step it is not known yet what forces do: in a step h they move
-// vertices by up to about (h omega)^2 times the body's size.
-double reach_of_folds(uint b) {
-  double step_omega = step_parts[0].full * surface[b].frequency;
-  double by_forces = step_parts[0].last == double(0) ? step_omega * step_omega * surface[b].diameter : double(0);
-  return max(double(0.25) * surface[b].edge, by_forces);
-}
-
 // How much further than expected a vertex may go, on all sides [m]. Bodies that are far from all others have more room. What quiet ones
 // have does not depend on others.
 double reach_beyond(uint b) {
   double edge = surface[b].edge;
   if (status[b].calm >= quiet) return reach_in_edges() * edge;
-  if (status[b].folds != 0u) return reach_of_folds(b);
+  if (status[b].folds != 0u) return reach_of_folds() * edge;
   return clamp(double(uintBitsToFloat(room[b].to_others)), reach_in_edges() * edge, double(1000) * edge);
 }
 

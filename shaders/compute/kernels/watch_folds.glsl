@@ -35,6 +35,12 @@ void bound_edges(uint t, uint b) {
   }
 }
 
+// In the first step it is not known yet what forces do. In a step h they move vertices by (h omega)^2 times the body's size, at most about.
+void bound_first_step(uint b) {
+  if (step_parts[0].last == double(0) && status[b].deformed != 0u)
+    bound_step(sqrt(reach_of_folds() * surface[b].edge / surface[b].diameter) / surface[b].frequency);
+}
+
 bool stays_star(uint t, uint b) {
   double whole_step = step_parts[0].full;
   Box velocity = box_of_bits(body_motion[b]);
@@ -55,5 +61,7 @@ void watch_folds(uint t) {
   if (surface[b].meets_itself == 0u) return;
   bool stands = is_still(status[b]);  // so far. Whether something wakes it is found later, and then its pairs are looked at
   if (!stands) bound_edges(t, b);
-  if (stands || !stays_star(t, b)) ATOMIC_STORE(status[b].folds, 1u);
+  if (!stands && stays_star(t, b)) return;
+  ATOMIC_STORE(status[b].folds, 1u);
+  if (!stands) bound_first_step(b);
 }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <set>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "collision/collider.hpp"
@@ -155,7 +157,15 @@ TEST_CASE("a ball that falls at twice r omega is flattened, and does not turn in
   }
 }
 
-TEST_CASE("a body that does not touch itself moves to the bit as it would without self-contact") {
+// The largest difference of two motions, in [m] and [m/s].
+double difference(const State& a, const State& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.motion.size(); ++k) most = larger(most, std::abs(a.motion[k] - b.motion[k]));
+  return most;
+}
+
+// The first step of a ring falls into parts, because it is no star.
+TEST_CASE("a body that does not touch itself moves as it would without self-contact, and a star to the bit") {
   for (const TestDevice& test : all_devices())
     for (const char* mesh : {"icosphere:1", "ring:0.3,8"}) {
       CAPTURE(test.name, mesh);
@@ -170,8 +180,34 @@ TEST_CASE("a body that does not touch itself moves to the bit as it would withou
         CHECK(simulation.report().contact_steps == 0);
         CHECK(simulation.report().reverted_vertices == 0);
       }
-      CHECK(last[0].motion == last[1].motion);
+      CHECK(difference(last[0], last[1]) < 1e-4);
+      if (std::string_view(mesh).starts_with("icosphere")) CHECK((last[0].motion == last[1].motion));
     }
+}
+
+TEST_CASE("a thin plate turns with self-contact as without, though its sides are near each other") {
+  State last[2];
+  for (const bool self_contact : {false, true}) {
+    BodySetup setup = meeting_itself(generate_mesh("box:1,1,0.01,1"), self_contact);
+    setup.description.spin = {6, 6, 0};
+    const ModelAndState start = build_model({&setup, 1}, glm::dvec3(0.0));
+    const auto device = make_cpu_device(1, 32);
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 1.0 / 60}), by_impulses);
+    simulation.advance(60);
+    last[self_contact ? 1 : 0] = simulation.state();
+    CHECK(simulation.report().reverted_vertices == 0);
+  }
+  CHECK(difference(last[0], last[1]) < 1e-4);
+}
+
+TEST_CASE("a fine thin plate at rest is not held in its first step") {
+  const BodySetup setup = meeting_itself(generate_mesh("box:1,1,0.01,28"));
+  const ModelAndState start = build_model({&setup, 1}, glm::dvec3(0.0));
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 1.0 / 60}), by_impulses);
+  simulation.advance(2);
+  CHECK(simulation.report().held_parts == 0);
+  CHECK(simulation.report().reverted_vertices == 0);
 }
 
 TEST_CASE("a body that begins out of shape is not cut short") {

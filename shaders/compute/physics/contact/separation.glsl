@@ -176,9 +176,8 @@ FN bool stays_apart(IN(Motion) m, int of_first, int of_second) {
 }
 FN bool stays_apart(IN(Motion) m) { return stays_apart(m, int(no_corner), int(no_corner)); }
 
-FN Motion piece_of(IN(Motion) m, int piece, int pieces) {
-  if (pieces == 1) return m;
-  real from = real(piece) / real(pieces), to = real(piece + 1) / real(pieces);
+// The same motion from one part of its time to another.
+FN Motion between(IN(Motion) m, real from, real to) {
   Motion p = m;
   for (int k = 0; k < 6; ++k) {
     p.start[k] = m.start[k] + from * (m.end[k] - m.start[k]);
@@ -187,14 +186,20 @@ FN Motion piece_of(IN(Motion) m, int piece, int pieces) {
   return p;
 }
 
-// The same in one, two, four or at most so many pieces of the time. Triangles that turn together may need another axis for each.
-FN bool stays_apart_in_pieces(IN(Motion) m, int of_first, int of_second, int most_pieces) {
-  for (int pieces = 1; pieces <= most_pieces; pieces *= 2) {
-    bool all = true;
-    for (int piece = 0; piece < pieces && all; ++piece) all = stays_apart(piece_of(m, piece, pieces), of_first, of_second);
-    if (all) return true;
+// The same in pieces of the time, down to such a part of it. Triangles that turn together may need another axis for each piece. After a
+// piece that was proven, one of twice its length is tried.
+FN bool stays_apart_in_pieces(IN(Motion) m, int of_first, int of_second, real shortest) {
+  real from = real(0), piece = real(1);
+  while (from < real(1)) {
+    if (stays_apart(between(m, from, from + piece), of_first, of_second)) {
+      from += piece;
+      piece = min(real(2) * piece, real(1) - from);
+    } else {
+      piece *= real(0.5);
+      if (piece < shortest) return false;
+    }
   }
-  return false;
+  return true;
 }
 
 REAL_END

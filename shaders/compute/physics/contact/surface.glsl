@@ -64,6 +64,7 @@ struct ContactList {
 };
 
 FN double reach_in_edges() { return double(1) / double(8); }  // that a vertex may move beyond what is expected
+FN double reach_of_folds() { return double(1) / double(4); }  // the same where its surface may meet itself, and push it
 
 // Returns the edge that distances of a pair count in [m]: the smaller one of bodies that move.
 FN double edge_of_pair(IN(Surface) a, IN(Surface) b) {
