@@ -45,9 +45,12 @@ double drawing_time(SceneView& view, Look look) {
   return (clock_time() - begin) / pictures;
 }
 
+std::string in_milliseconds(double seconds) { return fmt::format("{:.{}f} ms", 1e3 * seconds, seconds < 0.01 ? 1 : 0); }
+
 std::string told(double simulating, double drawing) {
-  return fmt::format("{}{:.2g} ms to simulate and {:.2g} ms to draw of a picture's 16.7, and more when bodies meet",
-                     simulating + drawing > time_of_a_picture ? "slow motion here: " : "", 1e3 * simulating, 1e3 * drawing);
+  return fmt::format("{}{} to simulate and {} to draw of a picture's 16.7, and more when bodies meet",
+                     simulating + drawing > time_of_a_picture ? "slow motion here: " : "", in_milliseconds(simulating),
+                     in_milliseconds(drawing));
 }
 
 }  // namespace
