@@ -355,7 +355,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   ring.description.name = "ring";
   ring.description.self_contact = true;
   ring.description.position = {0, 8, 0};
-  ring.description.stretch = {0.1, 0.1, 1};  // so that it touches itself
+  ring.description.stretch = {1.1, 1, 1};
   setups.push_back(ring);
   BodySetup paddle = sphere(0);
   paddle.description.name = "paddle";
