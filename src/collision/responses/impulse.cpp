@@ -24,7 +24,7 @@ namespace {
 
 constexpr double unbounded = 1e30;  // [s]
 // Heaps of small bodies had up to 7 pairs of triangles whose cages overlap for each triangle, and 0.16 contacts. A body that may
-// meet itself has some 20 pairs for each of its own, which are near their neighbours.
+// meet itself has more of its own, because triangles are near their neighbours.
 constexpr std::uint64_t pairs_of_triangle = 16, own_pairs_of_triangle = 48, fewest_triangle_pairs = 1u << 20,
                         most_triangle_pairs = 1u << 22;
 constexpr std::uint64_t fewest_contacts = 1u << 16, most_contacts = 1u << physics::kept_index_bits;

@@ -178,6 +178,7 @@ FN bool stays_apart(IN(Motion) m) { return stays_apart(m, int(no_corner), int(no
 
 // The same motion from one part of its time to another.
 FN Motion between(IN(Motion) m, real from, real to) {
+  if (from == real(0) && to == real(1)) return m;
   Motion p = m;
   for (int k = 0; k < 6; ++k) {
     p.start[k] = m.start[k] + from * (m.end[k] - m.start[k]);

@@ -22,9 +22,9 @@ struct Surface {
   double nearness;         // contacts of a pair matter where its features come as near as the sum of both [m]
   uint first_vertex;
   uint to_mesh;  // from a triangle of the body, in leaf order, to its place in `triangle_around`, modulo 2^32
-  uint meets_itself;   // 1: contacts keep its surface from passing through itself
+  uint meets_itself;  // 1: contacts keep its surface from passing through itself
   uint padding;
-  double winding;      // if that is of a sphere's kind: 1 if corners go counter-clockwise seen from outside, -1 if clockwise; else 0
+  double winding;  // if that is of a sphere's kind: 1 if corners go counter-clockwise seen from outside, -1 if clockwise; else 0
 };
 
 // How much further than expected the vertices of a body may go.
