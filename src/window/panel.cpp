@@ -276,10 +276,11 @@ Panel::Panel(float scale) : mouse_(std::make_unique<Mouse>()) {
 
 Panel::~Panel() { end_style(); }
 
-// Keys that write nothing are down for one picture.
+// Keys that write nothing are down for one picture. ImGui's own `WantTextInput` lags a picture behind what has the focus.
 bool Panel::types(const std::string& key) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.ActiveId == 0 || context.ActiveId != context.InputTextState.ID) return false;
   ImGuiIO& io = ImGui::GetIO();
-  if (!io.WantTextInput) return false;
   const auto found = std::ranges::find(typing_keys, key, &TypingKey::first);
   if (found != std::end(typing_keys))
     io.KeysDown[found->second] = true;

@@ -147,7 +147,8 @@ void Viewer::await_events() {
   std::ranges::move(waits ? window_.wait_for_events(longest) : window_.poll_events(), std::back_inserter(events_));
 }
 
-// ImGui looks at the mouse once a picture, so the panel gets at most one press or release in it. Later events wait for the next.
+// ImGui looks at buttons and keys once a picture, so the panel gets at most one press or release in it. Later events wait for
+// the next.
 void Viewer::handle_events() {
   bool is_heard = false;
   while (!events_.empty() && !window_.is_closed() && !is_heard) {
@@ -156,7 +157,7 @@ void Viewer::handle_events() {
     if (panel_ == nullptr || !panel_->takes(event))
       std::visit([this](const auto& e) { handle(e); }, event);
     else
-      is_heard = std::holds_alternative<MousePressed>(event) || std::holds_alternative<MouseReleased>(event);
+      is_heard = !std::holds_alternative<MouseMoved>(event) && !std::holds_alternative<MouseScrolled>(event);
   }
 }
 
