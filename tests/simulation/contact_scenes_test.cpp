@@ -278,7 +278,8 @@ TEST_CASE("spheres and a bunny that have rained into a box come to rest and slee
   CHECK(play.report().held_parts == 0);
 }
 
-// Contacts make single vertices of these go at ten times the speed at which a body may sleep.
+// Contacts make single vertices of these go at ten times the speed at which a body may sleep. Of eight starts that differ by a
+// millimetre all sleep after 6.5 to 7.7 s.
 TEST_CASE("bodies of half that size sleep, though their vertices tremble", "[long]") {
   std::vector<std::string> halved(few_of_a_thousand, std::end(few_of_a_thousand) - 1);
   for (const char* change :

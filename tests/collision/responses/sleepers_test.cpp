@@ -11,8 +11,8 @@ namespace pliant {
 namespace {
 
 constexpr std::uint32_t sleepers = 3;
-constexpr double step = 0.125;                      // [s]
-constexpr double sleep_speed = 1, sleep_way = 0.5;  // [m/s], [m]
+constexpr double step = 0.125;                        // [s]
+constexpr double sleep_speed = 0.5, sleep_way = 0.5;  // [m/s], [m]
 
 // Three bodies of a vertex that have been slow for long. The first two are an island, of which a ground bears the first one.
 struct Slumber {
