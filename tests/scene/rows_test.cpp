@@ -41,6 +41,9 @@ TEST_CASE("overrides reach all bodies in rows, or one of them") {
   for (std::size_t b = 1; b < 13; ++b) CHECK(scene.bodies[b].scale == (scene.bodies[b].name == "ball[0,0,1]" ? 3 : 2));
   const auto last = std::ranges::find(scene.bodies, "ball[1,0,2]", &BodyDescription::name);
   CHECK(last->total_mass == 8);  // in place of the file's vertex_mass
+  for (const BodyDescription& body :
+       load_text(in_rows, {"body.ball.self_contact=true", "body.ball[0,0,1].self_contact=false"}).bodies)
+    CHECK(body.self_contact == (body.name != "a" && body.name != "ball[0,0,1]"));
   check_override_error(in_rows, "body.ball[2,0,0].scale=1", {"[2,0,0]", "none of the bodies", "[1,0,2]"});
   check_override_error(in_rows, "body.ball[0,0].scale=1", {"there is no body"});
   check_override_error(in_rows, "body.a[0,0,0].scale=1", {"there is no body"});
