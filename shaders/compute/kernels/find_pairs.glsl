@@ -11,10 +11,7 @@ READ(node_box)
 WRITE(leaf_pair)
 PARAMETER(uint, leaf_pair_capacity)
 
-void found_leaves(uvec2 leaves) {
-  uint at = atomicAdd(control[0].leaf_pair_count, 1u);  // alone: threads come here one by one
-  if (at < leaf_pair_capacity) leaf_pair[at] = leaves;
-}
+void found_leaves(uvec2 leaves) { APPEND(leaf_pair, control[0].leaf_pair_count, leaf_pair_capacity, leaves) }
 
 #include "parts/node_boxes.glsl"
 #include "parts/descend.glsl"

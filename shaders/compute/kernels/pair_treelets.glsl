@@ -16,8 +16,7 @@ PARAMETER(uint, search_threads)
 #include "parts/node_boxes.glsl"
 
 void list_treelets(uint s, uint t) {
-  uint at = atomicAdd(control[0].treelet_pair_count, 1u);  // alone: threads come here one by one
-  if (at < treelet_pair_capacity) treelet_pair[at] = uvec2(s, t);
+  APPEND(treelet_pair, control[0].treelet_pair_count, treelet_pair_capacity, uvec2(s, t))
   ATOMIC_STORE(treelet_step[s], control[0].step);
   ATOMIC_STORE(treelet_step[t], control[0].step);
 }

@@ -24,13 +24,14 @@ void test_all_pairs(uint item) {
     uint s = first.z + item % threads_per_pair;
     if (s >= first.w) continue;
     PaddedBox box = box_of_triangle(s);
-    uint tests = 0u;
+    uint tests = 0u, touching = 0u;
     for (uint t = second.z; t < second.w; ++t) {
       if (!overlaps(box, box_of_triangle(t))) continue;
-      mark_contact(s, t);
+      touching += mark_contact(s, t);
       ++tests;
     }
-    atomicAdd(control[0].count[node_tests], second.w - second.z);
-    atomicAdd(control[0].count[triangle_tests], tests);
+    TALLY_UP(control[0].count[node_tests], second.w - second.z)
+    TALLY_UP(control[0].count[triangle_tests], tests)
+    TALLY_UP(control[0].count[contact_pairs], touching)
   }
 }

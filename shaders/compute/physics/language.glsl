@@ -55,6 +55,9 @@
   #define NEAR_ADD(before, target, value) const uint before = target; target += (value);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
   #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
+  #define TAKE_PLACES(first, next, count) uint first = atomicAdd(next, count);
+  #define TALLY_UP(tally, count) tallies.add(tally, count);
+  #define APPEND(list, count, capacity, value) appended.add(list, count, capacity, value);
 #else
   #define real float
   #define real_epsilon 1.1920929e-7  // 2^-23
@@ -88,24 +91,33 @@
 
 // Takes `count` places from `next`, which all threads share, and declares `first` as the first of them. TALLY_UP counts what nobody takes.
 // Additions to one number come one after the other, each some 0.5 ns on an H100, so on a GPU one thread adds for its subgroup. That takes
-// longer where threads come one by one, as in a descent.
-#ifdef HAS_SUBGROUPS
-  #define TAKE_PLACES(first, next, count)                                  \
-    uint first = 0u;                                                       \
-    {                                                                      \
-      uint taken = (count), together = subgroupAdd(taken);                 \
-      uint before = subgroupExclusiveAdd(taken);                           \
-      if (subgroupElect()) first = atomicAdd(next, together);              \
-      first = subgroupBroadcastFirst(first) + before;                      \
+// longer where threads come one by one, as in a descent. On the CPU a thread adds for all items that it takes together.
+// APPEND adds a value to a list that nothing in this dispatch reads, where threads come one by one. Values are counted beyond the list's
+// capacity, too.
+#ifndef __cplusplus
+  #define APPEND(list, count, capacity, value)               \
+    {                                                        \
+      uint list_place = atomicAdd(count, 1u);                \
+      if (list_place < (capacity)) list[list_place] = value; \
     }
-  #define TALLY_UP(tally, count)                                         \
-    {                                                                    \
-      uint together = subgroupAdd(count);                                \
-      if (subgroupElect() && together != 0u) atomicAdd(tally, together); \
-    }
-#else
-  #define TAKE_PLACES(first, next, count) uint first = atomicAdd(next, count);
-  #define TALLY_UP(tally, count) if ((count) != 0u) atomicAdd(tally, count);
+  #ifdef HAS_SUBGROUPS
+    #define TAKE_PLACES(first, next, count)                                \
+      uint first = 0u;                                                     \
+      {                                                                    \
+        uint taken = (count), together = subgroupAdd(taken);               \
+        uint before = subgroupExclusiveAdd(taken);                         \
+        if (subgroupElect()) first = atomicAdd(next, together);            \
+        first = subgroupBroadcastFirst(first) + before;                    \
+      }
+    #define TALLY_UP(tally, count)                                         \
+      {                                                                    \
+        uint together = subgroupAdd(count);                                \
+        if (subgroupElect() && together != 0u) atomicAdd(tally, together); \
+      }
+  #else
+    #define TAKE_PLACES(first, next, count) uint first = atomicAdd(next, count);
+    #define TALLY_UP(tally, count) if ((count) != 0u) atomicAdd(tally, count);
+  #endif
 #endif
 
 // Flat arrays of doubles hold three numbers a vector, because std430 and C++ disagree on arrays of dvec3. In a local struct their places are

@@ -92,7 +92,8 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, const Collisi
   const std::uint32_t most = most_treelet_pairs(treelets, most_near_pairs);
   const std::uint32_t pairs_of_a_group = device.info().kind == DeviceKind::gpu ? 32 : 1;  // 16 and 64 take an H200 as long
   search_groups_ = std::clamp(most / pairs_of_a_group, 1u, most_groups_of(parallel_items));
-  pairing_threads_ = pairs_at_once(parallel_items, 1, most);
+  pairing_threads_ =
+      device.info().kind == DeviceKind::gpu ? pairs_at_once(parallel_items, 1, most) : std::min(parallel_items, most);
   Arrays& arrays = bodies.arrays;
   arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity_);
   arrays.set_parameter("treelet_pair_capacity", treelet_pairs);

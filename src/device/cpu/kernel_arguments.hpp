@@ -1,5 +1,6 @@
 // The arguments of a kernel on the CPU.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
