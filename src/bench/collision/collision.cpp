@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "bench/collision/tree_peers.hpp"
+#include "bench/collision/two_spheres.hpp"
 #include "bench/common/timing.hpp"
 #include "collision/collider.hpp"
 #include "core/stopwatch.hpp"
-#include "mesh/generators.hpp"
 #include "physics/collision/box.glsl"
 #include "physics/collision/certified_triangles.glsl"
 
@@ -54,19 +54,6 @@ struct Overlap {
 // Spheres that are apart have boxes that overlap. Others overlap by this part of their diameter.
 const std::array<Overlap, 3> overlaps = {Overlap{"apart", {1.2, 1.2, 1.2}}, Overlap{"5 %", {1.9, 0, 0}},
                                          Overlap{"50 %", {1, 0, 0}}};
-
-ModelAndState two_spheres(int level, const glm::dvec3& apart) {
-  std::vector<BodySetup> setups(2);
-  for (BodySetup& setup : setups) {
-    setup.mesh = generate_mesh(fmt::format("icosphere:{}", level));
-    setup.description.rotation = {10, 20, 30};  // no edge lies along an axis
-  }
-  setups[0].description.name = "first";
-  setups[1].description.name = "second";
-  setups[1].description.rotation = {40, 15, 70};
-  setups[1].description.position = apart;
-  return build_model(setups, glm::dvec3(0.0));
-}
 
 TwoMeshes meshes_of(const ModelAndState& start) {
   TwoMeshes meshes;
