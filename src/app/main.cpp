@@ -269,8 +269,9 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
                                {"cost", app::BenchStudy::cost},
                                {"self", app::BenchStudy::self}},
                               "One study alone");
-  add_device_suite(*bench, options, app::BenchSuite::collision, "collision",
-                   "Finding all pairs of triangles that touch, beside other libraries' trees");
+  add_device_suite(
+      *bench, options, app::BenchSuite::collision, "collision",
+      "Finding all pairs of triangles that touch, beside other libraries' trees, and steps in contact by their passes");
   CLI::App* drops = add_device_suite(*bench, options, app::BenchSuite::drops, "drops",
                                      "Soft bodies that fall on a floor, beside Bullet's: time, space, volume and energy");
   drops->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny beside it (default scenes)");

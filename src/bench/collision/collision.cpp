@@ -232,25 +232,31 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
   const std::vector<Place> places = places_of(options.devices, precisions);
   const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
   const int finest = options.quick ? 4 : 7;
-  const int cases = (finest - 2) * static_cast<int>(overlaps.size());
+  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1);
   int done = 0;
-  for (int level = 3; level <= finest; ++level)
+  const auto tell = [&](const std::string& what) {
+    if (!result.interrupted) result.interrupted = !progress(double(done) / cases, what);
+    return !result.interrupted;
+  };
+  for (int level = 3; level <= finest; ++level) {
     for (const Overlap& overlap : overlaps) {
       Case what(overlap, level, options.quick, result);
       const std::string size = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
-      const auto tell = [&](const std::string& engine) {
-        if (!result.interrupted) result.interrupted = !progress(double(done) / cases, size + ", " + engine);
-        return !result.interrupted;
-      };
       for (const Place& place : places)
         for (const Search& search : searches)
           if (search.method == ContactSearch::tree || is_short_enough(what, options.quick))
-            if (tell(fmt::format("{}, {}", search.name, name_of(place)))) what.measure(place, search);
+            if (tell(fmt::format("{}, {}, {}", size, search.name, name_of(place)))) what.measure(place, search);
       for (const TreeLibrary& library : libraries)
-        if (tell(library.name)) what.measure(library);
+        if (tell(fmt::format("{}, {}", size, library.name))) what.measure(library);
       if (result.interrupted) return result;
       ++done;
     }
+    for (const Place& place : places)
+      if (tell(fmt::format("a step in contact, icosphere:{}, {}", level, name_of(place))))
+        result.contact_steps.push_back(measure_contact_step(place, level, options.quick));
+    if (result.interrupted) return result;
+    ++done;
+  }
   progress(1, "");
   return result;
 }

@@ -1,10 +1,11 @@
 // The suite `collision`. It measures how long it takes to find all pairs of triangles that touch between two bodies, beside other
-// libraries' trees.
+// libraries' trees, and what a step costs that answers contacts.
 #pragma once
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "bench/collision/contact_step.hpp"
 #include "bench/common/place.hpp"
 
 namespace pliant::bench {
@@ -32,6 +33,7 @@ struct CollisionRow {
 
 struct CollisionResult {
   std::vector<CollisionRow> rows;
+  std::vector<ContactStepRow> contact_steps;
   std::vector<std::string> notes;  // what was left out, and why
   bool interrupted = false;        // by Progress
 };

@@ -8,7 +8,8 @@
 namespace pliant::bench {
 
 [[nodiscard]] std::string to_table(const CollisionResult& result);
-/// Returns {suite, options{...}, interrupted, machine{...}, rows[...], notes[...]}.
+/// Returns {suite, options{...}, interrupted, machine{...}, rows[...], notes[...], contact_steps[...], passes{...}}.
+/// `passes` has those of each of the contact_groups().
 [[nodiscard]] std::string to_json(const Machine& machine, const CollisionOptions& options, const CollisionResult& result);
 
 }  // namespace pliant::bench

@@ -12,7 +12,7 @@
 namespace pliant::bench {
 namespace {
 
-std::vector<CollisionRow> quick_rows(const Selection& devices) {
+CollisionResult quick_result(const Selection& devices) {
   std::vector<double> done;
   const CollisionResult result = bench_collision({.devices = devices, .quick = true}, [&](double part, std::string_view) {
     done.push_back(part);
@@ -28,7 +28,12 @@ std::vector<CollisionRow> quick_rows(const Selection& devices) {
     CHECK((std::isfinite(row.refit_and_query_seconds()) && row.query_seconds > 0));
     CHECK_THAT(table, Catch::Contains(row.engine) && Catch::Contains(std::to_string(row.triangles)));
   }
-  return result.rows;
+  for (const ContactStepRow& row : result.contact_steps) {
+    CAPTURE(row.triangles);
+    CHECK(row.pressing_contacts > row.triangles / 100);
+    for (const auto& [group, seconds] : row.seconds) CHECK((seconds > 0 && seconds < row.step_seconds));
+  }
+  return result;
 }
 
 std::size_t rows_of(const std::vector<CollisionRow>& rows, const std::string& engine) {
@@ -36,7 +41,8 @@ std::size_t rows_of(const std::vector<CollisionRow>& rows, const std::string& en
 }
 
 TEST_CASE("pliant and other libraries find the same pairs of triangles, on one thread and all") {
-  const std::vector<CollisionRow> rows = quick_rows({.threads = 2});
+  const CollisionResult result = quick_result({.threads = 2});
+  const std::vector<CollisionRow>& rows = result.rows;
   constexpr std::size_t cases = 2 * 3;  // sizes and overlaps
   for (const char* engine : {"pliant", "pliant, centre", "pliant, surface area"}) CHECK(rows_of(rows, engine) == 2 * cases);
   CHECK(rows_of(rows, "brute force") == 2 * cases / 2);  // small ones alone
@@ -44,12 +50,15 @@ TEST_CASE("pliant and other libraries find the same pairs of triangles, on one t
     for (const TreeLibrary& library : libraries) CHECK(rows_of(rows, library.name) == cases);
   std::set<std::uint64_t> pairs;
   for (const CollisionRow& row : rows) pairs.insert(row.pairs);
-  CHECK(pairs.size() == 1 + 2 * 2);  // 0 apart, and other numbers for each size and overlap
+  CHECK(pairs.size() == 1 + 2 * 2);             // 0 apart, and other numbers for each size and overlap
+  CHECK(result.contact_steps.size() == 2 * 2);  // sizes, and threads
 }
 
 TEST_CASE("the GPU finds the same pairs of triangles as other libraries", "[gl]") {
   if (test::lacks_gl()) return;
-  CHECK(rows_of(quick_rows({.cpu = false, .gpu = true}), "pliant") == 6);
+  const CollisionResult result = quick_result({.cpu = false, .gpu = true});
+  CHECK(rows_of(result.rows, "pliant") == 6);
+  CHECK(result.contact_steps.size() == 2);
 }
 
 TEST_CASE("the file of a measurement of collisions has every row, and null where there is no tree or no thread") {
@@ -65,6 +74,8 @@ TEST_CASE("the file of a measurement of collisions has every row, and null where
   brute_force.agrees = false;
   CollisionResult result;
   result.rows = {tree, brute_force};
+  result.contact_steps = {
+      {.device = DeviceKind::gpu, .triangles = 80, .pressing_contacts = 7, .seconds = {{"refit", 0.25}}, .step_seconds = 2}};
   result.notes = {"left out"};
   const auto json = test::ReadJson::parse(to_json({}, {}, result));
   CHECK(json["suite"] == "collision");
@@ -74,7 +85,13 @@ TEST_CASE("the file of a measurement of collisions has every row, and null where
   CHECK((first["threads"] == 2 && first["triangles"] == 80 && first["build_seconds"] == 3));
   CHECK((second["threads"].is_null() && second["build_seconds"].is_null()));
   CHECK((second["refit_and_query_seconds"] == 0.5 && second["agrees"] == false));
-  CHECK_THAT(to_table(result), Catch::Contains(" differ") && Catch::Contains("left out"));
+  const auto step = json["contact_steps"][0];
+  CHECK((step["device"] == "gpu" && step["threads"].is_null() && step["triangles"] == 80 && step["pressing_contacts"] == 7));
+  CHECK((step["refit_seconds"] == 0.25 && step["step_seconds"] == 2));
+  CHECK(json["passes"].size() == contact_groups().size());
+  CHECK(json["passes"]["contacts"][0] == "find_contacts");
+  CHECK_THAT(to_table(result),
+             Catch::Contains(" differ") && Catch::Contains("left out") && Catch::Contains("contacts: find_contacts"));
 }
 
 TEST_CASE("a measurement of collisions that is told to end has the rows that were finished") {
