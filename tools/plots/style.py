@@ -58,6 +58,11 @@ def trim_spines(axes):
 def make_axes(title, data, y_label):
     set_style()
     figure, axes = plt.subplots(figsize=(7.6, 4.8), dpi=160)
+    dress_axes(axes, title, hardware_of(data), y_label)
+    return figure, axes
+
+
+def dress_axes(axes, title, subtitle, y_label):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("vertices")
@@ -71,5 +76,4 @@ def make_axes(title, data, y_label):
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_title(title, loc="left", fontsize=13, fontweight="bold", pad=22)
-    axes.text(0, 1.025, hardware_of(data), transform=axes.transAxes, fontsize=8.5, color=SOFT)
-    return figure, axes
+    axes.text(0, 1.025, subtitle, transform=axes.transAxes, fontsize=8.5, color=SOFT)
