@@ -65,6 +65,34 @@ Key key_between(const Key& a, const Key& b, double time) {
   return key;
 }
 
+// The time at which the keys say where the path is at a time. Before the first key it is that time.
+double time_along(const std::vector<Key>& keys, double time, bool repeats) {
+  physics::Path way{};
+  way.repeats = repeats ? 1 : 0;
+  return std::min(time, physics::time_along(way, time, keys.front().time, keys.back().time));
+}
+
+// The keys from a time along them on, or once around if they repeat. Times that differ by rounding are the same.
+std::vector<Key> keys_from(const std::vector<Key>& keys, double from, bool repeats) {
+  const double duration = keys.back().time - keys.front().time, near = 1e-9 * duration;
+  const auto next = std::ranges::find_if(keys, [&](const Key& key) { return key.time > from + near; });
+  std::vector<Key> left(next, keys.end());
+  if (next == keys.begin()) return left;
+  const Key& before = *(next - 1);
+  Key now = from - before.time <= near ? before : key_between(before, *next, from);
+  now.time = from;
+  left.insert(left.begin(), now);
+  if (!repeats || from <= keys.front().time + near) return left;
+  const auto add_next_time = [&](Key key) {
+    key.time += duration;
+    for (std::size_t n = 3; n < numbers_of_key; ++n) key.at[n] += keys.back().at[n] - keys.front().at[n];
+    left.push_back(key);
+  };
+  for (auto key = keys.begin() + 1; key->time < from - near; ++key) add_next_time(*key);
+  add_next_time(now);
+  return left;
+}
+
 glm::dquat about(int axis, double radians) {
   glm::dvec3 direction(0.0);
   direction[axis] = 1;
@@ -198,6 +226,27 @@ double BodyPath::highest_speed() const {
 glm::dquat rotation_of(const glm::dvec3& degrees) {
   const glm::dvec3 angle = glm::radians(degrees);
   return glm::normalize(about(2, angle.z) * about(1, angle.y) * about(0, angle.x));
+}
+
+// By atan2 alone, which keeps every digit where the second angle is a right one and the other two turn alike.
+glm::dvec3 degrees_of(const glm::dquat& rotation) {
+  const glm::dmat3 m = glm::mat3_cast(rotation);  // columns first
+  const double z = std::atan2(m[0].y, m[0].x), sine = std::sin(z), cosine = std::cos(z);
+  const double y = std::atan2(-m[0].z, std::hypot(m[0].x, m[0].y));
+  const double x = std::atan2(sine * m[2].x - cosine * m[2].y, cosine * m[1].y - sine * m[1].x);
+  return glm::degrees(glm::dvec3(x, y, z));
+}
+
+std::vector<PathKeyDescription> path_from(const BodyDescription& description, double time) {
+  std::vector<Key> keys(description.path.size());
+  std::ranges::transform(description.path, keys.begin(), key_of);
+  find_rates(keys, description.repeats);
+  const double from = time_along(keys, time, description.repeats);
+  std::vector<PathKeyDescription> left;
+  for (const Key& key : keys_from(keys, from, description.repeats))
+    left.push_back(
+        {.time = key.time - from, .position = {key.at[0], key.at[1], key.at[2]}, .rotation = {key.at[3], key.at[4], key.at[5]}});
+  return left;
 }
 
 BodyPath make_path(const BodyDescription& description, const glm::dvec3& centroid) {

@@ -23,6 +23,14 @@ struct BodyPath {
 /// Returns Rz Ry Rx for angles in degrees about fixed axes.
 [[nodiscard]] glm::dquat rotation_of(const glm::dvec3& degrees);
 
+/// Returns angles in degrees of which rotation_of makes the rotation.
+[[nodiscard]] glm::dvec3 degrees_of(const glm::dquat& rotation);
+
+/// Returns the keys of what is left of a body's path at a time on its own clock [s]. Their times count from there. One that
+/// repeats goes around once. If the path has ended, there is one key, at its end. Between keys the way differs a little, because
+/// a path begins at rest.
+[[nodiscard]] std::vector<PathKeyDescription> path_from(const BodyDescription& description, double time);
+
 /// Returns the path of a scripted body. `centroid` is the mean of its vertices before it is turned and moved [m].
 ///
 /// Positions and the three angles of keys are interpolated by monotone cubics, so that nothing overshoots a key, and a body that

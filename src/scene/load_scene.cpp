@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -18,6 +20,7 @@
 #include "scene/overrides.hpp"
 #include "scene/toml.hpp"
 #include "scene/values.hpp"
+#include "scene/words.hpp"
 
 namespace pliant {
 namespace {
@@ -135,22 +138,6 @@ class TableReader {
 
 // ---- The scene's keys ----
 
-const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw::none), DampingLaw::none},
-                                                      {name_of(DampingLaw::constant), DampingLaw::constant},
-                                                      {name_of(DampingLaw::adaptive), DampingLaw::adaptive},
-                                                      {name_of(DampingLaw::internal), DampingLaw::internal}};
-const std::vector<Choice<BodyKind>> kinds = {
-    {"soft", BodyKind::soft}, {"static", BodyKind::immovable}, {"scripted", BodyKind::scripted}};
-const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree}, {"brute_force", ContactSearch::brute_force}};
-const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},
-                                                          {"moller", TriangleTest::moller}};
-const std::vector<Choice<PressureLaw>> pressure_laws = {{"gas", PressureLaw::gas}, {"constant", PressureLaw::constant}};
-const std::vector<Choice<TreeSplit>> splits = {
-    {"centre", TreeSplit::centre}, {"median", TreeSplit::median}, {"surface_area", TreeSplit::surface_area}};
-const std::vector<Choice<TreeRefit>> refits = {{"bottom_up", TreeRefit::bottom_up}, {"hybrid", TreeRefit::hybrid}};
-const std::vector<Choice<Coloring>> colorings = {{"body", Coloring::body}, {"deformation", Coloring::deformation}};
-const std::vector<Choice<Marks>> all_marks = {{"none", Marks::none}, {"contacts", Marks::contacts}};
-
 void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("integrator", simulation.integrator);
   table.keep_one_of("time_step", "tolerance");
@@ -162,18 +149,18 @@ void read_table(TableReader& table, SimulationDescription& simulation) {
   table.read("duration", simulation.duration, not_negative);
   simulation.time_step_where = table.where("time_step");
   simulation.duration_where = table.where("duration");
-  table.read("damping_law", simulation.damping_law, damping_laws);
+  table.read("damping_law", simulation.damping_law, words::damping_laws);
   table.read("gravity", simulation.gravity, coordinate);
   table.read("sleep", simulation.sleep);
   simulation.sleep_where = table.where("sleep");
 }
 
 void read_table(TableReader& table, TreeDescription& tree) {
-  table.read("split", tree.split, splits);
+  table.read("split", tree.split, words::splits);
   table.read("fan_out", tree.fan_out, fan_out);
   if (!std::has_single_bit(tree.fan_out))
     fail(*table.find("fan_out"), table.path_of("fan_out"), fmt::format("{} is not possible", tree.fan_out), "write 2, 4 or 8");
-  table.read("refit", tree.refit, refits);
+  table.read("refit", tree.refit, words::refits);
   table.read("max_depth", tree.max_depth, tree_depth);
   table.read("leaf_size", tree.leaf_size, triangle_count);
 }
@@ -190,9 +177,9 @@ void read_table(TableReader& table, CollisionDescription& collision) {
   table.read("friction", collision.friction, not_negative);
   table.read("restitution", collision.restitution, fraction);
   table.read("gap", collision.gap, edge_part);
-  table.read("search", collision.search, searches);
+  table.read("search", collision.search, words::searches);
   collision.search_where = table.where("search");
-  table.read("triangle_test", collision.triangle_test, triangle_tests);
+  table.read("triangle_test", collision.triangle_test, words::triangle_tests);
   table.section("tree", collision.tree);
   table.note({"friction", "restitution", "gap"}, collision.surface_keys);
 }
@@ -212,8 +199,8 @@ void read_table(TableReader& table, OutputDescription& output) {
   table.read("frame_rate", output.frame_rate, frames_per_second);
   table.read("size", output.size, pixel_count);
   table.section("camera", output.camera);
-  table.read("coloring", output.coloring, colorings);
-  table.read("marks", output.marks, all_marks);
+  table.read("coloring", output.coloring, words::colorings);
+  table.read("marks", output.marks, words::all_marks);
   table.read("ground_height", output.ground_height, coordinate);
 }
 
@@ -273,10 +260,10 @@ void read_table(TableReader& table, PathKeyDescription& key) {
   table.read("rotation", key.rotation, coordinate);
 }
 
-// The angles of a key may be any number of turns from another's.
+// The angles of a key may be any number of turns from another's, but for rounding.
 bool is_same_place(const PathKeyDescription& a, const PathKeyDescription& b) {
   const glm::dvec3 turns = (a.rotation - b.rotation) / 360.0;
-  return a.position == b.position && turns == glm::round(turns);
+  return a.position == b.position && glm::all(glm::lessThan(glm::abs(turns - glm::round(turns)), glm::dvec3(1e-9)));
 }
 
 // What a key leaves out is as in the key before.
@@ -313,7 +300,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.know("count");
   table.know("spacing");
   table.read("name", body.name);
-  table.read("kind", body.kind, kinds);
+  table.read("kind", body.kind, words::kinds);
   if (table.is_in_front("kind")) forget_motion_of_rows(table, body.kind);
   body.kind_where = table.where("kind");
   table.read("mesh", body.mesh);
@@ -337,7 +324,7 @@ void read_table(TableReader& table, BodyDescription& body) {
   table.read("self_contact", body.self_contact);
   body.self_contact_where = table.where("self_contact");
   table.read("pressure", body.pressure, not_negative);
-  table.read("pressure_law", body.pressure_law, pressure_laws);
+  table.read("pressure_law", body.pressure_law, words::pressure_laws);
   table.read("color", body.color, fraction);
   table.note({"elasticity", "friction", "gap", "restitution"}, body.surface_keys);
   expect_keys_of_kind(table, body);
@@ -462,9 +449,6 @@ void read_bodies(const toml::node& node, std::vector<BodyDescription>& bodies) {
   for (std::size_t i = 0; i < node.as_array()->size(); ++i) reader.read((*node.as_array())[i], i);
 }
 
-enum class ContainerShape { box, sphere };
-const std::vector<Choice<ContainerShape>> container_shapes = {{"box", ContainerShape::box}, {"sphere", ContainerShape::sphere}};
-
 // Returns the mesh of a box whose cells are an eighth of its longest side.
 std::string box_mesh(TableReader& table) {
   glm::dvec3 size(0.0);
@@ -485,10 +469,10 @@ std::string sphere_mesh(TableReader& table, BodyDescription& container) {
 
 // A rigid body whose walls hold others from all sides. It is scripted if something moves it.
 void read_container(TableReader& table, BodyDescription& container) {
-  ContainerShape shape = ContainerShape::box;
+  words::ContainerShape shape = words::ContainerShape::box;
   table.read("name", container.name);
-  table.read("shape", shape, container_shapes);
-  container.mesh = shape == ContainerShape::box ? box_mesh(table) : sphere_mesh(table, container);
+  table.read("shape", shape, words::container_shapes);
+  container.mesh = shape == words::ContainerShape::box ? box_mesh(table) : sphere_mesh(table, container);
   container.mesh_where = table.where("shape");
   read_motion(table, container);
   read_surface(table, container.surface);
@@ -561,14 +545,12 @@ void read_table(TableReader& table, SceneDescription& scene) {
 
 // The drawn floor is a level ground, if there is one.
 void draw_level_ground(SceneDescription& scene) {
-  for (const GroundDescription& ground : scene.grounds) {
-    if (ground.normal.x != 0 || ground.normal.z != 0 || ground.normal.y < 0) continue;
-    if (scene.output.ground_height)
-      throw Error(ground.where, "is drawn where it is, but output.ground_height says another height",
-                  "remove output.ground_height");
-    scene.output.ground_height = ground.point.y;
-    return;
-  }
+  const GroundDescription* const ground = level_ground(scene.grounds);
+  if (ground == nullptr) return;
+  if (scene.output.ground_height)
+    throw Error(ground->where, "is drawn where it is, but output.ground_height says another height",
+                "remove output.ground_height");
+  scene.output.ground_height = ground->point.y;
 }
 
 }  // namespace
@@ -577,6 +559,13 @@ glm::dvec3 default_color(std::size_t index) {
   static constexpr glm::dvec3 colors[] = {{0.791, 0.347, 0.0}, {0.0, 0.168, 0.445},   {0.0, 0.342, 0.171},  {0.604, 0.191, 0.386},
                                           {0.665, 0.112, 0.0}, {0.093, 0.456, 0.815}, {0.871, 0.776, 0.054}};
   return colors[index % std::size(colors)];
+}
+
+const GroundDescription* level_ground(std::span<const GroundDescription> grounds) {
+  const auto found = std::ranges::find_if(grounds, [](const GroundDescription& ground) {
+    return ground.normal.x == 0 && ground.normal.z == 0 && ground.normal.y >= 0;
+  });
+  return found == grounds.end() ? nullptr : &*found;
 }
 
 SceneDescription load_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {

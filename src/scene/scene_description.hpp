@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,6 +74,8 @@ struct TreeDescription {
   std::optional<TreeRefit> refit = {};     // if empty, what suits the device
   std::optional<unsigned> max_depth = {};  // splits from the root to a leaf. If empty, it grows with the triangle count
   unsigned leaf_size = 4;                  // triangles
+
+  bool operator==(const TreeDescription&) const = default;
 };
 
 struct CollisionDescription {
@@ -96,6 +99,8 @@ struct SurfaceDescription {
   std::optional<double> elasticity;
   std::optional<double> friction;
   std::optional<double> gap;  // in mean edges of the mesh
+
+  bool operator==(const SurfaceDescription&) const = default;
 };
 
 struct CameraDescription {
@@ -113,6 +118,8 @@ struct OutputDescription {
   Coloring coloring = Coloring::body;
   Marks marks = Marks::none;            // drawn over bodies
   std::optional<double> ground_height;  // [m], just below where the bodies start if empty
+
+  bool operator==(const OutputDescription&) const = default;
 };
 
 /// Returns the linear RGB colour of the body with this index. Seven colours take turns. The colour-blind can tell them apart, too
@@ -168,6 +175,9 @@ struct GroundDescription {
   SurfaceDescription surface;
   Origin where;  // of its table
 };
+
+/// Returns the ground that pictures show as their floor: the first level one, or null if there is none.
+[[nodiscard]] const GroundDescription* level_ground(std::span<const GroundDescription> grounds);
 
 struct SceneDescription {
   std::string title;

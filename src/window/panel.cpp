@@ -59,6 +59,11 @@ void choose_scene(const Facts& facts, Wishes& wishes) {
   ImGui::EndCombo();
 }
 
+void save_scene(Wishes& wishes) {
+  ImGui::SameLine();
+  wishes.saves_scene = ImGui::Button("save");
+}
+
 void choose_device(Wishes& wishes) {
   int device = wishes.is_on_gpu ? 1 : 0;
   ImGui::RadioButton("CPU", &device, 0);
@@ -332,6 +337,7 @@ void Panel::draw(const glm::uvec2& size, double seconds, const Facts& facts, Wis
   ImGui::Begin((facts.title + "###panel").c_str(), nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::PushItemWidth(-scaled(95));
   choose_scene(facts, wishes);
+  save_scene(wishes);
   play(facts, wishes);
   edit_bodies(facts, wishes);
   edit_method(facts, wishes);

@@ -21,7 +21,7 @@ struct Wishes {
   Settings settings;
   Shows shows;
   std::optional<std::filesystem::path> scene;  // to be opened
-  bool restarts = false, steps = false, steps_back = false;
+  bool restarts = false, steps = false, steps_back = false, saves_scene = false;
 
   bool operator==(const Wishes&) const = default;
 };

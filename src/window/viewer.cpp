@@ -12,9 +12,12 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "output/file.hpp"
 #include "output/png.hpp"
+#include "scene/scene_text.hpp"
 #include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
+#include "view/present_scene.hpp"
 #include "view/thrown_ball.hpp"
 
 namespace pliant::view {
@@ -43,9 +46,9 @@ std::vector<std::filesystem::path> scenes_beside(const std::filesystem::path& fi
   return scenes;
 }
 
-std::filesystem::path free_picture_name(const std::string& stem) {
+std::filesystem::path free_name(const std::string& stem, const char* extension) {
   for (int number = 0;; ++number) {
-    std::filesystem::path name = fmt::format("{}_{:04}.png", stem, number);
+    std::filesystem::path name = fmt::format("{}_{:04}{}", stem, number, extension);
     if (!std::filesystem::exists(name)) return name;
   }
 }
@@ -75,6 +78,7 @@ std::span<const Viewer::Command> Viewer::commands() {
       {"W", "wireframe, or surfaces", &Viewer::toggle_wireframe},
       {"tab", "the panel, or none", &Viewer::toggle_panel, false, true},
       {"F1", "this help, or none", &Viewer::toggle_help, false, true},
+      {"F11", "save the scene as it is, in the current folder", &Viewer::save_scene},
       {"F12", "save the picture as PNG in the current folder", &Viewer::save_picture},
       {"escape", "quit", &Viewer::close},
   };
@@ -355,8 +359,31 @@ void Viewer::save_picture() {
   if (wanted.size.x == 0)
     throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
   view_->draw(wanted);
-  const std::filesystem::path name = free_picture_name(session_->scene().file.stem().string());
+  const std::filesystem::path name = free_name(session_->scene().file.stem().string(), ".png");
   write_png(name, view_->picture());
+  say_saved(name);
+}
+
+// Opens the file to see whether it can be opened. Bodies without their deformation may intersect.
+void Viewer::save_scene() {
+  SceneDescription scene = present_scene(*session_);
+  scene.output.camera = camera_;
+  if (shows_.colors != Colors::speed)
+    scene.output.coloring = shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body;
+  const std::filesystem::path name = free_name(scene.file.stem().string(), ".toml");
+  WholeFile file(name);
+  file.write(scene_text(scene, name.parent_path()));
+  file.close();
+  say_saved(name);
+  scenes_ = scenes_beside(scene.file);
+  try {
+    const Session opened(*device_, load(name));
+  } catch (const Error& error) {
+    throw Error(error.kind(), message_, fmt::format("it can't be opened as it is: {}", error.what()), "");
+  }
+}
+
+void Viewer::say_saved(const std::filesystem::path& name) {
   message_ = "saved " + name.string();
   fmt::print("{}\n", message_);
   std::fflush(stdout);
@@ -437,6 +464,7 @@ void Viewer::fulfil() {
   if (wanted.is_paused != before.is_paused) pause_or_go_on();
   if (wanted.is_on_gpu != before.is_on_gpu) try_to([this] { switch_device(); });
   if (wanted.settings != before.settings) try_to([&] { change(wanted.settings); });
+  if (wanted.saves_scene) try_to([this] { save_scene(); });
   if (wanted.restarts) try_to([this] { restart(); });
   if (wanted.steps) step_once();
   if (wanted.steps_back) step_back();

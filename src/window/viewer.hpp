@@ -74,6 +74,8 @@ class Viewer {
   void toggle_help();
   void toggle(bool& is_shown);  // the panel or the help
   void save_picture();
+  void save_scene();
+  void say_saved(const std::filesystem::path& name);
   void close();
   void open_file(const std::filesystem::path& file);
   [[nodiscard]] bool is_on_gpu() const { return device_->info().kind == DeviceKind::gpu; }

@@ -114,6 +114,41 @@ TEST_CASE("a path that repeats goes on as it began") {
   CHECK(glm::length(glm::make_vec3(end.spin) - glm::make_vec3(begin.spin)) < 1e-6);
 }
 
+TEST_CASE("angles of a rotation make that rotation, also where two axes are the same") {
+  for (const glm::dvec3& degrees : {glm::dvec3(10, 20, 30), glm::dvec3(-170, 89, 200), glm::dvec3(30, 90, 10),
+                                    glm::dvec3(40, -90, 0), glm::dvec3(5, 90 - 1e-9, 7)}) {
+    CAPTURE(degrees.x, degrees.y);
+    const glm::dquat rotation = rotation_of(degrees), again = rotation_of(degrees_of(rotation));
+    for (const glm::dvec3& point : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)})
+      CHECK(glm::distance(rotation * point, again * point) < 1e-14);
+  }
+}
+
+TEST_CASE("what is left of a path leads through the same keys from the same place on") {
+  for (const bool repeats : {false, true})
+    for (const double time : {0.0, 0.2, 0.5, 0.9, 1.25, 1.9999, 2.0, 2.3, 5.25}) {
+      CAPTURE(repeats, time);
+      const BodyDescription description = scripted(winding, repeats);
+      const std::vector<PathKeyDescription> left = path_from(description, time);
+      const BodyPath path = make_path(description, {0.2, -0.1, 0.3});
+      if (!repeats && time >= 2) {
+        CHECK((left.size() == 1 && left.front().position == winding.back().position));
+        continue;
+      }
+      REQUIRE(left.size() >= 2);
+      const BodyPath rest = make_path(scripted(left, repeats), {0.2, -0.1, 0.3});
+      for (const PathKeyDescription& key : left)
+        CHECK(glm::distance(place_of(rest, key.time, {0, 1, 0}), place_of(path, time + key.time, {0, 1, 0})) < 1e-4);
+      if (repeats) CHECK((left.back().time == Approx(2) && left.back().position == left.front().position));
+    }
+}
+
+TEST_CASE("a path that has not begun is left whole") {
+  const std::vector<PathKeyDescription> left = path_from(scripted({{1, {0, 1, 0}, {}}, {3, {0, 2, 0}, {}}}), 0.25);
+  CHECK(left == std::vector<PathKeyDescription>{{0.75, {0, 1, 0}, {}}, {2.75, {0, 2, 0}, {}}});
+  CHECK(path_from(scripted(winding), 0) == winding);
+}
+
 TEST_CASE("a scripted body without keys keeps its velocity and its spin about the centroid") {
   BodyDescription description;
   description.kind = BodyKind::scripted;

@@ -40,8 +40,8 @@ TEST_CASE("the panel and the help come and go, and what happens over them leaves
 }
 
 // Where the panel has its widgets. Their rows stand above all that wraps.
-constexpr glm::ivec2 scene_list(120, 46), first_in_list(60, 70), play_button(48, 70), back_button(93, 70), step_button(116, 70),
-    reset_button(153, 70), gpu_button(240, 70), speed_slider(100, 92);
+constexpr glm::ivec2 scene_list(120, 46), save_button(300, 46), first_in_list(60, 70), play_button(48, 70), back_button(93, 70),
+    step_button(116, 70), reset_button(153, 70), gpu_button(240, 70), speed_slider(100, 92);
 constexpr glm::ivec2 farther_right(40, 0);
 
 TEST_CASE("the panel's buttons do what keys do, and its list opens the scenes beside", "[gl][long]") {
@@ -66,6 +66,9 @@ TEST_CASE("the panel's buttons do what keys do, and its list opens the scenes be
   viewed.await([](const ReadJson& line) { return line["paused"].get<bool>(); });
   viewed.click(reset_button);
   viewed.await(step_is(0));
+  viewed.click(save_button);
+  CHECK(viewed.await_text("saved ") == "saved small_0000.toml");
+  CHECK(std::filesystem::remove(folder.path / "small_0000.toml"));
   viewed.click(scene_list);
   viewed.await([](const ReadJson& line) { return line["windows"] == 2; });
   viewed.click(first_in_list);

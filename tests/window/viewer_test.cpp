@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "scene/load_scene.hpp"
 #include "support/has.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
@@ -143,6 +144,48 @@ TEST_CASE("keys throw a ball, remove a body, and bring a hand that goes with the
   viewed.xdotool(viewed.move_to({230, 120}));
   viewed.press("x");
   viewed.await(says("last soft body"));
+}
+
+TEST_CASE("a scene is saved as it is, and a folder that is gone costs nothing", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu");
+  viewed.xdotool(viewed.move_to({160, 20}));
+  viewed.press("b");
+  viewed.await([](const ReadJson& line) { return line["bodies"] == 3; });
+  viewed.press("period");
+  viewed.await(step_is(1));
+  viewed.press("F11");
+  const std::string said = viewed.await_text("saved ");
+  const ReadJson shown = viewed.await([](const ReadJson& line) { return line["message"] == "saved small_0000.toml"; });
+  const SceneDescription saved = load_scene(folder.path / said.substr(6));
+  REQUIRE(saved.bodies.size() == 3);
+  CHECK((saved.title == "Small" && saved.bodies[2].name == "thrown 1"));
+  CHECK(saved.bodies[0].position.x == Approx(-1.3 + 0.005));
+  CHECK(saved.output.camera->eye == place(shown["camera"]["eye"]));
+  std::filesystem::remove_all(folder.path);
+  viewed.press("F11");
+  CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("small_0000.toml"));
+  viewed.press("period");
+  CHECK(viewed.await(step_is(2))["bodies"] == 3);
+}
+
+TEST_CASE("a scene that would not open as it is saved is saved, and the viewer says why", "[gl][long]") {
+  if (is_skipped()) return;
+  const VirtualDisplay display;
+  const ScratchFolder folder;
+  Viewed viewed(display, folder, "cpu", {"--set", "body.body0.velocity=[8, 0, 0]"});
+  for (std::uint64_t step = 1; step <= 15; ++step) {  // until one presses into the other
+    viewed.press("period");
+    viewed.await(step_is(step));
+  }
+  viewed.press("F11");
+  viewed.await_text("saved small_0000.toml");
+  CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("can't be opened") && Catch::Contains("intersect"));
+  CHECK(load_scene(folder.path / "small_0000.toml").bodies.size() == 2);
+  viewed.press("period");
+  viewed.await(step_is(16));
 }
 
 TEST_CASE("without a scene a page of demos opens, and a click opens one", "[gl][long]") {
