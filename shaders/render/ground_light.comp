@@ -12,12 +12,12 @@ const int sky_taps = 8;
 
 /// A horizontal element of area dA at height h and horizontal distance r hides h^2 dA / (pi (h^2 + r^2)^2) of the sky.
 float sky_light(vec2 at, vec2 start) {
-  float spacing = 1.6 * centre.w / float(sky_taps), hidden = 0.0;  // [m]
+  float spacing = 1.6 * lit.w / float(sky_taps), hidden = 0.0;  // [m]
   vec2 side = start * (0.5 / ground.w);
   for (int i = 0; i < sky_taps; ++i) {
     float r = (float(i) + 0.5) * spacing, area = 2.0 * pi * r * spacing;
     vec2 above = textureLod(footprint, at + r * side, level_of(footprint, sqrt(area) / (2.0 * ground.w))).xy;
-    float h = max((1.0 - above.y / max(above.x, 1e-4)) * ceiling * centre.w, spacing), squared = h * h + r * r;
+    float h = max((1.0 - above.y / max(above.x, 1e-4)) * ceiling * lit.w, spacing), squared = h * h + r * r;
     hidden += above.x * h * h * area / (pi * squared * squared);
     side = golden_turn * side;
   }

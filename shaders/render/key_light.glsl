@@ -48,7 +48,7 @@ float penumbra_at(vec3 place, vec2 slope, float texel, Search how) {
 float key_visibility(vec3 where, vec3 normal, Search how) {
   bool facing = dot(normal, key_direction.xyz) > 0.0;
   float texel = 1.0 / float(textureSize(shadow_map, 0).x), blocked = 0.0;
-  vec3 place = (key_projection * vec4(where + normal * (4.0 * texel * centre.w), 1.0)).xyz * 0.5 + 0.5;
+  vec3 place = (key_projection * vec4(where + normal * (4.0 * texel * lit.w), 1.0)).xyz * 0.5 + 0.5;
   vec3 across = mat3(key_projection) * normal;
   vec2 slope = clamp(-across.xy / (across.z * depth_per_width * depth_per_width), -4.0, 4.0);
   if (!facing) how.blocker_taps = 0;

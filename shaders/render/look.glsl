@@ -28,7 +28,7 @@ vec3 ground_shade(vec2 light) {
 }
 
 vec3 ground_color(vec3 hit) {
-  float distance_to_centre = length(hit.xz) / centre.w;
+  float distance_to_centre = length(hit.xz - pool.xz) / pool.w;
   vec3 shade = ground_shade(light_on_ground(hit.xz, 0.0));
   return mix(shade, shade * horizon_color / pool_color, smoothstep(0.5, 6.0, distance_to_centre));
 }
@@ -39,7 +39,7 @@ vec3 surroundings(vec3 direction) {
   float t = (ground.y - eye.y) / min(direction.y, -1e-4);
   if (ground.w <= 0.0 || direction.y >= 0.0 || t <= 0.0) return result;
   vec3 hit = eye.xyz + t * direction;
-  float haze = smoothstep(1.5, 12.0, length(hit.xz) / centre.w);
+  float haze = smoothstep(1.5, 12.0, length(hit.xz - pool.xz) / pool.w);
   return mix(ground_color(hit), result, haze);
 }
 

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rg16) writeonly uniform image2D occlusion;  // x: openness times y, y: 1 where there is a body
 
 const int taps = 10;
-const float reach = 0.22;  // in radii of the scene
+const float reach = 0.22;  // in radii of what is lit
 const float strength = 0.8;
 
 vec3 point_at(ivec2 pixel, float depth) {
@@ -19,7 +19,7 @@ vec3 point_at(ivec2 pixel, float depth) {
 }
 
 float openness(ivec2 pixel, vec3 where, vec3 normal, vec2 start) {
-  float most = reach * centre.w, in_pixels = eye.w * most / distance(eye.xyz, where), hidden = 0.0;
+  float most = reach * lit.w, in_pixels = eye.w * most / distance(eye.xyz, where), hidden = 0.0;
   vec2 side = start * in_pixels / float(taps);
   for (int i = 0; i < taps; ++i) {
     ivec2 at = clamp(pixel + ivec2((float(i) + 0.5) * side), ivec2(0), textureSize(depths) - 1);

@@ -7,11 +7,12 @@
 #include "key_light.glsl"
 #include "look.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 3) readonly buffer BodyColors { vec4 body_colors[]; };
+layout(std430, binding = 3) readonly buffer BodyColors { vec4 body_colors[]; };  // w: 1 if no light reaches the body's inside
 layout(std430, binding = 4) readonly buffer Smooth { vec4 smooth_surface[]; };  // xyz: normal, w: strain
 layout(binding = 3) uniform sampler2D occlusion;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
 layout(location = 1) uniform bool shows_strain;
+layout(location = 4) uniform bool hides_insides;
 
 const float pi = 3.14159265;
 const float roughness = 0.42;
@@ -34,6 +35,7 @@ vec3 viridis(float t) {
 struct Hit {
   vec3 where, normal;  // the normal towards the eye
   vec3 albedo;
+  bool is_inside;  // the eye is in the body, or sees into it
 };
 
 /// A vertex's normal and strain as one of its triangles has them. Across a sharp edge surfaces are not smooth: there the triangle has its
@@ -50,8 +52,10 @@ Hit hit_of(uint seen, vec3 ray) {
   vec4 surface = mat3x4(surface_at(at.vertices[0], face), surface_at(at.vertices[1], face), surface_at(at.vertices[2], face)) * weights;
   vec3 normal = dot(surface.xyz, surface.xyz) > 1e-12 ? surface.xyz : face;
   uint body = uint(rest_positions[at.vertices[0]].w);
-  return Hit(mat3(at.a, at.b, at.c) * weights, side_seen(at) * normalize(normal),
-             shows_strain ? viridis(min(surface.w / full_strain, 1.0)) : body_colors[body].rgb);
+  float side = side_seen(at);
+  return Hit(mat3(at.a, at.b, at.c) * weights, side * normalize(normal),
+             shows_strain ? viridis(min(surface.w / full_strain, 1.0)) : body_colors[body].rgb,
+             hides_insides && side < 0.0 && body_colors[body].w == 1.0);
 }
 
 /// Cook-Torrance with the GGX distribution and Kelemen's visibility term.
@@ -98,7 +102,8 @@ float openness_at(vec2 place) {
 vec3 color_of(uint seen, vec3 ray, vec2 place) {
   vec3 direction = normalize(ray);
   if (seen == 0u) return surroundings(direction);
-  return shade(hit_of(seen, ray), -direction, openness_at(place));
+  Hit hit = hit_of(seen, ray);
+  return hit.is_inside ? 0.05 * hit.albedo : shade(hit, -direction, openness_at(place));
 }
 
 /// Whether samples that see triangles a and b are shaded together. They see the same one, or without inner outlines any body.

@@ -10,13 +10,20 @@ namespace pliant::render {
 using glm::mat4, glm::vec4;
 struct Studio {
 #else
-layout(std140, binding = 0) uniform Studio {
+  #ifndef STUDIO_BLOCK
+    #define STUDIO_BLOCK layout(std140, binding = 0) uniform
+  #endif
+STUDIO_BLOCK Studio {
 #endif
   mat4 view_projection;   // to clip space
   mat4 from_clip;         // and back
+  // place_maps.comp sets these four, and x, z and w of the ground, for each picture.
   mat4 key_projection;    // to the clip space of the key light's shadow map
   mat4 above_projection;  // to the footprint: the map of the ground from above, depth 0 at the ground, 1 at the ceiling
+  vec4 lit;               // xyz: centre of what the maps of light cover [m], w: its radius [m]
+  vec4 pool;              // x, z: where the ground is brightest [m], w: radius of the scene around [m]
   vec4 eye;               // xyz [m], w: pixels of the picture's height for a slope of 1
+  vec4 target;            // xyz: what the camera looks at [m]
   vec4 key_direction;     // xyz: unit vector towards the light
   vec4 centre;            // xyz: of the scene, in the world [m], w: its radius [m]
   vec4 ground;            // x, z: centre of the ground's maps [m], y: height [m], w: half the maps' side [m], 0 without ground
@@ -24,7 +31,7 @@ layout(std140, binding = 0) uniform Studio {
 const int sample_count = 4;          // of a pixel
 const float depth_per_width = 1.5f;  // of the box that the shadow map covers
 const float full_strain = 0.3f;      // where the scale of colours ends
-const float ceiling = 4.0f;          // of the footprint above the ground, in radii of the scene
+const float ceiling = 4.0f;          // of the footprint above the ground, in radii of what is lit
 #ifdef __cplusplus
 }  // namespace pliant::render
 #endif

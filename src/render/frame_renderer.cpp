@@ -1,12 +1,12 @@
-// A picture has these passes: smooth normals, shadow map, light on the ground, what each sample sees, occlusion, shading.
-// Rasterisation only finds out what is seen. Compute shaders compute all light, once a pixel.
+// A picture has these passes: what is lit, smooth normals, shadow map, light on the ground, what each sample sees, occlusion,
+// shading. Rasterisation only finds out what is seen. Compute shaders compute all light, once a pixel.
 #include "render/frame_renderer.hpp"
 
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <bit>
-#include <glm/gtc/type_ptr.hpp>
+#include <glm/geometric.hpp>
 #include <span>
 #include <string>
 
@@ -22,8 +22,10 @@ constexpr std::uint32_t shadow_size = 1024, footprint_size = 256;  // [texels] a
 constexpr std::uint32_t tile = 8, vertices_of_group = 64;          // pixels a side, and vertices, of a work group
 constexpr GLfloat far_depth = 1;
 // Uniform locations in the shaders.
-constexpr GLint to_clip_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
-                first_motion_location = 2, strain_of_speed_location = 3, depth_slice_location = 2, shadow_slice_location = 3;
+constexpr GLint view_location = 0, first_vertex_location = 0, vertex_count_location = 1, shows_strain_location = 1,
+                first_motion_location = 2, strain_of_speed_location = 3, depth_slice_location = 2, shadow_slice_location = 3,
+                hides_insides_location = 4;
+constexpr GLuint camera_view = 0, light_view = 1, view_from_above = 2;  // of place.vert
 
 template <class T>
 gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
@@ -32,34 +34,72 @@ gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
   return buffer;
 }
 
-std::vector<glm::vec4> colors_of(const Model& model) {
+/// Whether each edge of the body is in as many triangles forward as backward.
+bool is_closed(const ModelBody& body, const IncidentTriangles& around) {
+  std::vector<std::uint32_t> next, previous;
+  for (std::uint32_t vertex = body.first_vertex; vertex < body.first_vertex + body.vertex_count; ++vertex) {
+    next.clear(), previous.clear();
+    for (std::uint32_t i = around.first[vertex]; i < around.first[vertex + 1]; ++i) {
+      next.push_back(around.others[i][0]);
+      previous.push_back(around.others[i][1]);
+    }
+    std::ranges::sort(next);
+    std::ranges::sort(previous);
+    if (next != previous) return false;
+  }
+  return true;
+}
+
+/// Returns six times the volume of a closed body at rest, above 0 if its triangles wind outward [m^3].
+double six_volumes(const Model& model, const ModelBody& body) {
+  double sum = 0;
+  for (const auto& [a, b, c] : std::span(model.triangles).subspan(body.first_triangle, body.triangle_count))
+    sum += glm::dot(model.rest_position(a), glm::cross(model.rest_position(b), model.rest_position(c)));
+  return sum;
+}
+
+/// Containers are lit inside.
+std::vector<glm::vec4> colors_of(const Model& model, const IncidentTriangles& around) {
   std::vector<glm::vec4> colors;
-  for (const ModelBody& body : model.bodies) colors.emplace_back(glm::vec3(body.color), 1.0f);
+  for (const ModelBody& body : model.bodies) {
+    const bool is_dark_inside = !body.is_container && six_volumes(model, body) > 0 && is_closed(body, around);
+    colors.emplace_back(glm::vec3(body.color), is_dark_inside ? 1.0f : 0.0f);
+  }
   return colors;
 }
 
-/// Containers stand behind all other bodies.
-std::size_t solid_triangles(const Model& model) {
-  const auto container = std::ranges::find(model.bodies, true, &ModelBody::is_container);
-  return container == model.bodies.end() ? model.triangles.size() : container->first_triangle;
-}
+/// The bodies but for containers, which stand behind all others and cast no shadows.
+struct Solids {
+  explicit Solids(const Model& model)
+      : vertex_count(model.vertex_count()), triangle_count(static_cast<std::uint32_t>(model.triangles.size())) {
+    const auto container = std::ranges::find(model.bodies, true, &ModelBody::is_container);
+    if (container == model.bodies.end()) return;
+    vertex_count = container->first_vertex;
+    triangle_count = container->first_triangle;
+  }
+  std::uint32_t vertex_count, triangle_count;
+};
+
+/// Boxes around nothing, as place_maps.comp leaves them behind.
+std::vector<std::uint32_t> no_bounds() { return {~0u, ~0u, ~0u, 0, 0, 0, ~0u, ~0u, ~0u, 0, 0, 0}; }
 
 /// The bodies' surfaces on the GPU. Only `smooth`, the normals and strains, is computed again for each picture.
 struct Surface {
   explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
   Surface(const Model& model, const IncidentTriangles& around)
       : vertex_count(model.vertex_count()),
+        solid_vertex_count(Solids(model).vertex_count),
         index_count(static_cast<GLsizei>(model.triangles.size() * 3)),
-        solid_index_count(static_cast<GLsizei>(solid_triangles(model) * 3)),
+        solid_index_count(static_cast<GLsizei>(Solids(model).triangle_count * 3)),
         indices(upload(model.triangles, "triangle corners")),
         rest(upload(model.rest_positions, "rest positions for drawing")),
         first_incident(upload(around.first, "first incident triangle")),
         incident(upload(around.others, "incident triangles")),
-        colors(upload(colors_of(model), "body colours")),
+        colors(upload(colors_of(model, around), "body colours")),
         smooth(vertex_count * sizeof(glm::vec4), "smooth normals and strains"),
         vertices(indices) {}
 
-  std::uint32_t vertex_count;
+  std::uint32_t vertex_count, solid_vertex_count;
   GLsizei index_count, solid_index_count;  // of all, and without containers
   gl::Buffer indices, rest, first_incident, incident, colors, smooth;
   gl::VertexArray vertices;
@@ -83,6 +123,8 @@ std::vector<gl::Define> defines_of(const Sampling& sampling) {
 struct Programs {
   explicit Programs(const Sampling& sampling) : picture(gl::Program::compute("render/picture.comp", defines_of(sampling))) {}
 
+  gl::Program bound_vertices = gl::Program::compute("render/bound_vertices.comp");
+  gl::Program place_maps = gl::Program::compute("render/place_maps.comp");
   gl::Program smooth_surface = gl::Program::compute("render/smooth_surface.comp");
   gl::Program shadow = gl::Program::graphics("render/place.vert", "render/shadow.frag");
   gl::Program footprint = gl::Program::graphics("render/place.vert", "render/footprint.frag");
@@ -193,7 +235,8 @@ struct FrameRenderer::Impl {
 
   void upload_camera();
   void bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const;
-  void draw_bodies(const gl::Program& program, const glm::mat4& to_clip, GLsizei index_count) const;
+  void place_maps() const;
+  void draw_bodies(const gl::Program& program, GLuint view, GLsizei index_count) const;
   void set_shown() const;
   void smooth_surface() const;
   void draw_shadow_map();
@@ -206,7 +249,7 @@ struct FrameRenderer::Impl {
 
   RenderOptions options;
   Studio studio;
-  gl::Buffer studio_buffer{sizeof(Studio), "studio"};
+  gl::Buffer studio_buffer{sizeof(Studio), "studio"}, bounds = upload(no_bounds(), "bounds of vertices");
   Programs programs;
   std::optional<Surface> surface;  // empty only while it is replaced
   Maps maps;
@@ -224,15 +267,29 @@ void FrameRenderer::Impl::upload_camera() {
 void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint32_t first_vertex) const {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
   surface->vertices.take_positions(positions_buffer, first_vertex);
-  for (const gl::Program* program : {&programs.smooth_surface, &programs.occlusion, &programs.picture})
+  for (const gl::Program* program : {&programs.bound_vertices, &programs.smooth_surface, &programs.occlusion, &programs.picture})
     glProgramUniform1ui(program->id(), first_vertex_location, first_vertex);
   const std::uint32_t positions_and_rest[] = {positions_buffer, surface->rest.id()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, positions_and_rest);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
 }
 
-void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat4& to_clip, GLsizei index_count) const {
-  glProgramUniformMatrix4fv(program.id(), to_clip_location, 1, GL_FALSE, glm::value_ptr(to_clip));
+// Nothing of that comes to the CPU.
+void FrameRenderer::Impl::place_maps() const {
+  constexpr std::uint32_t vertices_of_thread = 16;
+  const std::uint32_t count = surface->solid_vertex_count, buffers[] = {bounds.id(), studio_buffer.id()};
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 2, 2, buffers);
+  glProgramUniform1ui(programs.bound_vertices.id(), vertex_count_location, count);
+  glUseProgram(programs.bound_vertices.id());
+  glDispatchCompute(count / (vertices_of_group * vertices_of_thread) + 1, 1, 1);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glUseProgram(programs.place_maps.id());
+  glDispatchCompute(1, 1, 1);
+  glMemoryBarrier(GL_UNIFORM_BARRIER_BIT);
+}
+
+void FrameRenderer::Impl::draw_bodies(const gl::Program& program, GLuint view, GLsizei index_count) const {
+  glProgramUniform1ui(program.id(), view_location, view);
   glUseProgram(program.id());
   glBindVertexArray(surface->vertices.id());
   glEnable(GL_CLIP_DISTANCE0);
@@ -243,6 +300,7 @@ void FrameRenderer::Impl::draw_bodies(const gl::Program& program, const glm::mat
 void FrameRenderer::Impl::set_shown() const {
   const GLuint smooth = programs.smooth_surface.id();
   glProgramUniform1i(programs.picture.id(), shows_strain_location, speeds || options.coloring == Coloring::deformation);
+  glProgramUniform1i(programs.picture.id(), hides_insides_location, fill_mode == Fill::surface);
   glProgramUniform1ui(smooth, first_motion_location, speeds ? speeds->first_vertex : 0);
   glProgramUniform1f(smooth, strain_of_speed_location, speeds ? full_strain / static_cast<float>(speeds->top) : 0.0f);
 }
@@ -267,7 +325,7 @@ void FrameRenderer::Impl::draw_shadow_map() {
   glEnable(GL_DEPTH_CLAMP);  // a body beyond the light's box still casts its shadow
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2.5f, 4.0f);
-  draw_bodies(programs.shadow, studio.key_projection, surface->solid_index_count);
+  draw_bodies(programs.shadow, light_view, surface->solid_index_count);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
@@ -280,7 +338,7 @@ void FrameRenderer::Impl::draw_footprint() const {
   glClearBufferfv(GL_COLOR, 0, nothing);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  draw_bodies(programs.footprint, studio.above_projection, surface->solid_index_count);
+  draw_bodies(programs.footprint, view_from_above, surface->solid_index_count);
   glDisable(GL_BLEND);
   glGenerateTextureMipmap(maps.footprint.id());
 }
@@ -309,9 +367,9 @@ void FrameRenderer::Impl::draw_seen() {
   glEnable(GL_CULL_FACE);
   // The sides that face the eye come first, because they hide most others. Of containers the others show alone.
   glCullFace(GL_BACK);
-  draw_bodies(programs.seen, studio.view_projection, surface->solid_index_count);
+  draw_bodies(programs.seen, camera_view, surface->solid_index_count);
   glCullFace(GL_FRONT);
-  draw_bodies(programs.seen, studio.view_projection, surface->index_count);
+  draw_bodies(programs.seen, camera_view, surface->index_count);
   glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_DEPTH_TEST);
@@ -384,7 +442,10 @@ void FrameRenderer::set_speeds(const std::optional<Speeds>& speeds) {
   impl_->set_shown();
 }
 
-void FrameRenderer::set_fill(Fill fill) { impl_->fill_mode = fill; }
+void FrameRenderer::set_fill(Fill fill) {
+  impl_->fill_mode = fill;
+  impl_->set_shown();
+}
 
 void FrameRenderer::resize(const glm::uvec2& size) {
   PLIANT_EXPECT(size.x > 0 && size.y > 0);
@@ -400,6 +461,7 @@ void FrameRenderer::draw(std::uint32_t positions_buffer, std::uint32_t first_ver
     if (after_pass) after_pass(pass);
   };
   impl_->bind_bodies(positions_buffer, first_vertex);
+  impl_->place_maps();
   impl_->smooth_surface();
   tell("normals");
   impl_->draw_shadow_map();

@@ -24,7 +24,7 @@ struct RenderOptions {
   glm::uvec2 size{1280, 720};  // [pixels]
   CameraDescription camera;
   Coloring coloring = Coloring::body;
-  SceneBox scene;                       // lights and shadows are fitted to it
+  SceneBox scene;                       // in which bodies start. Lights and shadows are fitted to it until bodies leave it
   std::optional<double> ground_height;  // [m]; empty: no ground
   Detail detail = Detail::full;
   /// How many pictures share one clearing of the depths, 1 to 8. More are faster, but then the last bits of a picture depend on
@@ -76,9 +76,9 @@ class FrameRenderer {
   /// Copies the last picture, pixel by pixel, to the bottom left of the window whose context is current.
   void copy_to_window() const;
 
-  /// Changes the camera. The lights stay where they are.
+  /// Changes the camera. The light comes from where it came from.
   void set_camera(const CameraDescription& camera);
-  /// Draws these bodies from now on. Lights stay where they are.
+  /// Draws these bodies from now on. The light comes from where it came from.
   void set_bodies(const Model& model);
   void set_fill(Fill fill);
   void set_coloring(Coloring coloring);

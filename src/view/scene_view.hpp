@@ -15,7 +15,7 @@ namespace pliant::view {
 /// Needs a current gl::Context while it lives. If the session is on a GPU device, it must be that device's context.
 class SceneView {
  public:
-  /// `session` must outlive it, and lights are fitted to its start. `size` is the size of the first picture [pixels]. Throws
+  /// `session` must outlive it, and the light is placed for its start. `size` is the size of the first picture [pixels]. Throws
   /// Error (device) if there is no room for it.
   SceneView(Session& session, const glm::uvec2& size, render::Detail detail);
 

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 #include <vector>
 
 #include "gl/context.hpp"
 #include "render/sphere_pictures.hpp"
+#include "support/pictures.hpp"
 
 using namespace pliant;
 using namespace pliant::render;
@@ -50,19 +52,42 @@ std::vector<glm::dvec3> places_on(const Tilt& tilt) {
   return places;
 }
 
-/// How much brighter or darker a body is at some of its places than the same body far beside the shadow map. Nothing casts
-/// shadows there.
+/// The same surface as a container, which casts no shadows and shows the sides that are turned away.
+Subject as_container(Subject subject) {
+  for (auto& corners : subject.model.triangles) std::swap(corners[1], corners[2]);
+  for (ModelBody& body : subject.model.bodies) body.is_container = true;
+  return subject;
+}
+
+/// How much brighter or darker a body is at some of its places than the same body where nothing casts shadows.
 int shadow_on_itself(const Subject& body, const std::vector<glm::dvec3>& places, double half_box) {
-  RenderOptions options = without_ground(), elsewhere = options;
-  const glm::dvec3 aside(4 * half_box, 0, 4 * half_box);  // at right angles to the light
+  RenderOptions options = without_ground();
   options.scene = {glm::dvec3(-half_box), glm::dvec3(half_box)};
-  elsewhere.scene = {options.scene.low + aside, options.scene.high + aside};
-  const Image image = draw(body, options), without_shadows = draw(body, elsewhere);
+  const Image image = draw(body, options), without_shadows = draw(as_container(body), options);
   int largest = 0;
   for (const glm::dvec3& place : places)
     largest = std::max(largest, std::abs(brightness_at(image, place) - brightness_at(without_shadows, place)));
   return largest;
 }
+
+/// The camera `front`, moved there and as much nearer.
+CameraDescription front_of(const glm::dvec3& place, double size) {
+  return {place + size * front.eye, place, front.field_of_view};
+}
+
+/// How much darker the ground is in the shadow of a sphere of this radius that lies there than at the mirror image of the shadow
+/// on the lit side. The camera sees the sphere as `front` sees one of radius 1.
+int contrast_of_shadow(RenderOptions options, const Subject& bodies, const glm::dvec3& centre, double radius) {
+  options.camera = front_of(centre, radius);
+  options.ground_height = centre.y - 1.1 * radius;
+  const Image image = draw(bodies, options);
+  const auto on_ground = [&](double x) {
+    return brightness_at(image, centre + radius * glm::dvec3(x, -1.1, -0.5), options.camera);
+  };
+  return on_ground(-1.3) - on_ground(1.3);
+}
+
+Subject small_sphere(const glm::dvec3& centre, double radius) { return scaled(sphere(centre), static_cast<float>(radius)); }
 
 }  // namespace
 
@@ -193,5 +218,78 @@ TEST_CASE("a body is darker in the cleft beside another, though the light reache
     CAPTURE(shade);
     CHECK(brightness_at(beside, in_cleft) < brightness_at(alone, in_cleft) - (shade > 0 ? 20 : 8));
     CHECK(std::abs(brightness_at(beside, far_side) - brightness_at(alone, far_side)) <= 3);
+  }
+}
+
+TEST_CASE("a body casts its shadow however far it is from where bodies start", "[gl]") {
+  const gl::Context context(0);
+  for (const glm::dvec3& place : {glm::dvec3(8, 0, 0), glm::dvec3(60, 0, -35), glm::dvec3(-400, 3, 10)}) {
+    CAPTURE(place.x);
+    CHECK(contrast_of_shadow(without_ground(), sphere(place), place, 1) > 60);
+  }
+}
+
+TEST_CASE("a small body in a wide scene casts its shadow, also beside bodies that are far away or out of view", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {glm::dvec3(-100), glm::dvec3(100)};
+  const glm::dvec3 place(20, 0, 5);
+  const Subject small = small_sphere(place, 0.3);
+  CHECK(contrast_of_shadow(options, small, place, 0.3) > 60);
+  CHECK(contrast_of_shadow(options, together(small, sphere({20, 0, -60})), place, 0.3) > 60);
+  CHECK(contrast_of_shadow(options, together(small, sphere({-70, 0, 40})), place, 0.3) > 60);
+}
+
+TEST_CASE("a small body casts its shadow on a wide one that it lies on", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {glm::dvec3(-60, -1, -60), glm::dvec3(60, 1, 60)};
+  const glm::dvec3 place(10, 0.31, 4);
+  options.camera = front_of(place, 0.3);
+  Subject slab = sphere({0, 0, 0}, glm::dvec3(0.6), "box:80,1,80,8");
+  for (glm::vec4& p : slab.world) p.y -= 0.5f;
+  const Image image = draw(together(slab, small_sphere(place, 0.3)), options);
+  const auto on_slab = [&](double x) { return brightness_at(image, {place.x + x, 0, place.z - 0.15}, options.camera); };
+  CHECK(on_slab(0.4) < on_slab(-0.4) - 60);
+}
+
+TEST_CASE("a body out of view still casts its shadow into the picture", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.scene = {glm::dvec3(-50), glm::dvec3(50)};
+  options.ground_height = -1;
+  const Subject seen = small_sphere({1, -0.7, 0}, 0.3), above = sphere(12.0 * to_light);
+  const auto ground_below_it = [&](const Subject& bodies) {
+    return brightness_at(draw(bodies, options), to_light * (-1 / to_light.y));
+  };
+  CHECK(ground_below_it(together(seen, above)) < ground_below_it(seen) - 60);
+}
+
+TEST_CASE("a body's shadow does not shimmer while another moves and light follows both", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.camera = front_of({21, 0, 0}, 1);
+  options.ground_height = -1.1;
+  const auto left_half = [&](double way) {
+    Image image = draw(together(sphere({20, 0, 0}), sphere({23 + way, 0, 0})), options);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      if (i / 3 % image.width > image.width / 2) image.pixels[i] = 0;
+    return image;
+  };
+  const Image first = left_half(0);
+  for (const double way : {0.003, 0.02, 0.07, 0.11, 0.16}) {
+    CAPTURE(way);
+    CHECK(mean_difference(left_half(way), first) < 0.01);  // it is up to 0.03 where maps follow by parts of texels
+  }
+}
+
+TEST_CASE("no light comes into a closed body", "[gl]") {
+  const gl::Context context(0);
+  RenderOptions options = without_ground();
+  options.ground_height = -1.1;
+  for (const glm::dvec3& towards : {to_light, -to_light, glm::dvec3(1, 0, 0), glm::dvec3(0.1, -1, 0)}) {
+    options.camera = {0.3 * towards, towards, 70};
+    const Image image = draw(sphere({0, 0, 0}, glm::dvec3(1)), options);
+    CHECK(std::ranges::max(image.pixels) < 60);
   }
 }
