@@ -1,4 +1,5 @@
-// The key light's own axes: x and y across the light, z towards it. The shadow map has x and y. And boxes around what it lights.
+// The key light's own axes: x and y across the light, z towards it. The shadow map has x and y. Then the boxes that say what the maps
+// cover.
 
 /// Returns them as columns.
 mat3 light_axes() {

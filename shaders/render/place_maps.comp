@@ -19,13 +19,13 @@ vec3 corner_at(uint first) { return vec3(value_of(bounds[first]), value_of(bound
 
 Box box_at(uint first) { return Box(bounds[first] > bounds[first + 3u], corner_at(first), corner_at(first + 3u)); }
 
-/// Returns centre and radius of what is lit, along the light's axes. What is beyond the map along the light still casts its shadow on
-/// what is farther on, so the map's depths end at the farthest.
+/// Returns centre and radius of what is lit, along the light's axes. What is beyond the map towards the light still casts its shadow, so
+/// only the farthest from the light has to be in the map's depths.
 vec4 lit_part(Box box) {
-  float start = margin * centre.w;
+  vec3 start = margin * centre.w * vec3(1.0, 1.0, depth_per_width);
   vec2 half_sides = 0.5 * (box.high.xy - box.low.xy);
   float needed = max(half_sides.x, half_sides.y);
-  bool is_in_start = all(greaterThan(box.low.xy, vec2(-start))) && all(lessThan(box.high.xy, vec2(start)));
+  bool is_in_start = all(greaterThan(box.low, -start)) && all(lessThan(vec3(box.high.xy, box.low.z), start));
   if (box.is_empty || (is_in_start && needed > smallest_part * centre.w)) return vec4(0.0, 0.0, 0.0, centre.w);
   float radius = centre.w * exp2(ceil(steps * log2(max(1.05 * needed / centre.w, 1e-6))) / steps);
   vec2 middle = 0.5 * (box.low.xy + box.high.xy);

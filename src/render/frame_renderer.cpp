@@ -274,7 +274,7 @@ void FrameRenderer::Impl::bind_bodies(std::uint32_t positions_buffer, std::uint3
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, studio_buffer.id());
 }
 
-// Nothing of that comes to the CPU.
+// The CPU never reads where they are.
 void FrameRenderer::Impl::place_maps() const {
   constexpr std::uint32_t vertices_of_thread = 16;
   const std::uint32_t count = surface->solid_vertex_count, buffers[] = {bounds.id(), studio_buffer.id()};

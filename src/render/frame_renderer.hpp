@@ -24,7 +24,7 @@ struct RenderOptions {
   glm::uvec2 size{1280, 720};  // [pixels]
   CameraDescription camera;
   Coloring coloring = Coloring::body;
-  SceneBox scene;                       // in which bodies start. Lights and shadows are fitted to it until bodies leave it
+  SceneBox scene;                       // in which bodies start. Lights and shadows are fitted to it while bodies fill it
   std::optional<double> ground_height;  // [m]; empty: no ground
   Detail detail = Detail::full;
   /// How many pictures share one clearing of the depths, 1 to 8. More are faster, but then the last bits of a picture depend on
