@@ -23,8 +23,7 @@ inline bool has_turned_by_a_quarter(const ReadJson& before, const ReadJson& afte
   return glm::distance(eye_from_target(after), glm::dvec3(-old.z, old.y, old.x)) < 1e-6 * glm::length(old);
 }
 
-/// How long a test waits for what it wants to read. Mesa compiles the kernels of contact for two minutes where they are not in
-/// its cache, and for longer beside other tests.
+/// How long a test waits for what it wants to read. The program may say nothing for as long (display.cpp).
 constexpr std::chrono::minutes longest_wait{10};
 
 /// The program in its window. Leaks are not looked for, because the driver's libraries leave some. They are unloaded with the
