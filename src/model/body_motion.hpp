@@ -14,7 +14,8 @@ struct BodyMotion {
   glm::dvec3 spin{0.0};      // [rad/s]
 };
 
-/// Returns the motion without deformation that has the body's momentum and angular momentum. Its rotation is the one that brings
+/// Returns the motion without deformation that has the body's momentum and, in its present shape, its angular momentum. With this
+/// spin the rest shape has another one. Its rotation is the one that brings
 /// the rest shape nearest to the vertices, by least squares (W. Kabsch, 1976).
 [[nodiscard]] BodyMotion body_motion(const Model& model, const State& state, std::size_t body);
 

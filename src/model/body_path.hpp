@@ -28,7 +28,7 @@ struct BodyPath {
 
 /// Returns the keys of what is left of a body's path at a time on its own clock [s]. Their times count from there. One that
 /// repeats goes around once. If the path has ended, there is one key, at its end. Between keys the way differs a little, because
-/// a path begins at rest.
+/// a path that does not repeat begins at rest.
 [[nodiscard]] std::vector<PathKeyDescription> path_from(const BodyDescription& description, double time);
 
 /// Returns the path of a scripted body. `centroid` is the mean of its vertices before it is turned and moved [m].

@@ -26,7 +26,7 @@ void convert(const toml::node& node, const std::string& path, bool& value) {
 void convert(const toml::node& node, const std::string& path, std::string& value) {
   const auto* text = node.as_string();
   if (text == nullptr) fail(node, path, fmt::format("is {}", type_name(node)), "write a string in quotation marks");
-  const bool has_control = std::ranges::any_of(text->get(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  const bool has_control = std::ranges::any_of(text->get(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (text->get().empty() || has_control) fail(node, path, "is empty or holds a control character", "write a plain line of text");
   value = text->get();
 }

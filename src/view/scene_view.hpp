@@ -21,6 +21,8 @@ class SceneView {
 
   /// Returns the scene's camera, or one that frames the bodies at the start.
   [[nodiscard]] const CameraDescription& first_camera() const { return options_.camera; }
+  /// Returns how high the ground is that pictures show [m], or nothing if they show none.
+  [[nodiscard]] const std::optional<double>& ground_height() const { return options_.ground_height; }
   /// Draws the session's current state, whose step the look must name. Draws nothing if the latest picture has the same look.
   /// Throws Error (device) if there is no room for the picture.
   void draw(const Look& wanted);

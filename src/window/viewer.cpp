@@ -368,6 +368,8 @@ void Viewer::save_picture() {
 void Viewer::save_scene() {
   SceneDescription scene = present_scene(*session_);
   scene.output.camera = camera_;
+  scene.output.ground_height = view_->ground_height();
+  scene.output.marks = shows_.contacts ? Marks::contacts : Marks::none;
   if (shows_.colors != Colors::speed)
     scene.output.coloring = shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body;
   const std::filesystem::path name = free_name(scene.file.stem().string(), ".toml");

@@ -164,6 +164,7 @@ TEST_CASE("a scene is saved as it is, and a folder that is gone costs nothing", 
   CHECK((saved.title == "Small" && saved.bodies[2].name == "thrown 1"));
   CHECK(saved.bodies[0].position.x == Approx(-1.3 + 0.005));
   CHECK(saved.output.camera->eye == place(shown["camera"]["eye"]));
+  CHECK(saved.output.ground_height.value() == Approx(-1).margin(0.1));  // just below the bodies at the start
   std::filesystem::remove_all(folder.path);
   viewed.press("F11");
   CHECK_THAT(viewed.await_text("pliant: "), Catch::Contains("small_0000.toml"));
