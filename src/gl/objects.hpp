@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "gl/shader_source.hpp"
 
@@ -32,6 +33,14 @@ class Buffer {
   std::uint32_t id_ = 0;
   std::size_t size_ = 0;
 };
+
+/// Returns a buffer of these elements. Throws Error (device) when the GPU has no room for it.
+template <class T>
+[[nodiscard]] Buffer buffer_of(const std::vector<T>& elements, std::string_view label) {
+  Buffer buffer(elements.size() * sizeof(T), label);
+  buffer.write(0, std::as_bytes(std::span(elements)));
+  return buffer;
+}
 
 /// Memory that the GPU copies buffers to, so that the processor waits once for several of them.
 class Landing {

@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <glm/geometric.hpp>
 #include <span>
 #include <string>
 
 #include "core/expect.hpp"
 #include "gl/targets.hpp"
-#include "mesh/incident_triangles.hpp"
+#include "render/drawn_surface.hpp"
 #include "render/studio.hpp"
 
 namespace pliant::render {
@@ -27,83 +26,8 @@ constexpr GLint view_location = 0, first_vertex_location = 0, vertex_count_locat
                 hides_insides_location = 4;
 constexpr GLuint camera_view = 0, light_view = 1, view_from_above = 2;  // of place.vert
 
-template <class T>
-gl::Buffer upload(const std::vector<T>& data, std::string_view label) {
-  gl::Buffer buffer(data.size() * sizeof(T), label);
-  buffer.write(0, std::as_bytes(std::span(data)));
-  return buffer;
-}
-
-/// Whether each edge of the body is in as many triangles forward as backward.
-bool is_closed(const ModelBody& body, const IncidentTriangles& around) {
-  std::vector<std::uint32_t> next, previous;
-  for (std::uint32_t vertex = body.first_vertex; vertex < body.first_vertex + body.vertex_count; ++vertex) {
-    next.clear(), previous.clear();
-    for (std::uint32_t i = around.first[vertex]; i < around.first[vertex + 1]; ++i) {
-      next.push_back(around.others[i][0]);
-      previous.push_back(around.others[i][1]);
-    }
-    std::ranges::sort(next);
-    std::ranges::sort(previous);
-    if (next != previous) return false;
-  }
-  return true;
-}
-
-/// Returns six times the volume of a closed body at rest, above 0 if its triangles wind outward [m^3].
-double six_volumes(const Model& model, const ModelBody& body) {
-  double sum = 0;
-  for (const auto& [a, b, c] : std::span(model.triangles).subspan(body.first_triangle, body.triangle_count))
-    sum += glm::dot(model.rest_position(a), glm::cross(model.rest_position(b), model.rest_position(c)));
-  return sum;
-}
-
-/// Containers are lit inside.
-std::vector<glm::vec4> colors_of(const Model& model, const IncidentTriangles& around) {
-  std::vector<glm::vec4> colors;
-  for (const ModelBody& body : model.bodies) {
-    const bool is_dark_inside = !body.is_container && six_volumes(model, body) > 0 && is_closed(body, around);
-    colors.emplace_back(glm::vec3(body.color), is_dark_inside ? 1.0f : 0.0f);
-  }
-  return colors;
-}
-
-/// The bodies but for containers, which stand behind all others and cast no shadows.
-struct Solids {
-  explicit Solids(const Model& model)
-      : vertex_count(model.vertex_count()), triangle_count(static_cast<std::uint32_t>(model.triangles.size())) {
-    const auto container = std::ranges::find(model.bodies, true, &ModelBody::is_container);
-    if (container == model.bodies.end()) return;
-    vertex_count = container->first_vertex;
-    triangle_count = container->first_triangle;
-  }
-  std::uint32_t vertex_count, triangle_count;
-};
-
 /// Boxes around nothing, as place_maps.comp leaves them behind.
 std::vector<std::uint32_t> no_bounds() { return {~0u, ~0u, ~0u, 0, 0, 0, ~0u, ~0u, ~0u, 0, 0, 0}; }
-
-/// The bodies' surfaces on the GPU. Only `smooth`, the normals and strains, is computed again for each picture.
-struct Surface {
-  explicit Surface(const Model& model) : Surface(model, incident_triangles(model.vertex_count(), model.triangles)) {}
-  Surface(const Model& model, const IncidentTriangles& around)
-      : vertex_count(model.vertex_count()),
-        solid_vertex_count(Solids(model).vertex_count),
-        index_count(static_cast<GLsizei>(model.triangles.size() * 3)),
-        solid_index_count(static_cast<GLsizei>(Solids(model).triangle_count * 3)),
-        indices(upload(model.triangles, "triangle corners")),
-        rest(upload(model.rest_positions, "rest positions for drawing")),
-        first_incident(upload(around.first, "first incident triangle")),
-        incident(upload(around.others, "incident triangles")),
-        colors(upload(colors_of(model, around), "body colours")),
-        smooth(vertex_count * sizeof(glm::vec4), "smooth normals and strains"),
-        vertices(indices) {}
-
-  std::uint32_t vertex_count, solid_vertex_count;
-  GLsizei index_count, solid_index_count;  // of all, and without containers
-  gl::Buffer indices, rest, first_incident, incident, colors, smooth;
-  gl::VertexArray vertices;
-};
 
 /// What a level of detail means for the shaders.
 struct Sampling {
@@ -249,9 +173,9 @@ struct FrameRenderer::Impl {
 
   RenderOptions options;
   Studio studio;
-  gl::Buffer studio_buffer{sizeof(Studio), "studio"}, bounds = upload(no_bounds(), "bounds of vertices");
+  gl::Buffer studio_buffer{sizeof(Studio), "studio"}, bounds = gl::buffer_of(no_bounds(), "bounds of vertices");
   Programs programs;
-  std::optional<Surface> surface;  // empty only while it is replaced
+  std::optional<DrawnSurface> surface;  // empty only while it is replaced
   Maps maps;
   std::optional<Picture> picture;  // empty only while it is replaced
   Fill fill_mode = Fill::surface;

@@ -17,6 +17,7 @@
 #include "dynamics/stability.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/obj.hpp"
+#include "model/inflation.hpp"
 #include "simulation/overlap.hpp"
 #include "simulation/simulation.hpp"
 
@@ -77,15 +78,6 @@ std::vector<Drop> drops_of(const DropsOptions& options) {
   return drops;
 }
 
-double volume_of(const Model& model, const ModelBody& body, std::span<const glm::dvec3> x) {
-  double sum = 0;
-  for (std::uint32_t t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-    const auto& [a, b, c] = model.triangles[t];
-    sum += glm::dot(x[a] - x[body.first_vertex], glm::cross(x[b] - x[body.first_vertex], x[c] - x[body.first_vertex])) / 6;
-  }
-  return sum;
-}
-
 // What a drop has been like at each look.
 class Witness {
  public:
@@ -100,8 +92,12 @@ class Witness {
       row.depth = larger(row.depth, -positions[i].y);
       momentum += model_.body_of(i).vertex_mass * velocities[i];
     }
-    for (const ModelBody& body : model_.bodies)
-      row.least_volume = std::min(row.least_volume, volume_of(model_, body, positions) / volume_of(model_, body, rest_));
+    for (const ModelBody& body : model_.bodies) {
+      const auto volume_at = [&](std::span<const glm::dvec3> all) {
+        return volume_of(model_, body, all.subspan(body.first_vertex, body.vertex_count));
+      };
+      row.least_volume = std::min(row.least_volume, volume_at(positions) / volume_at(rest_));
+    }
     const double given = gravity * drop_.fall * static_cast<double>(model_.bodies.size());  // [J] of 1 kg each
     row.most_energy = larger(row.most_energy, (energy(positions, velocities) - first_energy_) / given);
     row.sideways = larger(row.sideways, std::hypot(momentum.x, momentum.z) / std::sqrt(2 * gravity * drop_.fall));
