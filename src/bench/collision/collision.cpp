@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 
+#include "bench/collision/spheres.hpp"
 #include "bench/collision/tree_peers.hpp"
-#include "bench/collision/two_spheres.hpp"
 #include "bench/common/timing.hpp"
 #include "collision/collider.hpp"
 #include "core/stopwatch.hpp"
@@ -17,6 +18,8 @@
 namespace pliant::bench {
 namespace {
 
+constexpr int finest_level = 7, finest_quick_level = 4;
+constexpr std::size_t many_spheres = 16;  // of the finest, for GPUs alone: 5 million triangles
 constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
 
 // Rounds are repeated until both have passed.
@@ -101,9 +104,9 @@ const std::array<Search, 7> searches = {Search{"pliant"},
 // One size and overlap. The first row says what others have to find.
 class Case {
  public:
-  Case(const Overlap& overlap, int level, bool quick, CollisionResult& into)
+  Case(std::size_t bodies, const Overlap& overlap, int level, bool quick, CollisionResult& into)
       : overlap_(overlap),
-        start_(two_spheres(level, overlap.apart)),
+        start_(spheres(bodies, level, overlap.apart)),
         meshes_(meshes_of(start_)),
         rounds_(quick ? quick_rounds : all_rounds),
         into_(into) {}
@@ -194,6 +197,7 @@ class Case {
                           .device = device,
                           .threads = threads,
                           .overlap = overlap_.name,
+                          .bodies = start_.model.bodies.size(),
                           .triangles = triangles(),
                           .build_seconds = build,
                           .refit_seconds = seconds.refit,
@@ -231,8 +235,11 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
   CollisionResult result;
   const std::vector<Place> places = places_of(options.devices, precisions);
   const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
-  const int finest = options.quick ? 4 : 7;
-  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1);
+  const int finest = options.quick ? finest_quick_level : finest_level;
+  std::vector<Place> gpus;
+  std::ranges::copy_if(places, std::back_inserter(gpus), [](const Place& place) { return place.device == DeviceKind::gpu; });
+  const bool has_many = !options.quick && !gpus.empty();
+  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1) + has_many;
   int done = 0;
   const auto tell = [&](const std::string& what) {
     if (!result.interrupted) result.interrupted = !progress(double(done) / cases, what);
@@ -240,7 +247,7 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
   };
   for (int level = 3; level <= finest; ++level) {
     for (const Overlap& overlap : overlaps) {
-      Case what(overlap, level, options.quick, result);
+      Case what(2, overlap, level, options.quick, result);
       const std::string size = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
       for (const Place& place : places)
         for (const Search& search : searches)
@@ -256,6 +263,13 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
         result.contact_steps.push_back(measure_contact_step(place, level, options.quick));
     if (result.interrupted) return result;
     ++done;
+  }
+  if (has_many) {
+    Case what(many_spheres, overlaps[0], finest, options.quick, result);
+    for (const Place& place : gpus)
+      if (tell(fmt::format("{} bodies of {} triangles, {}", many_spheres, what.triangles(), name_of(place))))
+        what.measure(place, searches[0]);
+    if (result.interrupted) return result;
   }
   progress(1, "");
   return result;

@@ -19,16 +19,18 @@ struct CollisionOptions {
 struct CollisionRow {
   std::string engine;  // "pliant", with how its trees are split, "brute force", or a library and its version
   DeviceKind device = DeviceKind::cpu;
-  unsigned threads = 1;         // of the CPU; null in the file for the GPU
-  std::string overlap;          // "apart", "5 %" or "50 %"
-  std::uint32_t triangles = 0;  // of each of the two bodies
-  double build_seconds = 0;     // the trees of both, on one thread; null in the file without trees
-  double refit_seconds = 0;     // the median of some refits of both
+  unsigned threads = 1;  // of the CPU; null in the file for the GPU
+  std::string overlap;   // "apart", "5 %" or "50 %"
+  std::size_t bodies = 2;
+  std::uint32_t triangles = 0;  // of each body
+  double build_seconds = 0;     // the trees of all, on one thread; null in the file without trees
+  double refit_seconds = 0;     // the median of some refits of all
   double query_seconds = 0;     // the median: all pairs whose boxes overlap, and the exact test of each
   std::uint64_t pairs = 0;      // that touch
   bool agrees = true;           // as many pairs, at the same vertices, as the first row of this size and overlap
 
   [[nodiscard]] double refit_and_query_seconds() const { return refit_seconds + query_seconds; }
+  [[nodiscard]] double refitted_per_second() const { return refit_seconds > 0 ? double(bodies) * triangles / refit_seconds : 0; }
 };
 
 struct CollisionResult {
@@ -38,7 +40,8 @@ struct CollisionResult {
   bool interrupted = false;        // by Progress
 };
 
-/// Two spheres, from 1,280 triangles each to 327,680. Other libraries run on one thread. Throws Error (device).
+/// Two spheres, from 1,280 triangles each to 327,680, and on GPUs 16 such. Other libraries run on one thread. Throws Error
+/// (device).
 [[nodiscard]] CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

@@ -2,10 +2,11 @@
 
 #include <map>
 
-#include "bench/collision/two_spheres.hpp"
+#include "bench/collision/spheres.hpp"
 #include "bench/common/timing.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/stability.hpp"
+#include "simulation/breakdown.hpp"
 #include "simulation/simulation.hpp"
 
 namespace pliant::bench {
@@ -21,10 +22,9 @@ class PressedSpheres {
       : place_(place),
         device_(open(place)),
         start_(pressed_spheres(level)),
-        simulation_(
-            *device_, start_.model, start_.state,
-            {.integrator = &find_integrator("verlet"), .time_step = omega_step / stiffest_frequency(start_.model.bodies.front())},
-            {.response = {"impulse"}}) {
+        plan_{.integrator = &find_integrator("verlet"),
+              .time_step = omega_step / stiffest_frequency(start_.model.bodies.front())},
+        simulation_(*device_, start_.model, start_.state, plan_, {.response = {"impulse"}}) {
     simulation_.time_passes();
   }
 
@@ -43,10 +43,16 @@ class PressedSpheres {
     return row;
   }
 
+  [[nodiscard]] std::string breakdown() {
+    const std::optional<Breakdown> where = simulation_.report().breakdown;
+    return where ? describe_breakdown(*where, plan_, start_.model) : "";
+  }
+
  private:
   Place place_;
   std::unique_ptr<Device> device_;
   ModelAndState start_;
+  TimePlan plan_;
   Simulation simulation_;
 };
 
@@ -84,7 +90,9 @@ ContactStepRow measure_contact_step(const Place& place, int level, bool quick) {
   std::vector<ContactStepRow> parts;
   for (double passed = 0; parts.size() < fewest_parts || (parts.size() < most_parts && passed < enough_seconds);)
     passed += parts.emplace_back(spheres.make_part()).step_seconds;
-  return medians_of(parts);
+  ContactStepRow row = medians_of(parts);
+  row.breakdown = spheres.breakdown();
+  return row;
 }
 
 }  // namespace pliant::bench

@@ -28,6 +28,7 @@ struct ContactStepRow {
   std::size_t pressing_contacts = 0;                         // that gave an impulse in the last part
   std::vector<std::pair<std::string, double>> seconds = {};  // of each group. `refit` has the key `refit_seconds`
   double step_seconds = 0;                                   // of all passes, springs and integrator as well
+  std::string breakdown = {};  // empty (null in the file) if none. Bodies that broke down cost nothing
 };
 
 /// Lets spheres of `icosphere:level` go on from pressed_spheres by `verlet`, for 15 parts. Three are enough with `quick`, and

@@ -13,11 +13,13 @@ Json row_json(const CollisionRow& row) {
           {"device", name_of(row.device)},
           {"threads", threads_json(row.device, row.threads)},
           {"overlap", row.overlap},
+          {"bodies", row.bodies},
           {"triangles", row.triangles},
           {"build_seconds", row.build_seconds > 0 ? Json(row.build_seconds) : Json()},
           {"refit_seconds", row.refit_seconds},
           {"query_seconds", row.query_seconds},
           {"refit_and_query_seconds", row.refit_and_query_seconds()},
+          {"refitted_triangles_per_second", row.refitted_per_second()},
           {"pairs", row.pairs},
           {"agrees", row.agrees}};
 }
@@ -29,6 +31,7 @@ Json row_json(const ContactStepRow& row) {
                {"pressing_contacts", row.pressing_contacts}};
   for (const auto& [group, seconds] : row.seconds) json.add(group + "_seconds", seconds);
   json.add("step_seconds", row.step_seconds);
+  json.add("breakdown", row.breakdown.empty() ? Json() : Json(row.breakdown));
   return json;
 }
 
@@ -48,7 +51,7 @@ std::string table_of(const std::vector<ContactStepRow>& rows) {
     table += fmt::format("{:<17} {:>9} {:<6} {:>7} {:>8}", "", row.triangles, name_of(row.device),
                          threads_text(row.device, row.threads), row.pressing_contacts);
     for (const auto& [group, seconds] : row.seconds) table += fmt::format(" {:>14.4g}", 1e3 * seconds);
-    table += fmt::format(" {:>10.4g}\n", 1e3 * row.step_seconds);
+    table += fmt::format(" {:>10.4g} {}\n", 1e3 * row.step_seconds, row.breakdown);
   }
   for (const PassGroup& group : contact_groups()) table += fmt::format("{}: {}\n", group.name, fmt::join(group.passes, ", "));
   return table + '\n';
@@ -58,13 +61,16 @@ std::string table_of(const std::vector<ContactStepRow>& rows) {
 
 std::string to_table(const CollisionResult& result) {
   const std::size_t width = width_of(result.rows, &CollisionRow::engine);
-  std::string table = fmt::format("{:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10} {:>10} {:>10} {:>9}\n", "triangles", "overlap",
-                                  "engine", width, "device", "threads", "build ms", "refit ms", "query ms", "both ms", "pairs");
+  std::string table = fmt::format("{:>6} {:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10} {:>10} {:>10} {:>11} {:>9}\n", "bodies",
+                                  "triangles", "overlap", "engine", width, "device", "threads", "build ms", "refit ms",
+                                  "query ms", "both ms", "refit M/s", "pairs");
   for (const CollisionRow& row : result.rows)
-    table += fmt::format("{:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10.4g} {:>10.4g} {:>10.4g} {:>9}{}\n", row.triangles,
-                         row.overlap, row.engine, width, name_of(row.device), threads_text(row.device, row.threads),
-                         row.build_seconds > 0 ? fmt::format("{:.4g}", 1e3 * row.build_seconds) : "-", 1e3 * row.refit_seconds,
-                         1e3 * row.query_seconds, 1e3 * row.refit_and_query_seconds(), row.pairs, row.agrees ? "" : " differ");
+    table +=
+        fmt::format("{:>6} {:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10.4g} {:>10.4g} {:>10.4g} {:>11.4g} {:>9}{}\n", row.bodies,
+                    row.triangles, row.overlap, row.engine, width, name_of(row.device), threads_text(row.device, row.threads),
+                    row.build_seconds > 0 ? fmt::format("{:.4g}", 1e3 * row.build_seconds) : "-", 1e3 * row.refit_seconds,
+                    1e3 * row.query_seconds, 1e3 * row.refit_and_query_seconds(), 1e-6 * row.refitted_per_second(), row.pairs,
+                    row.agrees ? "" : " differ");
   table += table_of(result.contact_steps);
   for (const std::string& note : result.notes) table += note + '\n';
   return table;

@@ -4,9 +4,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "bench/collision/two_spheres.hpp"
+#include "bench/collision/spheres.hpp"
 #include "dynamics/integrator.hpp"
 #include "simulation/simulation.hpp"
+#include "support/has.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -15,6 +16,7 @@ TEST_CASE("spheres that press each other have contacts, and all figures of their
   const ContactStepRow row = measure_contact_step({.threads = 2}, 4, true);
   CHECK((row.device == DeviceKind::cpu && row.threads == 2 && row.triangles == 5120));
   CHECK(row.pressing_contacts > 10);
+  CHECK(row.breakdown == "");
   double sum = 0;
   for (std::size_t k = 0; k < contact_groups().size(); ++k) {
     const auto& [group, seconds] = row.seconds.at(k);
@@ -35,6 +37,16 @@ TEST_CASE("pressed spheres do not intersect at the start, and keep apart") {
   simulation.advance(2);
   CHECK(simulation.intersections().pairs == 0);
   CHECK(simulation.report().held_parts == 0);
+}
+
+TEST_CASE("pressed spheres of any size press each other on a GPU, too, and stay finite", "[gl]") {
+  if (test::lacks_gl()) return;
+  for (const int level : {3, 4, 5}) {
+    CAPTURE(level);
+    const ContactStepRow row = measure_contact_step({.device = DeviceKind::gpu}, level, true);
+    CHECK(row.breakdown == "");
+    CHECK(row.pressing_contacts > 10);
+  }
 }
 
 TEST_CASE("each pass that contact by impulses has for two bodies is in one group of figures") {

@@ -1,4 +1,4 @@
-#include "bench/collision/two_spheres.hpp"
+#include "bench/collision/spheres.hpp"
 
 #include <fmt/format.h>
 
@@ -11,22 +11,20 @@
 
 namespace pliant::bench {
 
-ModelAndState two_spheres(int level, const glm::dvec3& apart) {
-  std::vector<BodySetup> setups(2);
-  for (BodySetup& setup : setups) {
-    setup.mesh = generate_mesh(fmt::format("icosphere:{}", level));
-    setup.description.rotation = {10, 20, 30};  // no edge lies along an axis
+ModelAndState spheres(std::size_t count, int level, const glm::dvec3& apart) {
+  std::vector<BodySetup> setups(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    setups[k].mesh = generate_mesh(fmt::format("icosphere:{}", level));
+    setups[k].description.name = fmt::format("sphere {}", k + 1);
+    setups[k].description.rotation = k % 2 == 0 ? glm::dvec3(10, 20, 30) : glm::dvec3(40, 15, 70);  // no edge lies along an axis
+    setups[k].description.position = static_cast<double>(k) * apart;
   }
-  setups[0].description.name = "first";
-  setups[1].description.name = "second";
-  setups[1].description.rotation = {40, 15, 70};
-  setups[1].description.position = apart;
   return build_model(setups, glm::dvec3(0.0));
 }
 
 ModelAndState pressed_spheres(int level) {
   constexpr double apart = 1.9;
-  ModelAndState start = two_spheres(level, {apart, 0, 0});
+  ModelAndState start = spheres(2, level, {apart, 0, 0});
   const Model& model = start.model;
   const double quarter_gap = CollisionDescription().gap / 4 * mean_edge(model, model.bodies.front());
   const std::vector<glm::dvec3> places = start.state.world_positions(model);
