@@ -66,6 +66,16 @@ FN double rate_of_cubic(double from, double to, double rate_from, double rate_to
          s * (double(3) * s - double(2)) * rate_to;
 }
 
+FN dvec3 cubic(dvec3 from, dvec3 to, dvec3 rate_from, dvec3 rate_to, double s, double duration) {
+  return dvec3(cubic(from.x, to.x, rate_from.x, rate_to.x, s, duration), cubic(from.y, to.y, rate_from.y, rate_to.y, s, duration),
+               cubic(from.z, to.z, rate_from.z, rate_to.z, s, duration));
+}
+FN dvec3 rate_of_cubic(dvec3 from, dvec3 to, dvec3 rate_from, dvec3 rate_to, double s, double duration) {
+  return dvec3(rate_of_cubic(from.x, to.x, rate_from.x, rate_to.x, s, duration),
+               rate_of_cubic(from.y, to.y, rate_from.y, rate_to.y, s, duration),
+               rate_of_cubic(from.z, to.z, rate_from.z, rate_to.z, s, duration));
+}
+
 // The time at which the keys say where the path is at a time. It lies between the first key's and the last one's.
 FN double time_along(IN(Path) path, double time, double first, double last) {
   if (path.repeats != 0u && time > last) time -= floor(ratio(time - first, last - first)) * (last - first);
@@ -80,24 +90,29 @@ FN dvec3 half_turn_between(Quaternion from, Quaternion to) {
   return dvec3(ratio(turn.x, turn.w), ratio(turn.y, turn.w), ratio(turn.z, turn.w));
 }
 
-// Returns where the path is at a time [s] between two keys.
+// Returns where the path is at a time [s] between two keys. All indices are constants: where one is a loop's, an NVIDIA driver (580) rounds
+// what it reads to fp32.
 FN PathPoint point_between(IN(PathKey) a, IN(PathKey) b, double time) {
   double duration = b.time - a.time, s = ratio(time - a.time, duration);
+  dvec3 place = LOAD3(a.position, 0u), next_place = LOAD3(b.position, 0u), rate = LOAD3(a.velocity, 0u), next_rate = LOAD3(b.velocity, 0u);
+  dvec3 q = LOAD3(a.quaternion, 0u), next_q = LOAD3(b.quaternion, 0u);
+  dvec3 q_rate = LOAD3(a.quaternion_rate, 0u), next_q_rate = LOAD3(b.quaternion_rate, 0u);
+  double w = a.quaternion[3], next_w = b.quaternion[3], w_rate = a.quaternion_rate[3], next_w_rate = b.quaternion_rate[3];
   PathPoint p;
-  double q[4], rate[4];
-  for (uint k = 0u; k < 3u; ++k) {
-    p.centre[k] = cubic(a.position[k], b.position[k], a.velocity[k], b.velocity[k], s, duration);
-    p.velocity[k] = rate_of_cubic(a.position[k], b.position[k], a.velocity[k], b.velocity[k], s, duration);
-  }
-  for (uint k = 0u; k < 4u; ++k) {
-    q[k] = cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
-    rate[k] = rate_of_cubic(a.quaternion[k], b.quaternion[k], a.quaternion_rate[k], b.quaternion_rate[k], s, duration);
-  }
-  EXACT double size = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  Quaternion at = normalized(quaternion(q[0], q[1], q[2], q[3]));
-  Quaternion turning = product(quaternion(ratio(rate[0], size), ratio(rate[1], size), ratio(rate[2], size), ratio(rate[3], size)),
+  dvec3 centre = cubic(place, next_place, rate, next_rate, s, duration);
+  dvec3 velocity = rate_of_cubic(place, next_place, rate, next_rate, s, duration);
+  dvec3 axis = cubic(q, next_q, q_rate, next_q_rate, s, duration);
+  dvec3 turning_axis = rate_of_cubic(q, next_q, q_rate, next_q_rate, s, duration);
+  double cosine = cubic(w, next_w, w_rate, next_w_rate, s, duration);
+  double turning_cosine = rate_of_cubic(w, next_w, w_rate, next_w_rate, s, duration);
+  EXACT double size = sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z + cosine * cosine);
+  Quaternion at = normalized(quaternion(axis.x, axis.y, axis.z, cosine));
+  Quaternion turning = product(quaternion(ratio(turning_axis.x, size), ratio(turning_axis.y, size), ratio(turning_axis.z, size),
+                                          ratio(turning_cosine, size)),
                                conjugate(at));
   dvec3 spin = double(2) * dvec3(turning.x, turning.y, turning.z);
+  STORE3(p.centre, 0u, centre)
+  STORE3(p.velocity, 0u, velocity)
   STORE3(p.spin, 0u, spin)
   p.quaternion[0] = at.x;
   p.quaternion[1] = at.y;

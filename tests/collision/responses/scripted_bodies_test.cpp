@@ -270,12 +270,20 @@ TEST_CASE("with a tolerance a scripted body goes along its path from a hold on, 
   CHECK(simulation.report().response.scripts.at(0).waited < 1e-12);
 }
 
-TEST_CASE("a scripted body that is alone goes along its path") {
-  const ModelAndState start = build_model(std::vector{scripted(slab(), {{0, {}, {}}, {1, {1, 0, 0}, {}}})}, falling);
-  const auto device = make_cpu_device(1, 32);
-  Simulation simulation(*device, start.model, start.state, plan_of(Method{"cv8", 0.01}), by_impulses);
-  simulation.advance(100);
-  CHECK(centre(start.model, simulation.state(), 0).x == Approx(1));
+TEST_CASE("a scripted body that is alone goes along its path, by every device alike", "[gl]") {
+  const std::vector<BodySetup> setups = {scripted(slab(), {{0, {0.1, 0, 0}, {}}, {1, {1.1, 0, 0}, {0, 90, 20}}})};
+  const ModelAndState start = build_model(setups, falling);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation simulation(*test.device, start.model, start.state, plan_of(Method{"cv8", 0.01}), by_impulses);
+    for (int look = 1; look <= 10; ++look) {
+      simulation.advance(10);
+      const Astray most = astray(simulation, start.model);
+      CHECK(most.place < 1e-12);
+      CHECK(most.velocity < 1e-11);
+    }
+    CHECK(centre(start.model, simulation.state(), 0).x == Approx(1.1));
+  }
 }
 
 // A ball on a lift would else lose its vibration in each step, since it parts from the lift's place as fast as the lift goes.
