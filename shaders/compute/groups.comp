@@ -3,7 +3,7 @@
 #version 450
 #include "subgroups.glsl"
 #include "physics/language.glsl"
-layout(local_size_x = 64) in;  // group_size
+layout(local_size_x = GROUP_THREADS) in;
 #include "@kernel"
 PARAMETER(uint, item_count)
 void main() {

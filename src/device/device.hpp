@@ -110,8 +110,9 @@ class Device {
   /// Returns the kernel in the file kernels/NAME.glsl, whose function has the same name. Throws Error (device) if it does not
   /// build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
-  /// Returns a kernel whose items are served by a group of threads each (shaders/compute/groups.comp). On a CPU that is one.
-  [[nodiscard]] virtual KernelId group_kernel(std::string_view name) = 0;
+  /// Returns a kernel whose items are served by a group of so many threads each (shaders/compute/groups.comp). On a CPU that is
+  /// one thread. On a GPU it is a power of two, from physics::group_size to 1024.
+  [[nodiscard]] virtual KernelId group_kernel(std::string_view name, std::uint32_t threads) = 0;
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
   /// most shares_at_once() of them, or one.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;

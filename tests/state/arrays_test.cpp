@@ -114,7 +114,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const bool goes_in_groups = std::ranges::find(in_groups, name) != std::end(in_groups);
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     const auto signature = [&](Device& device) {
-      if (goes_in_groups) return device.signature(device.group_kernel(name));
+      if (goes_in_groups) return device.signature(device.group_kernel(name, physics::group_size));
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
       return device.signature(sums_springs ? device.force_kernel(name, device.best_force_variant(1000, 1000))
                                            : device.kernel(name));

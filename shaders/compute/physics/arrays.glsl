@@ -57,7 +57,7 @@ ARRAY(treelet, Treelet, treelet, fixed, "nodes, and vertices, of a part of a bod
 ARRAY(treelet_vertex, uint, vertex, fixed, "of a treelet's triangles, each once; one number if refits are bottom-up")
 ARRAY(treelet_step, uint, treelet, step, "the latest step in which it overlapped one of another body; one number if refits are bottom-up")
 ARRAY(treelet_pair, uvec2, pair, step, "treelets of near bodies whose boxes overlap; one pair if refits are bottom-up")
-ARRAY(node, uvec4, node, fixed, "of treelets, level by level: first child, one past the last child (both 0: leaf), first triangle, end of triangles")
+ARRAY(node, uvec4, node, fixed, "of treelets, level by level: first child, one past the last child, height above the lowest leaf, 0; of a leaf 0, 0, first triangle, end of triangles")
 ARRAY(node_box, vec4, node, step, "[node][2] lower, upper [m]")
 ARRAY(triangle, uint, triangle, fixed, "[triangle][3] vertex indices, in leaf order")
 ARRAY(near_pair, uvec4, pair, step, "two bodies, then the next pair of each by its number + 1, or 0; in no fixed order. A body that may meet itself is both, without links")

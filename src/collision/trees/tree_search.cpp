@@ -1,6 +1,7 @@
 #include "collision/trees/tree_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -18,6 +19,13 @@ constexpr std::uint32_t most_unlisted_groups = 1024;
 std::uint32_t most_groups_of(std::uint32_t parallel_items) { return std::clamp(parallel_items / 16, 256u, 4096u); }
 
 constexpr std::uint32_t least_triangles_of_a_treelet = 16;
+
+// Of a group that refits treelets of so many nodes. A thread waits for memory at each node, so it should have few.
+std::uint32_t threads_for(std::size_t nodes) {
+  constexpr std::size_t nodes_of_a_thread = 4, most_threads = 512;
+  return static_cast<std::uint32_t>(
+      std::bit_floor(std::clamp<std::size_t>(nodes / nodes_of_a_thread, physics::group_size, most_threads)));
+}
 
 std::vector<std::uint32_t> corners_of(const Forest& forest) {
   std::vector<std::uint32_t> corners;
@@ -94,6 +102,7 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, const Collisi
   search_groups_ = std::clamp(most / pairs_of_a_group, 1u, most_groups_of(parallel_items));
   pairing_threads_ =
       device.info().kind == DeviceKind::gpu ? pairs_at_once(parallel_items, 1, most) : std::min(parallel_items, most);
+  if (treelet_count_ > 0) threads_of_a_refit_ = threads_for(treelets.nodes.size() / treelet_count_);
   Arrays& arrays = bodies.arrays;
   arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity_);
   arrays.set_parameter("treelet_pair_capacity", treelet_pairs);
@@ -109,8 +118,8 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, const Collisi
   in_forest_ = std::move(treelets.in_forest);
 }
 
-Pass TreeSearch::group_pass(std::string_view kernel, Parameters parameters, std::uint32_t groups) const {
-  return make_pass(bodies_.arrays, kernel, bodies_.arrays.device().group_kernel(kernel), parameters, groups);
+Pass TreeSearch::group_pass(std::string_view kernel, Parameters parameters, std::uint32_t groups, std::uint32_t threads) const {
+  return make_pass(bodies_.arrays, kernel, bodies_.arrays.device().group_kernel(kernel, threads), parameters, groups);
 }
 
 std::vector<Pass> TreeSearch::fitting_passes(std::string_view bounding, std::string_view fitting,
@@ -120,7 +129,7 @@ std::vector<Pass> TreeSearch::fitting_passes(std::string_view bounding, std::str
     passes.push_back(group_pass(bounding, parameters, treelet_count_));
     passes.push_back(make_pass(bodies_.arrays, "pair_treelets", {{"search_threads", pairing_threads_}}, pairing_threads_));
   }
-  passes.push_back(group_pass(fitting, parameters, treelet_count_));
+  passes.push_back(group_pass(fitting, parameters, treelet_count_, threads_of_a_refit_));
   return passes;
 }
 

@@ -8,6 +8,7 @@
 #include "collision/trees/treelets.hpp"
 #include "device/device.hpp"
 #include "device/pass.hpp"
+#include "physics/control.glsl"
 #include "scene/scene_description.hpp"
 #include "state/device_bodies.hpp"
 
@@ -49,14 +50,15 @@ class TreeSearch {
  private:
   [[nodiscard]] std::vector<Pass> fitting_passes(std::string_view bounding, std::string_view fitting,
                                                  const Parameters& parameters) const;
-  [[nodiscard]] Pass group_pass(std::string_view kernel, Parameters parameters, std::uint32_t groups) const;
+  [[nodiscard]] Pass group_pass(std::string_view kernel, Parameters parameters, std::uint32_t groups,
+                                std::uint32_t threads = physics::group_size) const;
 
   DeviceBodies& bodies_;
   std::uint32_t leaf_pair_capacity_, treelet_count_ = 0;
   bool may_lack_room_;  // all pairs of leaves are more than it has room for
   std::uint32_t triangles_of_a_treelet_;
   bool is_hybrid_ = false;  // a refit leaves out treelets that meet no other
-  std::uint32_t search_groups_ = 0, pairing_threads_ = 0;
+  std::uint32_t search_groups_ = 0, pairing_threads_ = 0, threads_of_a_refit_ = physics::group_size;
   std::vector<std::uint32_t> in_forest_;  // the number there of each node on the device
 };
 

@@ -5,6 +5,20 @@
 namespace pliant {
 namespace {
 
+// Gives nodes with children, from `first` on, their heights. Children stand behind their parent. Returns one past the last such
+// node.
+std::uint32_t set_heights(std::vector<glm::uvec4>& nodes, std::uint32_t first) {
+  std::uint32_t end = first;
+  for (auto n = static_cast<std::uint32_t>(nodes.size()); n-- > first;) {
+    glm::uvec4& node = nodes[n];
+    if (node.x == 0) continue;
+    end = std::max(end, n + 1);
+    for (std::uint32_t child = node.x; child < node.y; ++child)
+      node.z = std::max(node.z, nodes[child].x == 0 ? 1 : nodes[child].z + 1);
+  }
+  return end;
+}
+
 // Appends a node and all below it, level by level. Returns how many levels they have.
 std::uint32_t append_nodes(Treelets& all, const Forest& forest, std::uint32_t root) {
   std::uint32_t levels = 0;
@@ -14,8 +28,10 @@ std::uint32_t append_nodes(Treelets& all, const Forest& forest, std::uint32_t ro
     next.clear();
     for (const std::uint32_t at : level) {
       const TreeNode& node = forest.nodes[at];
-      const std::uint32_t first = node.is_leaf() ? 0 : number_of_next;
-      all.nodes.emplace_back(first, first + node.child_count, node.first_triangle, node.end_of_triangles());
+      if (node.is_leaf())
+        all.nodes.emplace_back(0, 0, node.first_triangle, node.end_of_triangles());
+      else
+        all.nodes.emplace_back(number_of_next, number_of_next + node.child_count, 0, 0);
       all.in_forest.push_back(at);
       number_of_next += node.child_count;
       for (std::uint32_t k = 0; k < node.child_count; ++k) next.push_back(node.first_child + k);
@@ -62,6 +78,7 @@ Treelets cut_into_treelets(const Forest& forest, std::uint32_t most_triangles) {
         treelet.first_node = static_cast<std::uint32_t>(all.nodes.size());
         treelet.levels = append_nodes(all, forest, at);
         treelet.end_node = static_cast<std::uint32_t>(all.nodes.size());
+        treelet.end_inner = set_heights(all.nodes, treelet.first_node);
         treelet.first_vertex = static_cast<std::uint32_t>(all.vertices.size());
         append_vertices(all, forest, forest.nodes[at]);
         treelet.end_vertex = static_cast<std::uint32_t>(all.vertices.size());

@@ -12,9 +12,10 @@ namespace pliant {
 struct Treelets {
   std::vector<physics::Treelet> treelets;  // of all bodies, one after another
   std::vector<glm::uvec4> trees;           // for each body: its first treelet, how many it has, its first triangle, and their end
-  std::vector<glm::uvec4> nodes;           // first child, one past the last (both 0: a leaf), first triangle, and their end
-  std::vector<std::uint32_t> in_forest;    // each of these nodes' number in the forest
-  std::vector<std::uint32_t> vertices;     // of each treelet's triangles, each once
+  // First child, one past the last, height above the lowest leaf, 0. Of a leaf 0, 0, first triangle, and their end
+  std::vector<glm::uvec4> nodes;
+  std::vector<std::uint32_t> in_forest;  // each of these nodes' number in the forest
+  std::vector<std::uint32_t> vertices;   // of each treelet's triangles, each once
 };
 
 /// Returns where a tree is cut: the highest nodes that have `most_triangles` or fewer, or are leaves, in the order of triangles.

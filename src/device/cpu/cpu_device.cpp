@@ -128,7 +128,7 @@ class CpuDevice final : public Device {
     throw Error(ErrorKind::device, std::string(name), "no such kernel on the CPU", "");
   }
 
-  KernelId group_kernel(std::string_view name) override { return kernel(name); }
+  KernelId group_kernel(std::string_view name, std::uint32_t) override { return kernel(name); }
   KernelId round_kernel(std::string_view name) override { return kernel(name); }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(span == ForceSpan::stage);

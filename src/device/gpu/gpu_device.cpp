@@ -136,7 +136,10 @@ class GpuDevice final : public Device {
   }
 
   KernelId kernel(std::string_view name) override { return build(name, thread_caller); }
-  KernelId group_kernel(std::string_view name) override { return build(name, group_caller); }
+  KernelId group_kernel(std::string_view name, std::uint32_t threads) override {
+    return build(fmt::format("{}, {} threads", name, threads), group_caller,
+                 defines_of(name, {{"GROUP_THREADS", std::to_string(threads)}}));
+  }
   KernelId round_kernel(std::string_view name) override {
     GLint bytes = 0;
     glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
@@ -229,9 +232,14 @@ class GpuDevice final : public Device {
     std::array<BufferId, max_arrays> storage{}, constants{};
   };
 
+  // Of the kernel's file and function, and more.
+  static std::vector<gl::Define> defines_of(std::string_view name, std::vector<gl::Define> more) {
+    more.insert(more.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+    return more;
+  }
+
   KernelId build(std::string_view name, const Caller& caller, std::vector<gl::Define> defines = {}) {
-    defines.insert(defines.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
-    return build(std::string(name), caller, defines);
+    return build(std::string(name), caller, defines_of(name, std::move(defines)));
   }
 
   // Returns the kernel that was built before for the same caller, or builds it.

@@ -71,16 +71,21 @@ TEST_CASE("a treelet has all nodes below its root, level by level, with the tria
       for (std::uint32_t n = treelet.first_node; n < treelet.end_node; ++n) {
         const glm::uvec4 node = cut.nodes[n];
         const TreeNode& in_forest = forest.nodes[cut.in_forest[n]];
-        CHECK((node.z == in_forest.first_triangle && node.w == in_forest.end_of_triangles()));
         CHECK(node.y - node.x == in_forest.child_count);
         CHECK((node.x == 0) == in_forest.is_leaf());
+        if (in_forest.is_leaf()) CHECK((node.z == in_forest.first_triangle && node.w == in_forest.end_of_triangles()));
+        if (!in_forest.is_leaf()) CHECK(n < treelet.end_inner);
+        std::uint32_t height = 0;
         for (std::uint32_t child = node.x; child < node.y; ++child) {
           CHECK(child == next_child++);
           CHECK(forest.nodes[cut.in_forest[child]].parent == cut.in_forest[n]);
           level[child - treelet.first_node] = level[n - treelet.first_node] + 1;
+          height = std::max(height, cut.nodes[child].x == 0 ? 1 : cut.nodes[child].z + 1);
         }
+        if (!in_forest.is_leaf()) CHECK(node.z == height);
       }
       CHECK(next_child == treelet.end_node);
+      CHECK((treelet.end_inner == treelet.first_node || cut.nodes[treelet.end_inner - 1].x != 0));
       CHECK(std::ranges::is_sorted(level));
       CHECK(level.back() + 1 == treelet.levels);
       next_node = treelet.end_node;

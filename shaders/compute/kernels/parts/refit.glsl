@@ -12,21 +12,28 @@ PaddedBox box_of_children(uint first, uint end) {
   return box;
 }
 
-// Children stand behind their parent, so one thread that goes from the last node to the first has all boxes after one round. More threads
-// fit all inner nodes again in each round. Those of height k are right after round k.
-void fit_treelet(IN(Treelet) t) {
-  uint count = t.end_node - t.first_node, last = t.end_node - 1u;
+void fit_leaves(IN(Treelet) t) {
+  for (uint n = t.first_node + THREAD; n < t.end_node; n += THREADS) {
+    uvec4 at = node[n];
+    if (at.x == 0u) store_box(n, box_of_triangles(at.z, at.w));
+  }
+}
+
+// Fits nodes with children of this height. Children stand behind their parent, so a thread that is alone fits all from the last to the first.
+void fit_inner_nodes(IN(Treelet) t, uint height) {
+  uint count = t.end_inner - t.first_node, last = t.end_inner - 1u;
   for (uint k = THREAD; k < count; k += THREADS) {
     uvec4 at = node[last - k];
-    if (at.x == 0u) store_box(last - k, box_of_triangles(at.z, at.w));
+    if (at.x != 0u && (THREADS == 1u || at.z == height)) store_box(last - k, box_of_children(at.x, at.y));
   }
-  uint rounds = THREADS == 1u ? min(t.levels - 1u, 1u) : t.levels - 1u;
-  for (uint round = 0u; round < rounds; ++round) {
+}
+
+void fit_treelet(IN(Treelet) t) {
+  fit_leaves(t);
+  uint heights = THREADS == 1u ? min(t.levels, 2u) : t.levels;
+  for (uint height = 1u; height < heights; ++height) {
     MEET
-    for (uint k = THREAD; k < count; k += THREADS) {
-      uvec4 at = node[last - k];
-      if (at.x != 0u) store_box(last - k, box_of_children(at.x, at.y));
-    }
+    fit_inner_nodes(t, height);
   }
 }
 

@@ -9,6 +9,7 @@ struct Treelet {
   uint body;
   uint first_node;  // its root
   uint end_node;
+  uint end_inner;  // one past its last node with children, or first_node
   uint levels;
   uint first_vertex;  // of its triangles' vertices, each once, in `treelet_vertex`
   uint end_vertex;
