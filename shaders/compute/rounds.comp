@@ -7,8 +7,8 @@
 // - goes_on() may look up what its thread needs in the next round. A kernel can count on that only if has_own_thread is true. On the CPU it
 //   never is.
 //
-// A group has 128 threads, because 64 took longer. An H200 does not run as many groups at once as it might: `certify` takes much memory. It
-// runs 198 groups of 128 threads, but not 264, and 108 of 256 threads.
+// A group has 128 threads, because 64 took longer. A GPU does not run as many groups at once as it might, if a kernel takes much memory: an
+// H200 runs 198 groups of `certify`, but not 264, and 108 of 256 threads. In a rehearsal groups do nothing but wait for each other.
 //
 // A kernel may define NEAR_ROUNDS, and with it GROUP_SIZE and far_threads:
 // - One group serves up to near_items items. begin_near() then sets sums_are_near if threads share only the group's own memory, in all
@@ -33,6 +33,7 @@ const uint far_threads = GROUP_SIZE;
 #endif
 layout(local_size_x = GROUP_SIZE) in;
 PARAMETER(uint, item_count)  // work groups
+PARAMETER(uint, is_rehearsal)
 #include "kernels/parts/was_stopped.glsl"
 
 // Waits until all groups have come here `often` times.
@@ -41,10 +42,10 @@ void wait_for_others(uint groups, uint often) {
   barrier();
   if (groups == 1u) return;
   if (gl_LocalInvocationID.x == 0u) {
-    uint polls = 0u;
+    uint polls = 0u, most = is_rehearsal != 0u ? most_polls_of_rehearsal : most_polls;
     atomicAdd(contact_list[0].arrivals, 1u);
-    while (atomicAdd(contact_list[0].arrivals, 0u) < groups * often && polls < most_polls) ++polls;
-    if (polls == most_polls) atomicOr(contact_list[0].arrivals, waited_in_vain);  // the others need not wait, either
+    while (atomicAdd(contact_list[0].arrivals, 0u) < groups * often && polls < most) ++polls;
+    if (polls == most) atomicOr(contact_list[0].arrivals, waited_in_vain);  // the others need not wait, either
     memoryBarrierBuffer();
   }
   barrier();
@@ -74,6 +75,11 @@ uint threads_of_a_group(uint count) {
 }
 
 void main() {
+  if (is_rehearsal != 0u) {
+    wait_for_others(item_count, 1u);
+    leave(item_count, 1u);
+    return;
+  }
   uint count = items_in_a_round();
   if (count == 0u) return;
   uint threads = threads_of_a_group(count), groups = min((count + threads - 1u) / threads, item_count);

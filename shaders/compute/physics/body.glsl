@@ -94,6 +94,7 @@ const uint halted_waiting = 3u;   // for good, because its work groups do not ru
 const uint immovable = 4u;        // keeps its place and shape
 const uint scripted = 5u;         // keeps its shape and goes along its path
 const uint most_polls = 1u << 22;  // of work groups that wait for others, which take some seconds
+const uint most_polls_of_rehearsal = 1u << 14;  // some 20 ms
 const uint waited_in_vain = 1u << 31;  // in counts of arrivals: work groups did not run at once, though they should
 
 const uint no_vertex = 0xffffffffu;

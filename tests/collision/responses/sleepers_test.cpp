@@ -1,6 +1,7 @@
 // When bodies fall asleep and wake: the kernel find_sleepers, by what a step tells it.
 #include <catch2/catch.hpp>
 
+#include "collision/responses/round_kernels.hpp"
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/parts.glsl"
@@ -50,8 +51,7 @@ struct Slumber {
     arrays.make("cluster", clusters);
     arrays.make<physics::ContactList>("contact_list", 1);
     auto& known = arrays.make("status", statuses);
-    const Pass pass = make_pass(arrays, "find_sleepers", device.round_kernel("find_sleepers"), {{"from_half", 0u}},
-                                std::max(device.shares_at_once(), 1u));
+    const Pass pass = RoundKernels(arrays, device.shares_at_once()).pass("find_sleepers", {{"from_half", 0u}});
     device.run({&pass, 1});
     statuses = known.download();
     slow_places = noted.download();

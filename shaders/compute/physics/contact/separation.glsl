@@ -100,45 +100,39 @@ FN real3 axis_across(IN(Simplex) s, IN(real3) closest) {
   return dot(normal, s.corner[0]) < real(0) ? -normal : normal;
 }
 
-// Triangles that share a corner stay apart elsewhere if a plane through it has the other two corners of each on its own side at both ends.
-// Let directions lead from the shared corner to those of the first triangle, and from those of the second to the shared one. All of them
-// have to go along the plane's normal.
-const uint no_corner = 3u;
-
-struct Fans {
-  bool exist;
-  real3 way[8];  // at the start, then at the end [m]
-  real3 direction[8];
-};
-
-FN Fans fans_at(IN(Motion) m, int of_first, int of_second) {
-  Fans f;
-  f.exist = of_first != int(no_corner);
-  for (int n = 0; n < 2 && f.exist; ++n) {
-    int j = (of_first + 1 + n) % 3, k = 3 + (of_second + 1 + n) % 3;
-    f.way[n] = m.start[j] - m.start[of_first];
-    f.way[2 + n] = m.start[3 + of_second] - m.start[k];
-    f.way[4 + n] = m.end[j] - m.end[of_first];
-    f.way[6 + n] = m.end[3 + of_second] - m.end[k];
-  }
-  for (int n = 0; n < 8 && f.exist; ++n) f.direction[n] = f.way[n] / length(f.way[n]);
-  return f;
-}
-
-FN bool all_go_along(IN(real3) axis, IN(Fans) f, real margin) {
-  real least = margin * ((abs(axis.x) + abs(axis.y)) + abs(axis.z));
+// Triangles that share a corner, the first one of either, stay apart elsewhere if a plane through it has the other two corners of each on its
+// own side at both ends. Let ways lead from the shared corner to those of the first triangle, and from those of the second to the shared
+// one. All of them have to go along the plane's normal.
+FN bool all_go_along(IN(real3) axis, IN_ARRAY(real3, p, 6), real least) {
   bool all = true;
-  for (int n = 0; n < 8; ++n) all = all && shadow(axis, f.way[n]) > least;
+  for (int k = 1; k < 3; ++k)
+    all = all && shadow(axis, p[k] - p[0]) > least && shadow(axis, p[3] - p[3 + k]) > least;
   return all;
 }
 
-// Returns the one of the directions, or of the differences of corners, one of each triangle, that goes least along the axis.
-FN real3 least_along(IN(real3) axis, IN(Motion) m, IN(Fans) f) {
-  if (f.exist) {
-    real3 least = f.direction[0];
-    for (int n = 1; n < 8; ++n)
-      if (dot(axis, f.direction[n]) < dot(axis, least)) least = f.direction[n];
-    return least;
+// Whether the triangles are on their sides of a plane across the axis at both ends.
+FN bool is_proof(IN(real3) axis, IN(Motion) m, bool share_a_corner) {
+  if (!share_a_corner) return stays_above(axis, m);
+  real least = m.margin * ((abs(axis.x) + abs(axis.y)) + abs(axis.z));
+  return all_go_along(axis, m.start, least) && all_go_along(axis, m.end, least);
+}
+
+FN real3 lesser_along(IN(real3) axis, IN(real3) direction, IN(real3) way) {
+  real3 other = way / length(way);
+  return dot(axis, other) < dot(axis, direction) ? other : direction;
+}
+
+// Returns the one of `least` and the ways' directions that goes least along the axis.
+FN real3 least_direction(IN(real3) axis, IN_ARRAY(real3, p, 6), real3 least) {
+  for (int k = 1; k < 3; ++k) least = lesser_along(axis, lesser_along(axis, least, p[k] - p[0]), p[3] - p[3 + k]);
+  return least;
+}
+
+// Returns the one of the differences of corners, one of each triangle, or of the ways' directions, that goes least along the axis.
+FN real3 least_along(IN(real3) axis, IN(Motion) m, bool share_a_corner) {
+  if (share_a_corner) {
+    real3 way = m.start[1] - m.start[0];
+    return least_direction(axis, m.end, least_direction(axis, m.start, way / length(way)));
   }
   real3 at_start = least_difference(axis, m.start), at_end = least_difference(axis, m.end);
   return dot(axis, at_end) < dot(axis, at_start) ? at_end : at_start;
@@ -147,12 +141,12 @@ FN real3 least_along(IN(real3) axis, IN(Motion) m, IN(Fans) f) {
 // Looks for an axis. If there is one, the closest point to the origin in the hull of all differences of corners, or of all directions, at
 // both ends, is one, too.
 // Source: E. Gilbert, D. Johnson and S. Keerthi, A fast procedure for computing the distance between complex objects (1988).
-FN bool has_axis(IN(Motion) m, IN(Fans) f, real3 axis) {
+FN bool has_axis(IN(Motion) m, real3 axis, bool share_a_corner) {
   Simplex s;
   s.corners = 0;
   for (int k = 0; k < 16; ++k) {
-    if (f.exist ? all_go_along(axis, f, m.margin) : stays_above(axis, m)) return true;
-    s.corner[s.corners++] = least_along(axis, m, f);
+    if (is_proof(axis, m, share_a_corner)) return true;
+    s.corner[s.corners++] = least_along(axis, m, share_a_corner);
     real3 closest = closest_to_origin(s);
     axis = axis_across(s, closest);
   }
@@ -166,15 +160,13 @@ FN real3 normal_of(IN(Motion) m, int first, IN(real3) between) {
   return dot(normal, between) < real(0) ? -normal : normal;
 }
 
-// Do the triangles stay apart? They may share a corner: `of_first` and `of_second` are its places in either, or no_corner.
-// Most pairs are apart on a normal: 99 % of those near each other at 0.05 edges a step, and 82 % at 1 edge.
-FN bool stays_apart(IN(Motion) m, int of_first, int of_second) {
+// Do the triangles stay apart? Most pairs are apart on a normal: 99 % of those near each other at 0.05 edges a step, and 82 % at 1 edge.
+FN bool stays_apart(IN(Motion) m, bool share_a_corner) {
   real3 axis = ((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]);
-  Fans f = fans_at(m, of_first, of_second);
-  if (!f.exist && (stays_above(normal_of(m, 0, axis), m) || stays_above(normal_of(m, 3, axis), m))) return true;
-  return has_axis(m, f, axis);
+  if (!share_a_corner && (stays_above(normal_of(m, 0, axis), m) || stays_above(normal_of(m, 3, axis), m))) return true;
+  return has_axis(m, axis, share_a_corner);
 }
-FN bool stays_apart(IN(Motion) m) { return stays_apart(m, int(no_corner), int(no_corner)); }
+FN bool stays_apart(IN(Motion) m) { return stays_apart(m, false); }
 
 // The same motion from one part of its time to another.
 FN Motion between(IN(Motion) m, real from, real to) {
@@ -189,10 +181,10 @@ FN Motion between(IN(Motion) m, real from, real to) {
 
 // The same in pieces of the time, down to such a part of it. Triangles that turn together may need another axis for each piece. After a
 // piece that was proven, one of twice its length is tried.
-FN bool stays_apart_in_pieces(IN(Motion) m, int of_first, int of_second, real shortest) {
+FN bool stays_apart_in_pieces(IN(Motion) m, bool share_a_corner, real shortest) {
   real from = real(0), piece = real(1);
   while (from < real(1)) {
-    if (stays_apart(between(m, from, from + piece), of_first, of_second)) {
+    if (stays_apart(between(m, from, from + piece), share_a_corner)) {
       from += piece;
       piece = min(real(2) * piece, real(1) - from);
     } else {
