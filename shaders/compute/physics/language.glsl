@@ -91,9 +91,10 @@
 
 // Takes `count` places from `next`, which all threads share, and declares `first` as the first of them. TALLY_UP counts what nothing in
 // this dispatch reads. Additions to one number come one after the other, each some 0.5 ns on an H100, so on a GPU one thread adds for its
-// subgroup. That takes longer where threads come one by one, as in a descent. APPEND is for these: it adds a value to a list of which
-// nothing in this dispatch reads a value or the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and
-// appends at the end of the items that it takes together.
+// subgroup. That takes longer where threads come one by one, as in a descent, and they have to come alike: where each made turns of its own
+// in a loop, a stack of bodies broke down on an H200. APPEND is for these: it adds a value to a list of which nothing in this dispatch reads
+// a value or the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and appends at the end of the items
+// that it takes together.
 #ifndef __cplusplus
   #define APPEND(list, count, capacity, value)               \
     {                                                        \
