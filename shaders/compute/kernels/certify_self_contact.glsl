@@ -1,5 +1,5 @@
-// `certify` for scenes in which a body meets itself. Triangles of a pair may be of one body then. Of a body that is a star one thread proves
-// instead, if it can, that a triangle stays part of it. It is a kernel of its own because it takes more of a GPU's memory.
+// `certify` for scenes in which a body meets itself. Triangles of a pair may be of one body then. Of a body that is a star one thread
+// proves instead, if it can, that a triangle stays part of it. It is a kernel of its own because it takes more of a GPU's memory.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

@@ -105,8 +105,8 @@ uint vertex_across(IN(Pair) p, uint face, uint edge) {
   return beyond == no_vertex ? no_vertex : surface[b].first_vertex + beyond;
 }
 
-// Whether a vertex is a corner of the other triangle of the pair, in a body that meets itself. Beyond an edge it does not say that faces there
-// are nearer: a triangle has no contacts with its own corners, so no other pair would have this contact.
+// Whether a vertex is a corner of the other triangle of the pair, in a body that meets itself. Beyond an edge it does not say that faces
+// there are nearer: a triangle has no contacts with its own corners, so no other pair would have this contact.
 bool belongs_to_other(IN(Pair) p, uint face, uint i) {
   uint other = face == 0u ? 3u : 0u;
   return p.vertex[other] == i || p.vertex[other + 1u] == i || p.vertex[other + 2u] == i;

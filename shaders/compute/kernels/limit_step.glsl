@@ -1,7 +1,8 @@
 // Compares bodies that may reach each other, and bounds the length of the step. No two of their vertices may approach by more than the
-// distance of the bodies and a quarter edge, and a body that meets itself may not approach a ground by more. Bodies that could touch within two steps, and those that were pressed a while ago, have a
-// bound of their own. It also finds how much further than expected bodies may move without meeting others that are far, how bodies that
-// meet may push each other, which bodies are one island, and which of them another one disturbs.
+// distance of the bodies and a quarter edge, and a body that meets itself may not approach a ground by more. Bodies that could touch within
+// two steps, and those that were pressed a while ago, have a bound of their own. It also finds how much further than expected bodies may
+// move without meeting others that are far, how bodies that meet may push each other, which bodies are one island, and which of them
+// another one disturbs.
 #include "../physics/body.glsl"
 #include "../physics/layout.glsl"
 #include "../physics/collision/grid.glsl"

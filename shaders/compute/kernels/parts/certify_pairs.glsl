@@ -126,10 +126,10 @@ bool fly_together(IN(Case) c, uint cut_round) {
   return flies(c.vertex[0], cut_round) && flies(c.vertex[3], cut_round) && have_one_flight(body_of(c.vertex[0]), body_of(c.vertex[3]));
 }
 
-// Whether the triangles stay apart without an axis that proves it. If they fly along together, rounding alone moves them against each other,
-// and an earlier proof let them come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one could
-// fail: between large triangles that are very near each other it does not find an axis well enough. Elsewhere they are to be proven to stand
-// apart by half the margin, and the motion becomes that.
+// Whether the triangles stay apart without an axis that proves it. If they fly along together, rounding alone moves them against each
+// other, and an earlier proof let them come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one
+// could fail: between large triangles that are very near each other it does not find an axis well enough. Elsewhere they are to be proven
+// to stand apart by half the margin, and the motion becomes that.
 bool need_no_axis(INOUT(Case) c, uint cut_round) {
   if (!all_stopped(c)) return false;
   if (!flies(c.vertex[0], cut_round) && !flies(c.vertex[3], cut_round)) return true;

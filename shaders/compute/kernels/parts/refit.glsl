@@ -19,7 +19,8 @@ void fit_leaves(IN(Treelet) t) {
   }
 }
 
-// Fits nodes with children of this height. Children stand behind their parent, so a thread that is alone fits all from the last to the first.
+// Fits nodes with children of this height. Children stand behind their parent, so a thread that is alone fits all from the last to the
+// first.
 void fit_inner_nodes(IN(Treelet) t, uint height) {
   uint count = t.end_inner - t.first_node, last = t.end_inner - 1u;
   for (uint k = THREAD; k < count; k += THREADS) {
