@@ -114,8 +114,11 @@ class Device {
   /// one thread. On a GPU it is a power of two, from physics::group_size to 1024.
   [[nodiscard]] virtual KernelId group_kernel(std::string_view name, std::uint32_t threads) = 0;
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
-  /// most shares_at_once() of them, or one.
+  /// most groups_at_once() of them.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;
+  /// Returns how many work groups of such a kernel run at once, at least 1. That depends on the memory that it takes. So a GPU
+  /// lets groups wait for each other when it is first asked.
+  [[nodiscard]] virtual std::uint32_t groups_at_once(KernelId round_kernel) = 0;
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
   /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one
   /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, which take shares in turn. There
@@ -123,8 +126,8 @@ class Device {
   /// does not run all of them at once, they make no step.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span = ForceSpan::stage) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
-  /// Returns how many items of a force kernel or a kernel in rounds run side by side, so that they may wait for each other. It is
-  /// 0 if that is not known. If they do not, they wait some seconds, and the simulation then throws.
+  /// Returns how many items of a force kernel run side by side, so that they may wait for each other. It is 0 if that is not
+  /// known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
   /// Returns the variant that is fastest for a body of so many vertices among so many in all, with one dispatch per sum.

@@ -131,4 +131,10 @@ Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, con
   return pass;
 }
 
+Pass make_round_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters) {
+  Device& device = arrays.device();
+  const KernelId kernel = device.round_kernel(name);
+  return make_pass(arrays, name, kernel, parameters, device.groups_at_once(kernel));
+}
+
 }  // namespace pliant

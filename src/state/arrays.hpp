@@ -179,5 +179,7 @@ using Parameters = std::vector<std::pair<std::string_view, Parameter>>;  // by n
 /// Does the same for a kernel in a variant. `name` is for reports.
 [[nodiscard]] Pass make_pass(const Arrays& arrays, std::string_view name, KernelId kernel, const Parameters& parameters,
                              std::uint32_t item_count);
+/// Does the same for a kernel in rounds, with as many work groups as run at once.
+[[nodiscard]] Pass make_round_pass(const Arrays& arrays, std::string_view name, const Parameters& parameters);
 
 }  // namespace pliant

@@ -25,5 +25,5 @@ void certify(uint item, uint cut_round) {
   }
   if (!any_has_changed(who, cut_round)) return;
   Case c = case_of(who, cut_round);
-  if (!need_no_axis(c, cut_round) && !stays_apart(c.motion)) end_unproven(c, cut_round);
+  if (!need_no_axis(c, cut_round) && !stays_apart(motion_to_prove(c, cut_round))) end_unproven(c, cut_round);
 }

@@ -61,28 +61,33 @@ void certify_star(uint t, uint cut_round) {
 const real shortest_piece = real(1) / real(256);  // of the time of a step, for triangles of one body
 
 // How many corners two triangles share, and the place of the last such corner in either, or 0.
-uvec3 common_corners(uvec2 triangles) {
+uvec3 common_corners(IN_ARRAY(uint, who, 6)) {
   uvec3 found = uvec3(0u);
   for (uint j = 0u; j < 3u; ++j)
     for (uint k = 0u; k < 3u; ++k)
-      if (triangle[corner_of(triangles.x, j)] == triangle[corner_of(triangles.y, k)]) found = uvec3(found.x + 1u, j, k);
+      if (who[j] == who[3u + k]) found = uvec3(found.x + 1u, j, k);
   return found;
 }
 
 void certify_pair(uint item, uint cut_round) {
   uvec2 triangles = listed_triangles(item);
   if (!ways_overlap(triangles)) return;
-  uvec3 both = common_corners(triangles);
-  if (both.x > 1u) return;  // they share an edge
-  uint who[6];              // a corner that they share is the first one of either
+  uint who[6];
   for (uint k = 0u; k < 3u; ++k) {
+    who[k] = triangle[corner_of(triangles.x, k)];
+    who[3u + k] = triangle[corner_of(triangles.y, k)];
+  }
+  if (!any_has_changed(who, cut_round)) return;
+  uvec3 both = common_corners(who);
+  if (both.x > 1u) return;           // they share an edge
+  for (uint k = 0u; k < 3u; ++k) {  // a corner that they share comes first
     who[k] = triangle[corner_of(triangles.x, (both.y + k) % 3u)];
     who[3u + k] = triangle[corner_of(triangles.y, (both.z + k) % 3u)];
   }
-  if (!any_has_changed(who, cut_round)) return;
   real shortest = body_of(who[0]) == body_of(who[3]) ? shortest_piece : real(1);
   Case c = case_of(who, cut_round);
-  if (!need_no_axis(c, cut_round) && !stays_apart_in_pieces(c.motion, both.x == 1u, shortest)) end_unproven(c, cut_round);
+  if (!need_no_axis(c, cut_round) && !stays_apart_in_pieces(motion_to_prove(c, cut_round), both.x == 1u, shortest))
+    end_unproven(c, cut_round);
 }
 
 void certify_self_contact(uint item, uint cut_round) {

@@ -12,7 +12,7 @@ void list_moving_bodies(uint k) {
   uint b = share[k].body_index;
   bool is_first = share[k].first_vertex == share[k].body.first_vertex;
   if (!is_first || status[b].activity != moving || is_still(status[b])) return;
-  TAKE_PLACES(at, quiet_steps[0].moving_bodies, 1u)
+  uint at = atomicAdd(quiet_steps[0].moving_bodies, 1u);
   quiet_body[at].moving_share = k;
   if (may_meet != 0u && at >= most_quiet_bodies) atomicMin(quiet_steps[0].end, 0u);
 }

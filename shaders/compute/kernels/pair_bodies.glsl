@@ -20,7 +20,7 @@ Box box_to_meet(uint b) { return box_to_touch(b); }
 
 const uint no_place = ~0u;
 uint place_of_pair() {
-  TAKE_PLACES(at, control[0].near_pair_count, 1u)
+  uint at = atomicAdd(control[0].near_pair_count, 1u);
   if (at < near_pair_capacity) return at;
   atomicAdd(control[0].near_pair_count, ~0u);  // minus one
   atomicAdd(control[0].count[body_pairs_lost], 1u);

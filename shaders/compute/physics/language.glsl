@@ -55,7 +55,6 @@
   #define NEAR_ADD(before, target, value) const uint before = target; target += (value);
   #define ATOMIC_STORE(target, value) std::atomic_ref(target).store(value, std::memory_order_relaxed)
   #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
-  #define TAKE_PLACES(first, next, count) uint first = atomicAdd(next, count);
   #define TALLY_UP(tally, count) tallies.add(tally, count);
   #define APPEND(list, count, capacity, value) appended.add(list, count, capacity, value);
 #else
@@ -89,12 +88,11 @@
 #define LOWER_TO(target, value) if ((value) < ATOMIC_LOAD(target)) atomicMin(target, value);
 #define RAISE_TO(target, value) if ((value) > ATOMIC_LOAD(target)) atomicMax(target, value);
 
-// Takes `count` places from `next`, which all threads share, and declares `first` as the first of them. TALLY_UP counts what nothing in
-// this dispatch reads. Additions to one number come one after the other, each some 0.5 ns on an H100, so on a GPU one thread adds for its
-// subgroup. That takes longer where threads come one by one, as in a descent, and they have to come alike: where each made turns of its own
-// in a loop, a stack of bodies broke down on an H200. APPEND is for these: it adds a value to a list of which nothing in this dispatch reads
-// a value or the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and appends at the end of the items
-// that it takes together.
+// TALLY_UP counts what nothing in this dispatch reads. Additions to one number come one after the other, each some 0.5 ns on an H100, so on
+// a GPU one thread adds for its subgroup. Each thread takes places in a list by itself: threads come for them from loops of their own, and
+// when a subgroup took places together there, a stack of bodies broke down on an H200. APPEND adds a value to a list of which nothing in
+// this dispatch reads a value or the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and appends at the
+// end of the items that it takes together.
 #ifndef __cplusplus
   #define APPEND(list, count, capacity, value)               \
     {                                                        \
@@ -102,21 +100,12 @@
       if (list_place < (capacity)) list[list_place] = value; \
     }
   #ifdef HAS_SUBGROUPS
-    #define TAKE_PLACES(first, next, count)                                \
-      uint first = 0u;                                                     \
-      {                                                                    \
-        uint taken = (count), together = subgroupAdd(taken);               \
-        uint before = subgroupExclusiveAdd(taken);                         \
-        if (subgroupElect()) first = atomicAdd(next, together);            \
-        first = subgroupBroadcastFirst(first) + before;                    \
-      }
     #define TALLY_UP(tally, count)                                         \
       {                                                                    \
         uint together = subgroupAdd(count);                                \
         if (subgroupElect() && together != 0u) atomicAdd(tally, together); \
       }
   #else
-    #define TAKE_PLACES(first, next, count) uint first = atomicAdd(next, count);
     #define TALLY_UP(tally, count) if ((count) != 0u) atomicAdd(tally, count);
   #endif
 #endif

@@ -19,7 +19,7 @@ namespace pliant::bench {
 namespace {
 
 constexpr int finest_level = 7, finest_quick_level = 4;
-constexpr std::size_t many_spheres = 16;  // of the finest, first of all and on GPUs alone: 5 million triangles
+constexpr std::size_t many_spheres = 16;                                      // of the finest, first of all: 5 million triangles
 constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
 
 // Rounds are repeated until both have passed.
@@ -224,6 +224,9 @@ std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
   return all;
 }
 
+// Not one in software.
+bool is_gpu(const Place& place) { return place.device == DeviceKind::gpu && open(place)->shares_at_once() > 0; }
+
 bool is_short_enough(const Case& what, bool quick) {
   return double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
 }
@@ -236,18 +239,17 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
   const std::vector<Place> places = places_of(options.devices, precisions);
   const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
   const int finest = options.quick ? finest_quick_level : finest_level;
-  std::vector<Place> gpus;
-  std::ranges::copy_if(places, std::back_inserter(gpus), [](const Place& place) { return place.device == DeviceKind::gpu; });
-  const bool has_many = !options.quick && !gpus.empty();
-  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1) + has_many;
+  std::vector<Place> of_many;
+  std::ranges::copy_if(places, std::back_inserter(of_many), [&](const Place& place) { return options.quick || is_gpu(place); });
+  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1) + !of_many.empty();
   int done = 0;
   const auto tell = [&](const std::string& what) {
     if (!result.interrupted) result.interrupted = !progress(double(done) / cases, what);
     return !result.interrupted;
   };
-  if (has_many) {
-    Case what(many_spheres, overlaps[0], finest, options.quick, result);
-    for (const Place& place : gpus)
+  if (!of_many.empty()) {
+    Case what(many_spheres, overlaps[1], finest, options.quick, result);
+    for (const Place& place : of_many)
       if (tell(fmt::format("{} bodies of {} triangles, {}", many_spheres, what.triangles(), name_of(place))))
         what.measure(place, searches[0]);
     if (result.interrupted) return result;

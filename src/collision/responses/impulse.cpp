@@ -10,7 +10,6 @@
 #include <tuple>
 #include <utility>
 
-#include "collision/responses/round_kernels.hpp"
 #include "collision/responses/sleep_bounds.hpp"
 #include "collision/responses/surroundings.hpp"
 #include "core/bytes.hpp"
@@ -101,7 +100,6 @@ class Impulse final : public Response {
         body_pairs_(setting.body_pairs),
         trees_(setting.trees),
         scripted_bodies_(setting.bodies, setting.model),
-        rounds_(setting.bodies.arrays, setting.bodies.arrays.device().shares_at_once()),
         has_pairs_(setting.model.has_surfaces_to_touch()),
         divides_steps_(!setting.steps.vary_in_length),
         sleeps_(setting.sleeps),
@@ -137,14 +135,14 @@ class Impulse final : public Response {
     const Arrays& arrays = bodies_.arrays;
     std::vector<Pass> passes;
     if (restores_)
-      passes.push_back(rounds_.pass("restore_impacts",
-                                    {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
+      passes.push_back(
+          round_pass("restore_impacts", {{"from_half", from_half}, {"part_count", part_count_}, {"least_speed", least_speed()}}));
     passes.push_back(make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count));
     std::ranges::move(scripted_bodies_.bounding_passes(), std::back_inserter(passes));
     if (triangles_to_watch_ > 0)
       passes.push_back(make_pass(arrays, "watch_folds", {{"largest_body", largest_body_}}, triangles_to_watch_));
     std::ranges::move(body_pairs_.limiting_passes(), std::back_inserter(passes));
-    if (bodies_.body_count > 1) passes.push_back(rounds_.pass("find_flights", {}));
+    if (bodies_.body_count > 1) passes.push_back(round_pass("find_flights", {}));
     std::ranges::move(scripted_bodies_.following_passes(), std::back_inserter(passes));
     passes.push_back(make_pass(arrays, "expect_motion", {}, bodies_.vertex_count));
     if (keeps_impulses()) {
@@ -171,10 +169,10 @@ class Impulse final : public Response {
         arrays, "take_up_impulses",
         {{"contact_capacity", contact_capacity_}, {"kept_slot_count", kept_slot_count()}, {"contacts_at_once", items_at_once_}},
         items_at_once_));
-    passes.push_back(rounds_.pass("solve_contacts", {{"from_half", from_half},
-                                                     {"contact_capacity", contact_capacity_},
-                                                     {"triangle_pair_capacity", triangle_pair_capacity_},
-                                                     {"least_speed", least_speed()}}));
+    passes.push_back(round_pass("solve_contacts", {{"from_half", from_half},
+                                                   {"contact_capacity", contact_capacity_},
+                                                   {"triangle_pair_capacity", triangle_pair_capacity_},
+                                                   {"least_speed", least_speed()}}));
     return passes;
   }
 
@@ -266,11 +264,11 @@ class Impulse final : public Response {
     std::ranges::move(scripted_bodies_.ending_passes(
                           {{"triangle_pair_capacity", triangle_pair_capacity_}, {"contact_capacity", contact_capacity_}}),
                       std::back_inserter(passes));
-    passes.push_back(rounds_.pass("pay_dues", {{"from_half", from_half},
-                                               {"part_count", part_count_},
-                                               {"triangle_pair_capacity", triangle_pair_capacity_},
-                                               {"contact_capacity", contact_capacity_}}));
-    if (sleeps_) passes.push_back(rounds_.pass("find_sleepers", {{"from_half", from_half}}));
+    passes.push_back(round_pass("pay_dues", {{"from_half", from_half},
+                                             {"part_count", part_count_},
+                                             {"triangle_pair_capacity", triangle_pair_capacity_},
+                                             {"contact_capacity", contact_capacity_}}));
+    if (sleeps_) passes.push_back(round_pass("find_sleepers", {{"from_half", from_half}}));
     return passes;
   }
 
@@ -391,12 +389,16 @@ class Impulse final : public Response {
   // A power of two. Entries of a step that had the same number may still stand beside those of this one.
   std::uint32_t kept_slot_count() const { return keeps_impulses() ? std::bit_ceil(2 * contact_capacity_) : 1; }
 
+  Pass round_pass(std::string_view name, const Parameters& parameters) const {
+    return make_round_pass(bodies_.arrays, name, parameters);
+  }
+
   // Proves that triangles stay apart, or cuts motions short.
   Pass certifying_pass() const {
     Parameters parameters = {{"triangle_pair_capacity", triangle_pair_capacity_}, {"largest_body", largest_body_}};
-    if (triangles_to_watch_ == 0) return rounds_.pass("certify", parameters);
+    if (triangles_to_watch_ == 0) return round_pass("certify", parameters);
     parameters.emplace_back("triangle_count", triangles_to_watch_);
-    return rounds_.pass("certify_self_contact", parameters);
+    return round_pass("certify_self_contact", parameters);
   }
 
   // The first `count` numbers of the device's precision.
@@ -435,7 +437,6 @@ class Impulse final : public Response {
   const BodyPairs& body_pairs_;
   const TreeSearch& trees_;
   ScriptedBodies scripted_bodies_;
-  RoundKernels rounds_;
   bool has_pairs_, divides_steps_, sleeps_, restores_ = false, keeps_leads_ = false;
   std::uint32_t triangle_pair_capacity_, contact_capacity_, items_at_once_, ground_count_ = 0, part_count_ = 0,
                                                                             triangles_to_watch_ = 0;

@@ -20,11 +20,16 @@ std::uint32_t most_groups_of(std::uint32_t parallel_items) { return std::clamp(p
 
 constexpr std::uint32_t least_triangles_of_a_treelet = 16;
 
-// Of a group that refits treelets of so many nodes. A thread waits for memory at each node, so it should have few.
-std::uint32_t threads_for(std::size_t nodes) {
-  constexpr std::size_t nodes_of_a_thread = 4, most_threads = 512;
+// Of a group that refits a treelet. A thread waits for memory at each node, so it should have few. Treelets count by their nodes,
+// so that one large body has its threads among many small ones.
+std::uint32_t threads_of_a_refit(const Treelets& treelets) {
+  constexpr std::uint64_t nodes_of_a_thread = 4, most_threads = 512;
+  std::uint64_t squares = 0;
+  for (const physics::Treelet& t : treelets.treelets)
+    squares += std::uint64_t{t.end_node - t.first_node} * (t.end_node - t.first_node);
+  const std::uint64_t nodes = squares / std::max<std::size_t>(treelets.nodes.size(), 1);
   return static_cast<std::uint32_t>(
-      std::bit_floor(std::clamp<std::size_t>(nodes / nodes_of_a_thread, physics::group_size, most_threads)));
+      std::bit_floor(std::clamp<std::uint64_t>(nodes / nodes_of_a_thread, physics::group_size, most_threads)));
 }
 
 std::vector<std::uint32_t> corners_of(const Forest& forest) {
@@ -102,7 +107,7 @@ TreeSearch::TreeSearch(DeviceBodies& bodies, const Forest& forest, const Collisi
   search_groups_ = std::clamp(most / pairs_of_a_group, 1u, most_groups_of(parallel_items));
   pairing_threads_ =
       device.info().kind == DeviceKind::gpu ? pairs_at_once(parallel_items, 1, most) : std::min(parallel_items, most);
-  if (treelet_count_ > 0) threads_of_a_refit_ = threads_for(treelets.nodes.size() / treelet_count_);
+  threads_of_a_refit_ = threads_of_a_refit(treelets);
   Arrays& arrays = bodies.arrays;
   arrays.set_parameter("leaf_pair_capacity", leaf_pair_capacity_);
   arrays.set_parameter("treelet_pair_capacity", treelet_pairs);

@@ -130,6 +130,7 @@ class CpuDevice final : public Device {
 
   KernelId group_kernel(std::string_view name, std::uint32_t) override { return kernel(name); }
   KernelId round_kernel(std::string_view name) override { return kernel(name); }
+  std::uint32_t groups_at_once(KernelId) override { return 1; }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(span == ForceSpan::stage);
     return kernel(name) + static_cast<KernelId>(variant * kernels_.size());

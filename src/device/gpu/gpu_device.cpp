@@ -14,6 +14,8 @@
 #include "device/gpu/strain_bias.hpp"
 #include "device/kernel_pack.hpp"
 #include "gl/objects.hpp"
+#include "physics/body.glsl"
+#include "physics/contact/surface.glsl"
 #include "physics/control.glsl"
 
 namespace pliant {
@@ -145,6 +147,15 @@ class GpuDevice final : public Device {
     glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
     return build(name, round_caller, {{"SHARED_BYTES", fmt::format("{}u", bytes)}});
   }
+  std::uint32_t groups_at_once(KernelId round_kernel) override {
+    PLIANT_EXPECT(kernels_[round_kernel].caller == &round_caller);
+    if (kernels_[round_kernel].groups_at_once == 0) {
+      std::uint32_t groups = std::max(shares_at_once(), 1u);
+      while (groups > 1 && !all_meet(round_kernel, groups)) groups /= 2;
+      kernels_[round_kernel].groups_at_once = groups;
+    }
+    return kernels_[round_kernel].groups_at_once;
+  }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(variant < variants_.size());
     const Lanes& lanes = lane_choices[variant];
@@ -165,8 +176,8 @@ class GpuDevice final : public Device {
                  defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
-  // Returns the number of multiprocessors. A group runs on each at once, however many registers and how much shared memory it
-  // takes, as long as the driver has memory for all threads: rounds.comp has a measurement.
+  // Returns the number of multiprocessors. A group of a force kernel runs on each at once, however many registers and how much
+  // shared memory it takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::size_t best_force_variant(std::uint32_t all_vertices, std::uint32_t vertices_of_body) const override {
@@ -226,6 +237,7 @@ class GpuDevice final : public Device {
     gl::Program program;
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
+    std::uint32_t groups_at_once = 0;     // of a kernel in rounds. 0: not known yet
   };
   // By slot. OpenGL counts uniform blocks and storage blocks apart.
   struct Bindings {
@@ -265,6 +277,21 @@ class GpuDevice final : public Device {
       if (location == static_cast<GLint>(slot)) return true;
     }
     return false;
+  }
+
+  // Has work groups of a kernel in rounds do nothing but wait for each other. Returns whether all met.
+  bool all_meet(KernelId round_kernel, std::uint32_t groups) {
+    const Kernel& kernel = kernels_[round_kernel];
+    const GLint is_rehearsal = glGetUniformLocation(kernel.program.id(), "is_rehearsal");
+    const DeviceArray<physics::ContactList> list(*this, 1, "rehearsal");
+    Pass pass{.name = kernel.name, .call = {.kernel = round_kernel, .buffers = {}, .parameters = {}}, .item_count = groups};
+    pass.call.buffers.resize(kernel.signature.arrays.size(), list.id());  // of which none but the list of contacts is used
+    for (const KernelSignature::Number& number : kernel.signature.parameters)
+      pass.call.parameters.push_back(number.name == "item_count" ? Parameter(groups) : number.is_double ? Parameter(0.0) : 0u);
+    glProgramUniform1ui(kernel.program.id(), is_rehearsal, 1);
+    run(std::span(&pass, 1));
+    glProgramUniform1ui(kernel.program.id(), is_rehearsal, 0);
+    return (list.download().front().arrivals & physics::waited_in_vain) == 0;
   }
 
   // Of searches and lists. Those of few bodies are short, and threads with nothing to do take time, too.

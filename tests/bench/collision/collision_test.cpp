@@ -43,21 +43,22 @@ std::size_t rows_of(const std::vector<CollisionRow>& rows, const std::string& en
 TEST_CASE("pliant and other libraries find the same pairs of triangles, on one thread and all") {
   const CollisionResult result = quick_result({.threads = 2});
   const std::vector<CollisionRow>& rows = result.rows;
-  constexpr std::size_t cases = 2 * 3;  // sizes and overlaps
-  for (const char* engine : {"pliant", "pliant, centre", "pliant, surface area"}) CHECK(rows_of(rows, engine) == 2 * cases);
+  constexpr std::size_t cases = 2 * 3;                // sizes and overlaps
+  CHECK(rows_of(rows, "pliant") == 2 * (cases + 1));  // and many spheres
+  for (const char* engine : {"pliant, centre", "pliant, surface area"}) CHECK(rows_of(rows, engine) == 2 * cases);
   CHECK(rows_of(rows, "brute force") == 2 * cases / 2);  // small ones alone
   for (const auto& libraries : {embree_trees(), fcl_trees(), bullet_trees()})
     for (const TreeLibrary& library : libraries) CHECK(rows_of(rows, library.name) == cases);
   std::set<std::uint64_t> pairs;
   for (const CollisionRow& row : rows) pairs.insert(row.pairs);
-  CHECK(pairs.size() == 1 + 2 * 2);             // 0 apart, and other numbers for each size and overlap
+  CHECK(pairs.size() == 1 + 2 * 2 + 1);         // 0 apart, other numbers for each size and overlap, and that of many spheres
   CHECK(result.contact_steps.size() == 2 * 2);  // sizes, and threads
 }
 
 TEST_CASE("the GPU finds the same pairs of triangles as other libraries", "[gl]") {
   if (test::lacks_gl()) return;
   const CollisionResult result = quick_result({.cpu = false, .gpu = true});
-  CHECK(rows_of(result.rows, "pliant") == 6);
+  CHECK(rows_of(result.rows, "pliant") == 7);
   CHECK(result.contact_steps.size() == 2);
 }
 

@@ -1,7 +1,6 @@
 // When bodies fall asleep and wake: the kernel find_sleepers, by what a step tells it.
 #include <catch2/catch.hpp>
 
-#include "collision/responses/round_kernels.hpp"
 #include "physics/contact/cluster.glsl"
 #include "physics/contact/debt.glsl"
 #include "physics/contact/parts.glsl"
@@ -51,7 +50,7 @@ struct Slumber {
     arrays.make("cluster", clusters);
     arrays.make<physics::ContactList>("contact_list", 1);
     auto& known = arrays.make("status", statuses);
-    const Pass pass = RoundKernels(arrays, device.shares_at_once()).pass("find_sleepers", {{"from_half", 0u}});
+    const Pass pass = make_round_pass(arrays, "find_sleepers", {{"from_half", 0u}});
     device.run({&pass, 1});
     statuses = known.download();
     slow_places = noted.download();

@@ -20,7 +20,7 @@ void count_vertex(uint i) {
 // Lists a contact of up to four vertices. `goal` is the change of velocity that friction aims at across the normal [m/s]. A contact at rest
 // begins with its impulse of the last step.
 void list_contact(uvec4 who, real4 weight, IN(real3) normal, IN(Course) c, IN(Approach) a, IN(real3) goal, real friction) {
-  TAKE_PLACES(at, contact_list[0].contact_count, 1u)
+  uint at = atomicAdd(contact_list[0].contact_count, 1u);
   if (at >= contact_capacity) return;
   contact_vertex[at] = who;
   contact_row[contact_rows * at] = real4(normal, least_velocity(c, a) - c.velocity);

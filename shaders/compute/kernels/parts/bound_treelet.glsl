@@ -1,5 +1,5 @@
 // bound_treelet() fits the box of a treelet's root to its vertices. The kernel says what the box of a vertex is.
-NEAR(PaddedBox, box_of_thread, group_size)
+NEAR(PaddedBox, box_of_thread, THREADS)
 
 void bound_treelet(uint item) {
   Treelet t = treelet[item];

@@ -128,16 +128,20 @@ bool fly_together(IN(Case) c, uint cut_round) {
 
 // Whether the triangles stay apart without an axis that proves it. If they fly along together, rounding alone moves them against each
 // other, and an earlier proof let them come so near. Where a million steps do not use up its margin, no other proof is needed. In fp32 one
-// could fail: between large triangles that are very near each other it does not find an axis well enough. Elsewhere they are to be proven
-// to stand apart by half the margin, and the motion becomes that.
-bool need_no_axis(INOUT(Case) c, uint cut_round) {
+// could fail: between large triangles that are very near each other it does not find an axis well enough.
+bool need_no_axis(IN(Case) c, uint cut_round) {
   if (!all_stopped(c)) return false;
   if (!flies(c.vertex[0], cut_round) && !flies(c.vertex[3], cut_round)) return true;
-  if (!fly_together(c, cut_round)) return false;
-  if (c.outlasts_rounding) return true;
-  for (uint k = 0u; k < 6u; ++k) c.motion.end[k] = c.motion.start[k];
-  c.motion.margin *= real(0.5);
-  return false;
+  return c.outlasts_rounding && fly_together(c, cut_round);
+}
+
+// What an axis has to prove. Of triangles that fly along together it is that they stand apart by half the margin.
+Motion motion_to_prove(IN(Case) c, uint cut_round) {
+  Motion m = c.motion;
+  if (!all_stopped(c) || !fly_together(c, cut_round)) return m;
+  for (uint k = 0u; k < 6u; ++k) m.end[k] = m.start[k];
+  m.margin *= real(0.5);
+  return m;
 }
 
 void stop_flight(uint i, uint cut_round) {

@@ -25,10 +25,11 @@ PathPoint point_on_path(IN(Path) p, double time) {
 
 // Whether nothing moves from one key to the next.
 bool is_hold(IN(PathKey) a, IN(PathKey) b) {
-  bool holds = LOAD3(a.position, 0u) == LOAD3(b.position, 0u) && LOAD3(a.velocity, 0u) == dvec3(0) && LOAD3(b.velocity, 0u) == dvec3(0);
-  for (uint k = 0u; k < 4u; ++k)
-    holds = holds && a.quaternion[k] == b.quaternion[k] && a.quaternion_rate[k] == double(0) && b.quaternion_rate[k] == double(0);
-  return holds;
+  bool stays = LOAD3(a.position, 0u) == LOAD3(b.position, 0u) && LOAD3(a.velocity, 0u) == dvec3(0) && LOAD3(b.velocity, 0u) == dvec3(0);
+  bool turns = LOAD3(a.quaternion, 0u) != LOAD3(b.quaternion, 0u) || a.quaternion[3] != b.quaternion[3];
+  bool begins = LOAD3(a.quaternion_rate, 0u) != dvec3(0) || a.quaternion_rate[3] != double(0);
+  bool ends = LOAD3(b.quaternion_rate, 0u) != dvec3(0) || b.quaternion_rate[3] != double(0);
+  return stays && !turns && !begins && !ends;
 }
 
 // Whether the path stands still from one time to another. One that begins anew until then counts as moving.

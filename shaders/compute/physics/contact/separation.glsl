@@ -117,18 +117,19 @@ FN bool is_proof(IN(real3) axis, IN(Motion) m, bool share_a_corner) {
   return all_go_along(axis, m.start, least) && all_go_along(axis, m.end, least);
 }
 
+// Returns the one of a direction and that of a way that goes less along the axis.
 FN real3 lesser_along(IN(real3) axis, IN(real3) direction, IN(real3) way) {
   real3 other = way / length(way);
   return dot(axis, other) < dot(axis, direction) ? other : direction;
 }
 
-// Returns the one of `least` and the ways' directions that goes least along the axis.
+// Returns the one of `least` and the directions of the ways between corners, as all_go_along() has them, that goes least along the axis.
 FN real3 least_direction(IN(real3) axis, IN_ARRAY(real3, p, 6), real3 least) {
   for (int k = 1; k < 3; ++k) least = lesser_along(axis, lesser_along(axis, least, p[k] - p[0]), p[3] - p[3 + k]);
   return least;
 }
 
-// Returns the one of the differences of corners, one of each triangle, or of the ways' directions, that goes least along the axis.
+// Of triangles that share a corner this returns the least direction at both ends. Of others it is the least difference of corners.
 FN real3 least_along(IN(real3) axis, IN(Motion) m, bool share_a_corner) {
   if (share_a_corner) {
     real3 way = m.start[1] - m.start[0];
