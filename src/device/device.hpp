@@ -39,7 +39,7 @@ struct KernelSignature {
   std::vector<Number> parameters;
 };
 
-/// How many arrays a kernel may have. OpenGL guarantees 8 storage blocks. NVIDIA, AMD, Intel and llvmpipe have these and more.
+/// How many arrays a kernel may have, but for constants. OpenGL guarantees 8 storage blocks. NVIDIA, AMD, Intel and llvmpipe have these and more.
 inline constexpr std::size_t max_arrays = 16;
 
 /// A kernel with its buffers and parameters, in the order of its signature.

@@ -113,7 +113,8 @@ physics::Status first_status(BodyKind kind) {
           .falls_asleep = 0,
           .asleep = 0,
           .disturbed = 0,
-          .folds = 0};
+          .folds = 0,
+          .steps_to_star = 0};
 }
 
 std::vector<physics::Status> first_statuses(const Model& model) {
@@ -207,7 +208,7 @@ void DeviceBodies::prepare_search() {
   for (physics::Status& status : moving_on) {
     if (status.activity == physics::halted_for_now) status.activity = physics::moving;
     status.asleep = 0;
-    status.folds = 0;
+    status.folds = status.steps_to_star = 0;
   }
   statuses.upload(moving_on);
   look_at_bodies_at_rest();

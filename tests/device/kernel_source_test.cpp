@@ -1,6 +1,8 @@
 // Writes out declarations of kernels that are made up here. This needs no GPU.
 #include "device/gpu/kernel_source.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "device/array_list.hpp"
@@ -28,6 +30,13 @@ TEST_CASE("a kernel with more arrays than a device binds is an error that names 
   const Error error = error_of([] { static_cast<void>(source_of(kernel_reading(max_arrays + 1))); });
   CHECK(error.kind() == ErrorKind::device);
   check_says(error, {"compute/kernels/greedy.glsl", "17 arrays", "16"});
+}
+
+TEST_CASE("constants are numbered apart from arrays, and do not count among them") {
+  const gpu::KernelSource source = source_of("CONSTANTS(tableau, 4)\n" + kernel_reading(max_arrays));
+  CHECK(source.signature.arrays.size() == max_arrays + 1);
+  CHECK_THAT(source.shader.text, Catch::Contains("std140, binding = 0") && Catch::Contains("std430, binding = 0"));
+  CHECK_THAT(source.shader.text, !Catch::Contains(fmt::format("std430, binding = {}", max_arrays)));
 }
 
 TEST_CASE("a declaration that names no array is an error with file and line") {

@@ -2,8 +2,10 @@
 #include "simulation/quiet_steps.hpp"
 
 #include <catch2/catch.hpp>
+#include <functional>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "support/device_bench.hpp"
 #include "support/evolve.hpp"
@@ -336,6 +338,37 @@ TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
       CHECK(runs.quiet.report().quiet_steps > 100);
       CHECK(runs.quiet.report().frame_changes > 20);  // of which most are in quiet steps
     }
+}
+
+// Returns how many steps were quiet, and how many were made, of a ball that meets itself and begins with these velocities.
+std::pair<std::uint64_t, std::uint64_t> steps_of_star(Device& device, const Method& method,
+                                                      const std::function<glm::dvec3(const glm::dvec3&)>& velocity) {
+  BodySetup ball = ball_of("icosphere:1", {0, 0, 0});
+  ball.description.self_contact = true;
+  ball.description.stretch = {1.1, 0.95, 1};
+  ModelAndState start = build_model(std::vector{ball}, {0, -9.81, 0});
+  for (std::uint32_t i = 0; i < start.model.vertex_count(); ++i) {
+    const glm::dvec3 w = velocity(start.model.rest_position(i));
+    for (int k = 0; k < 3; ++k) start.state.motion[physics::velocity_of(i) + static_cast<std::size_t>(k)] = w[k];
+  }
+  Runs runs(device, start, method);
+  for (const std::uint64_t steps : {1, 2, 7, 20, 30}) {
+    runs.advance(steps);
+    runs.check();
+  }
+  return {runs.quiet.report().quiet_steps, runs.quiet.report().steps};
+}
+
+TEST_CASE("a body that may meet itself makes quiet steps while its surface is a star, and no others", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = gpu();
+  for (const Method& method : {Method{"verlet", 0.01}, {"cv8", 0.01}}) {
+    CAPTURE(method.integrator);
+    const auto [calm, of_calm] = steps_of_star(*device, method, [](const glm::dvec3& x) { return glm::dvec3(3 - x.y, x.x, 0); });
+    CHECK(calm > of_calm / 3);
+    const auto [folding, of_folding] = steps_of_star(*device, method, [](const glm::dvec3& x) { return -60.0 * x; });
+    CHECK(folding < of_folding / 3);
+  }
 }
 
 // A work group serves several of them, on a device in software all.

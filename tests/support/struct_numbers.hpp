@@ -47,7 +47,8 @@ inline std::vector<double> numbers_of(const physics::Status& status) {
           double(status.deformed),     double(status.force_stale),
           double(status.calm),         double(status.disturbed),
           double(status.slow_for),     double(status.pressed_by_static),
-          double(status.falls_asleep), double(status.asleep)};
+          double(status.falls_asleep), double(status.asleep),
+          double(status.steps_to_star)};
 }
 
 inline std::vector<double> numbers_of(const physics::Tally& tally) {
@@ -154,7 +155,9 @@ inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {
 }
 
 inline std::vector<double> numbers_of(const physics::QuietBody& body) {
-  std::vector<double> numbers{double(body.bounds.room), double(body.frame_changes)};
+  std::vector<double> numbers{double(body.bounds.room),         double(body.bounds.surprise),   double(body.frame_changes),
+                              double(body.star.first_triangle), double(body.star.end_triangle), double(body.star.winding),
+                              double(body.star.edge),           double(body.star.rounding)};
   const physics::QuietBounds& bounds = body.bounds;
   for (const float* bound : {bounds.lower, bounds.upper, bounds.least_velocity, bounds.most_velocity})
     numbers.insert(numbers.end(), bound, bound + 3);

@@ -13,8 +13,10 @@ READ(status)
 READ(body)
 READ(motion)
 READ(pose)
+READ(tree)
 READ(quiet_steps)
 WRITE(quiet_body)
+PARAMETER(double, largest_body)  // radius at rest [m]
 #include "parts/tell_start.glsl"
 #include "parts/quiet_region.glsl"
 
@@ -23,6 +25,22 @@ double room_of(uint b) {
   Box point;
   point.lower = point.upper = vec3(0);
   return min(double(0.8) * play_of(b, point), double(900) * surface[b].edge);
+}
+
+const float most_surprise = 0.02f;  // of what may be no star, in edges
+const float endless = 1e30f;
+
+// Its triangles and their winding. Positions in the world round by at most as much as at the farthest corner of its bounds.
+QuietStar star_of(uint b, IN(Box) places) {
+  dvec3 farthest = max(abs(dvec3(places.lower)), abs(dvec3(places.upper)));
+  double far = rounded_from(sum_of_sizes(farthest), sum_of_sizes(LOAD3(pose[b].origin, 0u)), largest_body);
+  QuietStar star;
+  star.first_triangle = tree[b].z;
+  star.end_triangle = surface[b].meets_itself != 0u ? tree[b].w : tree[b].z;
+  star.winding = float(surface[b].winding);
+  star.edge = float(surface[b].edge);
+  star.rounding = float(margin_of_rounding(double(0), double(0), far));
+  return star;
 }
 
 void bound_quiet_steps(uint b) {
@@ -34,6 +52,8 @@ void bound_quiet_steps(uint b) {
     quiet_body[b].bounds.most_velocity[k] = velocities.upper[int(k)];
   }
   quiet_body[b].bounds.room = float(room_of(b));
+  quiet_body[b].bounds.surprise = surface[b].meets_itself != 0u ? most_surprise * float(surface[b].edge) : endless;
+  quiet_body[b].star = star_of(b, places);
   tell_start(b);
   quiet_body[b].frame_changes = 0u;
 }

@@ -119,6 +119,7 @@ void prepare_next_step(uint b) {
     body_box[b].lower[k] = place_box[b].lower[k] = 0xffffffffu;
     body_box[b].upper[k] = place_box[b].upper[k] = 0u;
   }
+  status[b].steps_to_star = status[b].folds != 0u ? steps_after_no_star : max(status[b].steps_to_star, 1u) - 1u;
   status[b].first_pair = status[b].folds = 0u;
   if (status[b].falls_asleep != 0u) note_motion(b);
   frame_change[b].turned = 0u;

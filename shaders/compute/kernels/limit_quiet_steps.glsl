@@ -61,7 +61,7 @@ void look_at(uint b) {
   if (b == 0u && !begins_quietly()) allow(0u);
   if (!may_be_quiet(b)) allow(0u);
   if (!moves(b)) return;
-  if (surface[b].meets_itself != 0u && status[b].deformed != 0u) allow(0u);
+  if (status[b].steps_to_star != 0u && status[b].deformed != 0u) allow(0u);
   uint steps = most_quiet_steps;
   for (uint g = 0u; g < ground_count; ++g)
     while (steps >= fewest_quiet_steps && !is_above(g, b, steps)) steps /= 2u;

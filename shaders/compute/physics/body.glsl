@@ -60,6 +60,7 @@ struct Status {
   uint asleep;             // 1: it keeps its place and shape until it is disturbed, though forces may act on it
   uint disturbed;          // 1: a body that moves may reach it in this step, or one of its island; or something has moved it
   uint folds;              // 1: its surface may meet itself in this step
+  uint steps_to_star;      // before quiet steps try again whether its surface stays a star
 };
 
 // Values of Status.calm. The first such step still expects motion, because of those before it. Nor does a body disturb others from
@@ -68,6 +69,7 @@ struct Status {
 const uint quiet = 2u;
 const uint at_rest = 3u;
 const uint forgotten = 4u;  // at rest, but what a step finds of it is lost, so that the next one has to look
+const uint steps_after_no_star = 8u;  // that are not quiet. Then quiet ones try again whether a body stays a star
 // Bits of the parameter `skips`: what is left out because it changes nothing.
 const uint skips_forces = 1u;  // of bodies that are not deformed
 const uint skips_rest = 2u;    // all that is done for bodies at rest

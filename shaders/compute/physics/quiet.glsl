@@ -13,11 +13,22 @@ struct QuietBounds {
   float least_velocity[3];  // for impulses: of the velocities that they are expected to have [m/s]
   float most_velocity[3];
   float room;  // for impulses: how much further than expected a vertex may go in a step without being cut short [m]
+  float surprise;  // for impulses: how far from where it is expected a vertex may end along each axis [m]
+};
+
+// What a quiet step knows of a body that has to stay a star (kernels/parts/quiet_star.glsl).
+struct QuietStar {
+  uint first_triangle;
+  uint end_triangle;  // the first one, unless the body meets itself
+  float winding;      // as the body's surface has it
+  float edge;         // mean [m]
+  float rounding;     // of positions in the world [m]
 };
 
 // Work groups that serve a body tell each other of its motion here.
 struct QuietBody {
   QuietBounds bounds;
+  QuietStar star;
   uint frame_changes;          // in these steps
   uint moving_share;           // not of this body: in the list of bodies that move, the first share of one
   FrameChange change;          // of the latest step whose frame has turned

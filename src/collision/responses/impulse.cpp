@@ -119,6 +119,7 @@ class Impulse final : public Response {
     bodies_.arrays.set_parameter("share_of_end", foresight.share_of_end);
     bodies_.arrays.set_parameter("share_of_lead", foresight.share_of_lead);
     keeps_leads_ = foresight.share_of_lead != 0;
+    bodies_.arrays.set_parameter("watches_stars", triangles_to_watch_ > 0 ? 1u : 0u);
     bodies_.arrays.set_parameter("may_undo_steps", divides_steps_ ? 0u : 1u);
     bodies_.arrays.set_parameter("sleep_speed", sleeps_ ? sleep_speed(setting.model, gravity_size()) : 0.0);
     if (sleeps_) make_slow_places(setting.model);
@@ -235,9 +236,10 @@ class Impulse final : public Response {
     const Arrays& arrays = bodies_.arrays;
     const std::uint32_t threads =
         std::clamp(arrays.device().parallel_items(bodies_.body_count) / bodies_.body_count, 1u, bodies_.body_count);
-    return {make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
-            make_pass(arrays, "limit_quiet_steps", {{"threads_of_a_body", threads}}, threads * bodies_.body_count),
-            make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}}, bodies_.body_count)};
+    return {
+        make_pass(arrays, "measure_motion", {{"from_half", from_half}}, bodies_.vertex_count),
+        make_pass(arrays, "limit_quiet_steps", {{"threads_of_a_body", threads}}, threads * bodies_.body_count),
+        make_pass(arrays, "bound_quiet_steps", {{"from_half", from_half}, {"largest_body", largest_body_}}, bodies_.body_count)};
   }
   std::vector<Pass> after_quiet_steps() const override {
     return {make_pass(bodies_.arrays, "end_quiet_parts", {}, bodies_.body_count)};

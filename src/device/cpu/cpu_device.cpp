@@ -146,8 +146,8 @@ class CpuDevice final : public Device {
     for (const Pass& pass : passes) run(pass.call, pass.item_count);
   }
   void run(const KernelCall& call, std::uint32_t item_count) {
-    PLIANT_EXPECT(call.buffers.size() <= max_arrays);
-    std::array<void*, max_arrays> buffers{};
+    std::array<void*, max_arrays + 1> buffers{};  // and constants
+    PLIANT_EXPECT(call.buffers.size() <= buffers.size());
     for (std::size_t k = 0; k < call.buffers.size(); ++k) buffers[k] = bytes_of(call.buffers[k]);
     const cpu::KernelArguments arguments{
         .buffers = buffers.data(), .parameters = call.parameters.data(), .works_alone = pool_.size() == 1};

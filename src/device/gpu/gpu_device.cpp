@@ -326,8 +326,11 @@ class GpuDevice final : public Device {
   void prepare(const KernelCall& call) {
     Kernel& kernel = kernels_[call.kernel];
     glUseProgram(kernel.program.id());
-    for (std::size_t slot = 0; slot < call.buffers.size(); ++slot)
-      bind(slot, call.buffers[slot], kernel.signature.arrays[slot].use);
+    std::size_t storage_blocks = 0, constants = 0;
+    for (std::size_t place = 0; place < call.buffers.size(); ++place) {
+      const ArrayUse use = kernel.signature.arrays[place].use;
+      bind(use == ArrayUse::constants ? constants++ : storage_blocks++, call.buffers[place], use);
+    }
     for (std::size_t slot = 0; slot < call.parameters.size(); ++slot) set_parameter(kernel, slot, call.parameters[slot]);
   }
 

@@ -50,6 +50,13 @@ std::optional<Declaration> parse_declaration(std::string_view line) {
   return std::ranges::any_of(forms, fits) ? std::optional(found) : std::nullopt;
 }
 
+/// OpenGL numbers blocks of storage and of constants apart.
+std::size_t binding_of(std::span<const KernelSignature::Array> arrays, std::size_t place) {
+  const auto is_constant = [](const KernelSignature::Array& array) { return array.use == ArrayUse::constants; };
+  const auto constants = static_cast<std::size_t>(std::ranges::count_if(arrays.first(place), is_constant));
+  return is_constant(arrays[place]) ? constants : place - constants;
+}
+
 /// Returns the place of the row with this name, and adds it if there is none.
 template <class Row>
 std::size_t place_of(std::vector<Row>& rows, const Row& row) {
@@ -84,18 +91,18 @@ class Writer {
 
   std::string block(std::string_view word, const ArrayRow& array, std::string_view view, std::string_view name) {
     const bool is_read = word.starts_with("READ");
-    const std::size_t binding = place_of(signature_.arrays, {std::string(name), std::string(array.name),
-                                                             is_read ? ArrayUse::read : ArrayUse::write, std::string(view)});
+    const std::size_t place = place_of(signature_.arrays, {std::string(name), std::string(array.name),
+                                                           is_read ? ArrayUse::read : ArrayUse::write, std::string(view)});
     const std::string_view qualifier = is_read ? "readonly " : word.starts_with("SHARED") ? "coherent " : "";
-    return fmt::format("layout(std430, binding = {}) {}buffer {}_block {{ {} {}[]; }};", binding, qualifier, name,
-                       view.empty() ? array.element : view, name);
+    return fmt::format("layout(std430, binding = {}) {}buffer {}_block {{ {} {}[]; }};", binding_of(signature_.arrays, place),
+                       qualifier, name, view.empty() ? array.element : view, name);
   }
 
   std::string constants(const ArrayRow& array, std::string_view count) {
-    const std::size_t binding =
+    const std::size_t place =
         place_of(signature_.arrays, {std::string(array.name), std::string(array.name), ArrayUse::constants, {}});
-    return fmt::format("layout(std140, binding = {}) uniform {}_block {{ {} {}[{}]; }};", binding, array.name, array.element,
-                       array.name, count);
+    return fmt::format("layout(std140, binding = {}) uniform {}_block {{ {} {}[{}]; }};", binding_of(signature_.arrays, place),
+                       array.name, array.element, array.name, count);
   }
 
   KernelSignature& signature_;
@@ -120,9 +127,11 @@ KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_vi
     text += declaration ? writer.write_out(*declaration, source.shader.origins[number]) : std::string(line);
     text += '\n';
   }
-  if (source.signature.arrays.size() > max_arrays)
+  const auto storage_blocks = static_cast<std::size_t>(std::ranges::count_if(
+      source.signature.arrays, [](const KernelSignature::Array& array) { return array.use != ArrayUse::constants; }));
+  if (storage_blocks > max_arrays)
     throw Error(ErrorKind::device, std::string(kernel_file(defines)),
-                fmt::format("the kernel has {} arrays, but it may have {}", source.signature.arrays.size(), max_arrays),
+                fmt::format("the kernel has {} arrays, but it may have {}", storage_blocks, max_arrays),
                 "make two kernels of it");
   source.shader.text = std::move(text);
   return source;

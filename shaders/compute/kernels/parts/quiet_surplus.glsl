@@ -18,6 +18,7 @@ void look_at_vertex(uint i, uint k, uint b, double surplus_after) {
   double expected = h * (in_world(b, k, velocity_in(before_step(i))) + h * kept_surplus(i, k).expected);
   double speed = in_world(b, k, velocity_in(after_step(i))) + h * surplus_after;
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
+  stays = stays && abs(along - expected) <= double(bounds.surprise);
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
   if (!stays) take_back_step();
   if (!goes_on) end_with_step();

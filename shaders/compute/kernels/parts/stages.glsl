@@ -18,7 +18,7 @@ WRITE(placement)
 uint from_half = 0u;
 uint step_index = 0u;
 SHARED_WRITE(pose)
-WRITE(motion)
+SHARED_WRITE(motion)
 SHARED_WRITE(quiet_body)
 WRITE(quiet_steps)
 #include "quiet_frame.glsl"
