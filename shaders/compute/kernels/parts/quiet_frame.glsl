@@ -19,6 +19,7 @@ void fetch_body(uint b, uint half_index) {
   bounds.least_velocity[k] = quiet_body[b].bounds.least_velocity[k];
   bounds.most_velocity[k] = quiet_body[b].bounds.most_velocity[k];
   bounds.room = quiet_body[b].bounds.room;
+  bounds.surprise = quiet_body[b].bounds.surprise;
 }
 
 // A group may be a step ahead of another that fetches, so each half has its own.
