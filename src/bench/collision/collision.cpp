@@ -124,13 +124,15 @@ class Case {
     Collider collider(bodies, start_.model, description, {});
     device->run(std::array{collider.bounding_pass(0)});
     const Pass end = make_pass(bodies.arrays, "finish_step", {}, physics::counter_count);
+    const std::vector<Pass> pairing = collider.pairing_passes(0), refitting = collider.refitting_passes(0);
+    std::vector<Pass> querying = collider.finding_passes();
+    std::ranges::move(collider.testing_passes(0), std::back_inserter(querying));
     const auto make_round = [&] {
-      device->run(collider.pairing_passes(0));
+      device->run(pairing);
       device->mark_time();
-      device->run(collider.refitting_passes(0));
+      device->run(refitting);
       device->mark_time();
-      device->run(collider.finding_passes());
-      device->run(collider.testing_passes(0));
+      device->run(querying);
       device->mark_time();
     };
     make_round();

@@ -5,7 +5,7 @@
 #include "../language.glsl"
 REAL_BEGIN
 #ifdef __cplusplus
-using glm::clamp, glm::cross, glm::dot, glm::length, glm::max, glm::min;
+using glm::clamp;
 #endif
 
 // Returns the weights of the corners a, b and c in the point of their triangle that is closest to p.

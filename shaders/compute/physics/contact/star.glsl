@@ -6,9 +6,6 @@
 #define STAR_GLSL
 #include "../language.glsl"
 REAL_BEGIN
-#ifdef __cplusplus
-using glm::cross, glm::dot, glm::length, glm::max;
-#endif
 
 // Corners of a triangle at a step's start and at its end, relative to the place. All go straight.
 struct Facet {
