@@ -125,7 +125,8 @@ SHARED_BEGIN
 using glm::ivec3, glm::uint, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4, glm::dvec2, glm::dvec3;
 using glm::abs, glm::cross, glm::dot, glm::inversesqrt, glm::length, glm::max, glm::min;
 using std::abs, std::sqrt;
-// glm's branches on every sign
+// Those of glm take the numbers of a vector one by one, and branch on signs. A header that names one in the namespace of a precision hides
+// those that follow here.
 FN vec3 abs(IN(vec3) v) { return vec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
 FN dvec3 abs(IN(dvec3) v) { return dvec3(std::abs(v.x), std::abs(v.y), std::abs(v.z)); }
 #ifdef __SSE__
