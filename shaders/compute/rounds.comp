@@ -7,8 +7,8 @@
 // - goes_on() may look up what its thread needs in the next round. A kernel can count on that only if has_own_thread is true. On the CPU it
 //   never is.
 //
-// A group has 128 threads, because 64 took longer. A GPU does not run as many groups at once as it might, if a kernel takes much memory. In a
-// rehearsal groups do nothing but wait for each other, by which a device finds how many of them run at once.
+// A group has 128 threads, because 64 took longer. Of a kernel that takes much memory a GPU runs fewer groups at once. In a rehearsal groups do
+// nothing but wait for each other, by which a device finds how many of them run at once.
 //
 // A kernel may define NEAR_ROUNDS, and with it GROUP_SIZE and far_threads:
 // - One group serves up to near_items items. begin_near() then sets sums_are_near if threads share only the group's own memory, in all
@@ -33,7 +33,7 @@ const uint far_threads = GROUP_SIZE;
 #endif
 layout(local_size_x = GROUP_SIZE) in;
 PARAMETER(uint, item_count)  // work groups
-uniform uint is_rehearsal;
+layout(location = 1000) uniform uint is_rehearsal;  // behind those of all parameters
 #include "kernels/parts/was_stopped.glsl"
 
 // Waits until all groups have come here `often` times.

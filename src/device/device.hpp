@@ -39,8 +39,9 @@ struct KernelSignature {
   std::vector<Number> parameters;
 };
 
-/// How many arrays a kernel may have, but for constants. OpenGL guarantees 8 storage blocks. NVIDIA, AMD, Intel and llvmpipe have these and more.
-inline constexpr std::size_t max_arrays = 16;
+/// How many arrays a kernel may have beside those of constants. OpenGL guarantees 8 storage blocks. NVIDIA, AMD, Intel and
+/// llvmpipe have these and more.
+inline constexpr std::size_t max_arrays = 16, max_constants = 1;
 
 /// A kernel with its buffers and parameters, in the order of its signature.
 struct KernelCall {
@@ -116,8 +117,8 @@ class Device {
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
   /// most groups_at_once() of them.
   [[nodiscard]] virtual KernelId round_kernel(std::string_view name) = 0;
-  /// Returns how many work groups of such a kernel run at once, at least 1. That depends on the memory that it takes. So a GPU
-  /// lets groups wait for each other when it is first asked.
+  /// Returns how many work groups of such a kernel are known to run at once, at least 1 and at most shares_at_once(). That
+  /// depends on the memory that it takes. So a GPU lets groups wait for each other when it is first asked.
   [[nodiscard]] virtual std::uint32_t groups_at_once(KernelId round_kernel) = 0;
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
   /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one

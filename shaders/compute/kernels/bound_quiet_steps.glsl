@@ -27,7 +27,7 @@ double room_of(uint b) {
   return min(double(0.8) * play_of(b, point), double(900) * surface[b].edge);
 }
 
-const float most_surprise = 0.02f;  // of what may be no star, in edges
+const float most_surprise = 0.02f;  // of a vertex whose body may meet itself, in edges
 const float endless = 1e30f;
 
 // Its triangles and their winding. Positions in the world round by at most as much as at the farthest corner of its bounds.

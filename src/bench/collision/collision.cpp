@@ -226,8 +226,8 @@ std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
   return all;
 }
 
-// Not one in software.
-bool is_gpu(const Place& place) { return place.device == DeviceKind::gpu && open(place)->shares_at_once() > 0; }
+// Opens the device, because it alone knows.
+bool is_gpu_in_hardware(const Place& place) { return place.device == DeviceKind::gpu && open(place)->shares_at_once() > 0; }
 
 bool is_short_enough(const Case& what, bool quick) {
   return double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
@@ -242,7 +242,8 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
   const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
   const int finest = options.quick ? finest_quick_level : finest_level;
   std::vector<Place> of_many;
-  std::ranges::copy_if(places, std::back_inserter(of_many), [&](const Place& place) { return options.quick || is_gpu(place); });
+  std::ranges::copy_if(places, std::back_inserter(of_many),
+                       [&](const Place& place) { return options.quick || is_gpu_in_hardware(place); });
   const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1) + !of_many.empty();
   int done = 0;
   const auto tell = [&](const std::string& what) {

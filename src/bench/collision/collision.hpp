@@ -40,8 +40,8 @@ struct CollisionResult {
   bool interrupted = false;        // by Progress
 };
 
-/// 16 spheres of 327,680 triangles each on GPUs, and then two from 1,280 triangles each to 327,680. Other libraries run on one
-/// thread. Throws Error (device).
+/// 16 spheres of 327,680 triangles each on GPUs, or smaller ones on all devices if it is quick. Then two from 1,280 triangles
+/// each to 327,680. Other libraries run on one thread. Throws Error (device).
 [[nodiscard]] CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

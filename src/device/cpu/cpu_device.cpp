@@ -146,7 +146,7 @@ class CpuDevice final : public Device {
     for (const Pass& pass : passes) run(pass.call, pass.item_count);
   }
   void run(const KernelCall& call, std::uint32_t item_count) {
-    std::array<void*, max_arrays + 1> buffers{};  // and constants
+    std::array<void*, max_arrays + max_constants> buffers{};
     PLIANT_EXPECT(call.buffers.size() <= buffers.size());
     for (std::size_t k = 0; k < call.buffers.size(); ++k) buffers[k] = bytes_of(call.buffers[k]);
     const cpu::KernelArguments arguments{

@@ -235,15 +235,11 @@ class GpuDevice final : public Device {
     const Caller* caller;
     KernelSignature signature;
     gl::Program program;
+    std::vector<std::size_t> bindings;    // of the signature's arrays
     std::vector<bool> parameter_is_used;  // compilers leave out uniforms that a variant has no use for
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
     std::uint32_t groups_at_once = 0;     // of a kernel in rounds. 0: not known yet
   };
-  // By slot. OpenGL counts uniform blocks and storage blocks apart.
-  struct Bindings {
-    std::array<BufferId, max_arrays> storage{}, constants{};
-  };
-
   // Of the kernel's file and function, and more.
   static std::vector<gl::Define> defines_of(std::string_view name, std::vector<gl::Define> more) {
     more.insert(more.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
@@ -259,7 +255,9 @@ class GpuDevice final : public Device {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name && kernels_[k].caller == &caller) return static_cast<KernelId>(k);
     gpu::KernelSource source = gpu::kernel_source(files_, caller.file, defines);
-    Kernel made{name, &caller, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}};
+    Kernel made{name, &caller, std::move(source.signature), gl::Program::compute(source.shader, name), {}, {}, {}};
+    for (std::size_t k = 0; k < made.signature.arrays.size(); ++k)
+      made.bindings.push_back(gpu::binding_of(made.signature.arrays, k));
     for (std::size_t slot = 0; slot < made.signature.parameters.size(); ++slot)
       made.parameter_is_used.push_back(has_location(made.program.id(), slot));
     made.parameters.resize(made.signature.parameters.size());
@@ -282,7 +280,7 @@ class GpuDevice final : public Device {
   // Has work groups of a kernel in rounds do nothing but wait for each other. Returns whether all met.
   bool all_meet(KernelId round_kernel, std::uint32_t groups) {
     const Kernel& kernel = kernels_[round_kernel];
-    const GLint is_rehearsal = glGetUniformLocation(kernel.program.id(), "is_rehearsal");
+    constexpr GLint is_rehearsal = 1000;  // in rounds.comp
     const DeviceArray<physics::ContactList> list(*this, 1, "rehearsal");
     Pass pass{.name = kernel.name, .call = {.kernel = round_kernel, .buffers = {}, .parameters = {}}, .item_count = groups};
     pass.call.buffers.resize(kernel.signature.arrays.size(), list.id());  // of which none but the list of contacts is used
@@ -313,24 +311,19 @@ class GpuDevice final : public Device {
     if (!pass.beside_next) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
-  void bind(std::size_t slot, BufferId buffer, ArrayUse use) {
-    const bool is_constant = use == ArrayUse::constants;
-    BufferId& bound = (is_constant ? bound_.constants : bound_.storage)[slot];
-    if (bound == buffer) return;
-    bound = buffer;
+  void bind(std::size_t binding, BufferId buffer) {
+    if (bound_[binding] == buffer) return;
+    bound_[binding] = buffer;
     const BufferPart at = part(buffer);
-    glBindBufferRange(is_constant ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(slot), gl_buffer(at.whole),
-                      static_cast<GLintptr>(at.first_byte), static_cast<GLsizeiptr>(at.size));
+    const GLenum target = binding < max_arrays ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER;
+    glBindBufferRange(target, static_cast<GLuint>(binding), gl_buffer(at.whole), static_cast<GLintptr>(at.first_byte),
+                      static_cast<GLsizeiptr>(at.size));
   }
 
   void prepare(const KernelCall& call) {
     Kernel& kernel = kernels_[call.kernel];
     glUseProgram(kernel.program.id());
-    std::size_t storage_blocks = 0, constants = 0;
-    for (std::size_t place = 0; place < call.buffers.size(); ++place) {
-      const ArrayUse use = kernel.signature.arrays[place].use;
-      bind(use == ArrayUse::constants ? constants++ : storage_blocks++, call.buffers[place], use);
-    }
+    for (std::size_t k = 0; k < call.buffers.size(); ++k) bind(kernel.bindings[k], call.buffers[k]);
     for (std::size_t slot = 0; slot < call.parameters.size(); ++slot) set_parameter(kernel, slot, call.parameters[slot]);
   }
 
@@ -351,7 +344,7 @@ class GpuDevice final : public Device {
   std::vector<gl::ShaderFile> files_ = all_shader_files();
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;
-  Bindings bound_;
+  std::array<BufferId, max_arrays + max_constants> bound_{};  // by binding
   std::unordered_map<BufferId, gl::Buffer> buffers_;
   std::unordered_map<BufferId, BufferPart> parts_;
   gl::Landing landing_;

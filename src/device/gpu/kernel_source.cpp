@@ -11,6 +11,15 @@
 #include "device/array_list.hpp"
 
 namespace pliant::gpu {
+
+// Pictures have a block of constants, too, with number 0. Where kernels had that number as well, scenes whose bodies have
+// different constants broke down on an H200 once a picture was drawn.
+std::size_t binding_of(std::span<const KernelSignature::Array> arrays, std::size_t place) {
+  const auto is_constant = [](const KernelSignature::Array& array) { return array.use == ArrayUse::constants; };
+  const auto constants = static_cast<std::size_t>(std::ranges::count_if(arrays.first(place), is_constant));
+  return is_constant(arrays[place]) ? max_arrays + constants : place - constants;
+}
+
 namespace {
 
 /// `WORD(argument, argument)` and what follows on the line.
@@ -48,13 +57,6 @@ std::optional<Declaration> parse_declaration(std::string_view line) {
   Declaration found{trimmed(line.substr(0, open)), split(line.substr(open + 1, close - open - 1)), line.substr(close + 1)};
   const auto fits = [&](const Form& form) { return found.word == form.word && found.arguments.size() == form.argument_count; };
   return std::ranges::any_of(forms, fits) ? std::optional(found) : std::nullopt;
-}
-
-/// OpenGL numbers blocks of storage and of constants apart.
-std::size_t binding_of(std::span<const KernelSignature::Array> arrays, std::size_t place) {
-  const auto is_constant = [](const KernelSignature::Array& array) { return array.use == ArrayUse::constants; };
-  const auto constants = static_cast<std::size_t>(std::ranges::count_if(arrays.first(place), is_constant));
-  return is_constant(arrays[place]) ? constants : place - constants;
 }
 
 /// Returns the place of the row with this name, and adds it if there is none.
@@ -127,11 +129,12 @@ KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_vi
     text += declaration ? writer.write_out(*declaration, source.shader.origins[number]) : std::string(line);
     text += '\n';
   }
-  const auto storage_blocks = static_cast<std::size_t>(std::ranges::count_if(
-      source.signature.arrays, [](const KernelSignature::Array& array) { return array.use != ArrayUse::constants; }));
-  if (storage_blocks > max_arrays)
+  const std::vector<KernelSignature::Array>& arrays = source.signature.arrays;
+  const auto constants = static_cast<std::size_t>(std::ranges::count(arrays, ArrayUse::constants, &KernelSignature::Array::use));
+  if (arrays.size() - constants > max_arrays || constants > max_constants)
     throw Error(ErrorKind::device, std::string(kernel_file(defines)),
-                fmt::format("the kernel has {} arrays, but it may have {}", storage_blocks, max_arrays),
+                fmt::format("the kernel has {} arrays and {} of constants, but it may have {} and {}", arrays.size() - constants,
+                            constants, max_arrays, max_constants),
                 "make two kernels of it");
   source.shader.text = std::move(text);
   return source;

@@ -14,9 +14,12 @@ struct KernelSource {
   KernelSignature signature;
 };
 
-/// Flattens `frame`, and writes its declarations out. Array k of the signature has binding k, parameter k has location k. Throws
-/// Error (device) with file and line if a declaration names no array of physics/arrays.glsl. Throws Error (device) with the file
-/// that "@kernel" stands for if there are more than max_arrays.
+/// Returns the binding of one of a signature's arrays. Arrays of constants have theirs behind those of all others.
+[[nodiscard]] std::size_t binding_of(std::span<const KernelSignature::Array> arrays, std::size_t place);
+
+/// Flattens `frame`, and writes its declarations out. Parameter k has location k. Throws Error (device) with file and line if a
+/// declaration names no array of physics/arrays.glsl. Throws Error (device) with the file that "@kernel" stands for if there are
+/// more than max_arrays or max_constants.
 [[nodiscard]] KernelSource kernel_source(std::span<const gl::ShaderFile> files, std::string_view frame,
                                          std::span<const gl::Define> defines);
 
