@@ -10,6 +10,8 @@
 #include <random>
 
 #include "core/stopwatch.hpp"
+#include "device/gpu/gpu_device.hpp"
+#include "render/frame_renderer.hpp"
 #include "simulation/overlap.hpp"
 #include "support/evolve.hpp"
 #include "support/expect_error.hpp"
@@ -115,6 +117,28 @@ TEST_CASE("a stack falls, and falls again from a restored start by the same bits
     }
     CHECK(ends[0].motion == ends[1].motion);
   }
+}
+
+// Its bodies differ in their constants, of which a picture has some, too.
+TEST_CASE("pictures between steps change no bits of a simulation", "[gl]") {
+  if (test::lacks_gl()) return;
+  const LoadedScene stack = load(source_dir() + "/scenes/demos/jelly_stack.toml");
+  const auto device = make_gpu_device(0);
+  std::vector<State> ends;
+  for (const bool draws : {false, true}) {
+    Session session(*device, stack);
+    Simulation& simulation = session.simulation();
+    render::FrameRenderer renderer(
+        session.model(),
+        render::live_options(session.model(), session.start(), stack.description.output, {64, 36}, render::Detail::reduced));
+    for (int picture = 0; picture < 4; ++picture) {
+      if (draws) renderer.draw(gpu::gl_buffer_of(*device, simulation.position_buffer()), simulation.first_position());
+      simulation.advance(20);
+    }
+    CHECK_FALSE(simulation.report().breakdown.has_value());
+    ends.push_back(simulation.state());
+  }
+  CHECK(ends[0].motion == ends[1].motion);
 }
 
 TEST_CASE("a folder without demos is an error, and a bad scene among them is left out") {
