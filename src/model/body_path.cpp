@@ -2,6 +2,8 @@
 // them are interpolated well if they are less than most_turn apart.
 #include "model/body_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,7 +139,11 @@ std::size_t pieces_between(const Key& a, const Key& b) {
 void expect_few_keys(const BodyDescription& description, const std::vector<Key>& keys) {
   std::size_t pieces = 0;
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) pieces += pieces_between(keys[k], keys[k + 1]);
-  if (pieces > most_keys) throw body_error(description, "its path has too many keys or turns", "leave some of them out");
+  if (pieces > most_keys)
+    throw body_error(description,
+                     fmt::format("its path needs {} keys at {:g} degrees from each to the next, but may have {}", pieces,
+                                 most_turn, most_keys),
+                     "let it turn less, or leave keys out");
 }
 
 std::vector<physics::PathKey> device_keys(const std::vector<Key>& keys, const glm::dquat& first_rotation) {

@@ -142,13 +142,13 @@ double turn_bound(const Model& model) {
 }
 
 void expect_turns_resolved(const TimePlan& plan, const Model& model, const Origin& where) {
-  constexpr double most_turn = 1;  // [rad], four times what automatic steps aim at
+  constexpr double most_turn = 1, advised_turn = 0.9;  // [rad]. The first is four times what automatic steps aim at
   const ModelBody* const body = fastest_turning(model);
   if (body == nullptr || body->path->fastest_spin() * plan.time_step <= most_turn) return;
   throw Error(where,
               fmt::format("body \"{}\" turns by {:.3g} rad in a step of {:.4g} s", body->name,
                           body->path->fastest_spin() * plan.time_step, plan.time_step),
-              fmt::format("write a time_step of at most {:.3g}", most_turn / body->path->fastest_spin()));
+              fmt::format("write a time_step of at most {:.2g}", advised_turn / body->path->fastest_spin()));
 }
 
 // Returns the shortest bound of all bodies. Bodies with the same stiffest frequency and damping rate have the same bound, so one

@@ -30,10 +30,11 @@ double room_of(uint b) {
 const float most_surprise = 0.02f;  // of a vertex whose body may meet itself, in edges
 const float endless = 1e30f;
 
-// Its triangles and their winding. Positions in the world round by at most as much as at the farthest corner of its bounds.
+// Its triangles and their winding. A vertex may leave the bounds in the last step, so positions in the world round by at most as much as at
+// twice the distance of the farthest corner.
 QuietStar star_of(uint b, IN(Box) places) {
   dvec3 farthest = max(abs(dvec3(places.lower)), abs(dvec3(places.upper)));
-  double far = rounded_from(sum_of_sizes(farthest), sum_of_sizes(LOAD3(pose[b].origin, 0u)), largest_body);
+  double far = rounded_from(double(2) * sum_of_sizes(farthest), sum_of_sizes(LOAD3(pose[b].origin, 0u)), largest_body);
   QuietStar star;
   star.first_triangle = tree[b].z;
   star.end_triangle = surface[b].meets_itself != 0u ? tree[b].w : tree[b].z;

@@ -42,7 +42,7 @@ void end_paths(uint b) {
     path_state[b].now = path_state[b].next;
   }
   double time = path_state[b].time;
-  path_state[b].waited += h - (time - before);
+  if (waits || path_state[b].pace < double(1)) path_state[b].waited += h - (time - before);  // else only rounding differs
   path_state[b].waits += waits ? 1u : 0u;
   if (waits || time > before) path_state[b].pace = pace_after(path_state[b].pace, waits);
   if (!stands_still(path[b], time, time + steps_ahead * max(h, step_parts[0].full))) status[b].disturbed = 1u;

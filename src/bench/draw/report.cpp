@@ -47,8 +47,9 @@ std::string to_table(const DrawResult& result) {
                          row.steps_lost ? fmt::format("{:.1f} %", 100 * *row.steps_lost) : "-");
     for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
   }
-  table += fmt::format("\n\n{:<{}} {:>9} {:>12} {:>12} {:>12} {:>9}", "played at 60 a second", std::max(width, std::size_t{21}),
-                       "pictures", "simulated ms", "drawn ms", "slowest ms", "late");
+  if (std::ranges::any_of(result.rows, [](const DrawRow& row) { return row.played.has_value(); }))
+    table += fmt::format("\n\n{:<{}} {:>9} {:>12} {:>12} {:>12} {:>9}", "played at 60 a second", std::max(width, std::size_t{21}),
+                         "pictures", "simulated ms", "drawn ms", "slowest ms", "late");
   for (const DrawRow& row : result.rows)
     if (row.played)
       table += fmt::format("\n{:<{}} {:>9} {:>12.3g} {:>12.3g} {:>12.3g} {:>9}", row.scene, std::max(width, std::size_t{21}),

@@ -1,11 +1,11 @@
 // Proves in a quiet step that a body that meets itself stays a star (physics/contact/star.glsl). It is looked at from the centroid of its
-// rest shape, which goes along with its first vertex. Other steps look from elsewhere, at what they expect. So that they would find the same,
-// the proof asks for more than they do.
+// rest shape, which goes along with its first vertex. Other steps look from elsewhere, at what they expect. The proof asks for more than
+// they do, so that they would hardly ever find another answer.
 #include "../../physics/contact/star.glsl"
 READ(triangle)
 PARAMETER(uint, watches_stars)  // 1: bodies may meet themselves
 
-const real least_quiet_depth = real(1);         // of the centroid below each triangle, in edges
+const real least_quiet_depth = real(1);        // of the centroid below each triangle, in edges
 const real most_change_of_edge = real(0.125);  // in edges
 
 // Relative to the centroid, in the body's frame [m].
