@@ -318,6 +318,38 @@ TEST_CASE("a step that moves a vertex out of its cage is no quiet one", "[gl]") 
   }
 }
 
+// Vertex 0 is made to expect another way by a tenth of an edge.
+TEST_CASE("a step that surprises a body which may meet itself is no quiet one", "[gl]") {
+  if (test::lacks_gl()) return;
+  constexpr float step = 0.01f, tenth_of_edge = 0.055f;
+  for (const bool self_contact : {false, true}) {
+    CAPTURE(self_contact);
+    std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:1", {12, 0, 0})};
+    setups[0].description.self_contact = self_contact;
+    setups[0].description.stretch = {1.1, 0.95, 1};
+    setups[1].description.velocity = {1, 0, 0};
+    Bench bench(gpu(), build_model(setups, glm::dvec3(0.0)), {"verlet", step}, by_impulses);
+    bench.bodies.run_all_stages(true);
+    QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
+    bench.begin();
+    bench.device->run(bench.step(0));
+    const BufferId surplus = bench.bodies.arrays.buffer("surplus");
+    std::vector<float> expected(bench.device->size_of(surplus) / sizeof(float));
+    bench.device->read(surplus, 0, std::as_writable_bytes(std::span(expected)));
+    expected[physics::expected_surplus_of(0) + 1] += tenth_of_edge / (step * step);
+    bench.device->write(surplus, 0, std::as_bytes(std::span(expected)));
+    const auto before = carried_by(bench, 1);
+    quiet.aim_at(3);
+    bench.device->run(quiet.passes(1));
+    CHECK(quiet.take_made() == (self_contact ? 0u : 3u));
+    if (!self_contact) continue;
+    for (const auto& [name, bytes] : carried_by(bench, 1)) {
+      CAPTURE(name);
+      CHECK((before.at(name) == bytes));
+    }
+  }
+}
+
 TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
   if (test::lacks_gl()) return;
   const auto device = gpu();
