@@ -119,7 +119,6 @@ TEST_CASE("a stack falls, and falls again from a restored start by the same bits
   }
 }
 
-// Its bodies differ in their constants, of which a picture has some, too.
 TEST_CASE("pictures between steps change no bits of a simulation", "[gl]") {
   if (test::lacks_gl()) return;
   const LoadedScene stack = load(source_dir() + "/scenes/demos/jelly_stack.toml");

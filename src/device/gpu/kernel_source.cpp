@@ -12,8 +12,7 @@
 
 namespace pliant::gpu {
 
-// Pictures have a block of constants, too, with number 0. Where kernels had that number as well, scenes whose bodies have
-// different constants broke down on an H200 once a picture was drawn.
+// Behind those of arrays, because pictures have a block of constants at 0 and may be drawn between steps.
 std::size_t binding_of(std::span<const KernelSignature::Array> arrays, std::size_t place) {
   const auto is_constant = [](const KernelSignature::Array& array) { return array.use == ArrayUse::constants; };
   const auto constants = static_cast<std::size_t>(std::ranges::count_if(arrays.first(place), is_constant));
