@@ -79,7 +79,7 @@ void certify_pair(uint item, uint cut_round) {
   }
   if (!any_has_changed(who, cut_round)) return;
   uvec3 both = common_corners(who);
-  if (both.x > 1u) return;           // they share an edge
+  if (both.x > 1u) return;          // they share an edge
   for (uint k = 0u; k < 3u; ++k) {  // a corner that they share comes first
     who[k] = triangle[corner_of(triangles.x, (both.y + k) % 3u)];
     who[3u + k] = triangle[corner_of(triangles.y, (both.z + k) % 3u)];
