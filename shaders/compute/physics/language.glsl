@@ -90,9 +90,9 @@
 
 // TALLY_UP counts what nothing in this dispatch reads. Additions to one number come one after the other, each some 0.5 ns on an H100, so on
 // a GPU one thread adds for its subgroup. Each thread takes places in a list by itself: threads come for them from loops of their own, and
-// when a subgroup took places together there, a stack of bodies broke down on an H200. APPEND adds a value to a list of which nothing in
-// this dispatch reads a value or the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and appends at the
-// end of the items that it takes together.
+// GLSL doesn't say which of a subgroup are together there. APPEND adds a value to a list of which nothing in this dispatch reads a value or
+// the count. It counts values beyond the list's capacity, too. On the CPU a thread tallies and appends at the end of the items that it takes
+// together.
 #ifndef __cplusplus
   #define APPEND(list, count, capacity, value)               \
     {                                                        \
