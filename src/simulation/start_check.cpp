@@ -71,7 +71,9 @@ void expect_out_of_grounds(const Model& model, std::span<const glm::dvec3> posit
   }
 }
 
-void expect_out_of_themselves(const Model& model, std::span<const glm::dvec3> positions, int precision,
+enum class Nearness { provable, any };  // how near each other bodies may be that do not intersect
+
+void expect_out_of_themselves(const Model& model, std::span<const glm::dvec3> positions, int precision, Nearness allowed,
                               const std::string& place) {
   for (const ModelBody& body : model.bodies) {
     if (!body.self_contact) continue;
@@ -82,7 +84,7 @@ void expect_out_of_themselves(const Model& model, std::span<const glm::dvec3> po
       throw Error(ErrorKind::input, place,
                   fmt::format("body \"{}\" intersects itself {}, so self-contact can't keep it apart", body.name, counted),
                   "mend its mesh, such as by weld, or its stretch, or remove self_contact");
-    if (own.too_near > 0)
+    if (own.too_near > 0 && allowed == Nearness::provable)
       throw Error(
           ErrorKind::input, place,
           fmt::format("body \"{}\" is too near itself to prove in fp{} that it stays apart, {}", body.name, precision, counted),
@@ -110,6 +112,18 @@ std::string way_apart(const Model& model, const Overlap& overlap, int precision)
                                         : "give one of them a smaller scale";
   return fmt::format("move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}", body.name, way.x, way.y, way.z,
                      other_way);
+}
+
+void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, Nearness allowed,
+                  const std::string& place) {
+  if (!simulation.collider().response_row().keeps_apart) return;
+  const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
+  const int precision = simulation.precision();
+  expect_out_of_grounds(model, positions, collision, place);
+  expect_out_of_themselves(model, positions, precision, allowed, place);
+  const std::optional<Overlap> overlap = find_overlap(model, positions, collision, precision);
+  if (overlap && (overlap->distance == 0 || allowed == Nearness::provable))
+    throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));
 }
 
 double longest_edge(const Model& model, const ModelBody& body) {
@@ -213,13 +227,12 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
 }
 
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
-  if (!simulation.collider().response_row().keeps_apart) return;
-  const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
-  const int precision = simulation.precision();
-  expect_out_of_grounds(model, positions, collision, place);
-  expect_out_of_themselves(model, positions, precision, place);
-  const std::optional<Overlap> overlap = find_overlap(model, positions, collision, precision);
-  if (overlap) throw Error(ErrorKind::input, place, described(model, *overlap, precision), way_apart(model, *overlap, precision));
+  expect_apart(simulation, model, collision, Nearness::provable, place);
+}
+
+void expect_still_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision,
+                        const std::string& place) {
+  expect_apart(simulation, model, collision, Nearness::any, place);
 }
 
 void expect_provable(Simulation& simulation, const Model& model, const CollisionDescription& collision,
@@ -227,7 +240,7 @@ void expect_provable(Simulation& simulation, const Model& model, const Collision
   if (!simulation.collider().response_row().keeps_apart) return;
   const int precision = simulation.precision();
   const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
-  expect_out_of_themselves(model, positions, precision, place);
+  expect_out_of_themselves(model, positions, precision, Nearness::provable, place);
   const std::optional<Overlap> overlap = find_overlap(model, positions, collision, precision);
   if (overlap)
     throw Error(

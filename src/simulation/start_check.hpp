@@ -20,6 +20,11 @@ namespace pliant {
 /// and a way out.
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
 
+/// Does the same where a run goes on with other bodies or settings, but lets bodies be too near each other for proofs. Steps hold
+/// these still against each other, as they did before.
+void expect_still_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision,
+                        const std::string& place);
+
 /// Throws Error (input) that blames `place` if bodies that have come near each other in a run at precision 64 are too near for
 /// proofs at this simulation's precision, though the scene's response keeps them apart. It names two bodies.
 void expect_provable(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);

@@ -234,7 +234,11 @@ void Session::go_on_with(LoadedScene scene, const State& from, bool starts_anew)
   const TimePlan plan = plan_time(changed->description, changed->start.model);
   expect_carried(changed->description, plan, device_->precision());
   auto simulation = make_simulation(*device_, *changed, from, plan);
-  expect_apart(*simulation, changed->start.model, changed->description.collision, changed->description.file.string());
+  const std::string place = changed->description.file.string();
+  if (starts_anew)
+    expect_apart(*simulation, changed->start.model, changed->description.collision, place);
+  else
+    expect_still_apart(*simulation, changed->start.model, changed->description.collision, place);
   const double at_time = starts_anew ? 0 : time();
   plan_ = plan;
   begin_with(std::move(simulation), starts_anew ? 0 : step(), at_time);

@@ -12,6 +12,7 @@
 #include "simulation/overlap.hpp"
 #include "simulation/start_gap.hpp"
 #include "simulation/time_plan.hpp"
+#include "support/evolve.hpp"
 #include "support/expect_error.hpp"
 #include "support/scratch.hpp"
 
@@ -31,6 +32,11 @@ class Start {
     const auto device = make_cpu_device(1, precision);
     Simulation simulation(*device, start_.model, start_.state, plan_time(scene_, start_.model), scene_.collision);
     expect_apart(simulation, start_.model, scene_.collision, "scene.toml");
+  }
+  void check_going_on() {
+    const auto device = make_cpu_device(1, 32);
+    Simulation simulation(*device, start_.model, start_.state, plan_time(scene_, start_.model), scene_.collision);
+    expect_still_apart(simulation, start_.model, scene_.collision, "scene.toml");
   }
   Error error() {
     return error_of([&] { check(); });
@@ -108,6 +114,29 @@ TEST_CASE("bodies that begin too near each other for proofs are an error, and hi
     CHECK_NOTHROW(start.check(64));
   }
   CHECK_NOTHROW(Start(beside(0.01)).check());
+}
+
+TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl]") {
+  const std::string text = ball +
+                           "velocity = [1, 0, 0]\n[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\n"
+                           "position = [2.0000001, 0, 0]\nvelocity = [-1, 0, 0]\n";
+  const SceneDescription scene = parse_scene(text, "scene.toml", {});
+  const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity, scene.grounds);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation simulation(*test.device, start.model, start.state, plan_time(scene, start.model), scene.collision);
+    CHECK_NOTHROW(expect_still_apart(simulation, start.model, scene.collision, "scene.toml"));
+    for (int k = 0; k < 20; ++k) {
+      simulation.advance(20);
+      CHECK(count_touching_pairs(start.model, simulation.state().world_positions(start.model)) == 0);
+    }
+    CHECK_FALSE(simulation.report().breakdown.has_value());
+  }
+}
+
+TEST_CASE("bodies that intersect do not go on") {
+  Start start(ball + "[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [1.9, 0, 0]\n");
+  check_says(error_of([&] { start.check_going_on(); }), {"bodies \"ball\" and \"other\" intersect"});
 }
 
 TEST_CASE("bodies that begin nearer than their gap are named, and those that keep it are not") {
