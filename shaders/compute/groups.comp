@@ -5,8 +5,9 @@
 #include "physics/language.glsl"
 layout(local_size_x = GROUP_THREADS) in;
 #include "@kernel"
+#include "turns.glsl"
 PARAMETER(uint, item_count)
 void main() {
-  uint item = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;  // dispatches past max_groups have several rows
-  if (item < item_count) KERNEL(item);
+  uint turn = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;  // dispatches past max_groups have several rows
+  if (turn < item_count) KERNEL(item_at(turn, item_count));
 }

@@ -27,6 +27,7 @@
 #include "physics/body.glsl"
 bool has_own_thread = false;  // whether an item has a thread to itself in all rounds
 #include "@kernel"
+#include "turns.glsl"
 #ifndef NEAR_ROUNDS
 #define GROUP_SIZE 128u
 const uint far_threads = GROUP_SIZE;
@@ -98,7 +99,7 @@ void main() {
   uint number = 0u;
   bool more = true;
   while (more) {
-    for (uint item = first; item < count; item += groups * threads) KERNEL(item, number);
+    for (uint turn = first; turn < count; turn += groups * threads) KERNEL(item_at(turn, count), number);
     end_round(groups, number);
     more = goes_on(number) && number + 1u < rounds_at_most();
     ++number;

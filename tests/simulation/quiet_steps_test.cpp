@@ -385,10 +385,7 @@ std::pair<std::uint64_t, std::uint64_t> steps_of_star(Device& device, const Meth
   ball.description.self_contact = true;
   ball.description.stretch = {1.1, 0.95, 1};
   ModelAndState start = build_model(std::vector{ball}, {0, -9.81, 0});
-  for (std::uint32_t i = 0; i < start.model.vertex_count(); ++i) {
-    const glm::dvec3 w = velocity(start.model.rest_position(i));
-    for (int k = 0; k < 3; ++k) start.state.motion[physics::velocity_of(i) + static_cast<std::size_t>(k)] = w[k];
-  }
+  set_velocities(start, velocity);
   Runs runs(device, start, method);
   for (const std::uint64_t steps : {1, 2, 7, 20, 30}) {
     runs.advance(steps);

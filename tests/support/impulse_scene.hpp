@@ -27,6 +27,16 @@ inline BodySetup soft(TriangleMesh mesh, const char* name) {
   return setup;
 }
 
+// Gives the first body velocities that its rest positions tell [m] -> [m/s].
+template <class Velocity>
+void set_velocities(ModelAndState& start, const Velocity& velocity) {
+  const ModelBody& body = start.model.bodies.front();
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) {
+    const glm::dvec3 w = velocity(start.model.rest_position(i));
+    for (int k = 0; k < 3; ++k) start.state.motion[physics::velocity_of(i) + static_cast<std::size_t>(k)] = w[k];
+  }
+}
+
 // Measures a run in parts of steps.
 struct Energies {
   double first = 0, most = 0, last = 0;  // [J]

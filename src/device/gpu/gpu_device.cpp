@@ -59,8 +59,10 @@ constexpr Lanes lane_choices[] = {
 
 class GpuDevice final : public Device {
  public:
-  explicit GpuDevice(std::unique_ptr<gl::Context> context) : GpuDevice(*context) { own_context_ = std::move(context); }
-  explicit GpuDevice(gl::Context& context) : context_(context) {
+  GpuDevice(std::unique_ptr<gl::Context> context, ItemOrder order) : GpuDevice(*context, order) {
+    own_context_ = std::move(context);
+  }
+  GpuDevice(gl::Context& context, ItemOrder order) : context_(context), order_(order) {
     const gl::Adapter& adapter = context_.adapter();
     if (adapter.storage_blocks < max_arrays)
       throw Error(ErrorKind::device, adapter.renderer,
@@ -244,8 +246,10 @@ class GpuDevice final : public Device {
     std::uint32_t groups_at_once = 0;     // of a kernel in rounds. 0: not known yet
   };
   // Of the kernel's file and function, and more.
-  static std::vector<gl::Define> defines_of(std::string_view name, std::vector<gl::Define> more) {
-    more.insert(more.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"}, {"KERNEL", std::string(name)}});
+  std::vector<gl::Define> defines_of(std::string_view name, std::vector<gl::Define> more) const {
+    more.insert(more.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
+                             {"KERNEL", std::string(name)},
+                             {"DESCENDS", order_ == ItemOrder::descending ? "true" : "false"}});
     return more;
   }
 
@@ -342,6 +346,7 @@ class GpuDevice final : public Device {
 
   std::unique_ptr<gl::Context> own_context_;  // null if it is a window's
   gl::Context& context_;
+  ItemOrder order_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
   std::vector<gl::ShaderFile> files_ = all_shader_files();
@@ -358,9 +363,15 @@ class GpuDevice final : public Device {
 
 }  // namespace
 
-std::unique_ptr<Device> make_gpu_device(int index) { return std::make_unique<GpuDevice>(std::make_unique<gl::Context>(index)); }
+std::unique_ptr<Device> make_gpu_device(int index) { return make_gpu_device(index, ItemOrder::ascending); }
 
-std::unique_ptr<Device> make_gpu_device(gl::Context& context) { return std::make_unique<GpuDevice>(context); }
+std::unique_ptr<Device> make_gpu_device(int index, ItemOrder order) {
+  return std::make_unique<GpuDevice>(std::make_unique<gl::Context>(index), order);
+}
+
+std::unique_ptr<Device> make_gpu_device(gl::Context& context) {
+  return std::make_unique<GpuDevice>(context, ItemOrder::ascending);
+}
 
 gl::Context* gpu::context_of(Device& device) {
   auto* gpu = dynamic_cast<GpuDevice*>(&device);

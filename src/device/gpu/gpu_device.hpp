@@ -1,5 +1,5 @@
 // Gives drawing what Device does not: the GPU device's context, which is a window's or its own, and its buffers as OpenGL knows
-// them.
+// them. Gives tests a device that takes items in another order.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,6 +11,12 @@ namespace pliant {
 
 /// Makes a GPU device in a context, such as a window's. The context must stay current on this thread and outlive the device.
 [[nodiscard]] std::unique_ptr<Device> make_gpu_device(gl::Context& context);
+
+/// In which order the items of a kernel are given to threads. No result may depend on it.
+enum class ItemOrder { ascending, descending };
+
+/// Makes one as make_gpu_device(index) does, with this order.
+[[nodiscard]] std::unique_ptr<Device> make_gpu_device(int index, ItemOrder order);
 
 }  // namespace pliant
 

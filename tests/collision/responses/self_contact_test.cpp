@@ -30,16 +30,6 @@ BodySetup meeting_itself(TriangleMesh mesh, bool self_contact = true) {
   return setup;
 }
 
-// Gives the first body velocities that its rest positions tell [m] -> [m/s].
-template <class Velocity>
-void set_velocities(ModelAndState& start, const Velocity& velocity) {
-  const ModelBody& body = start.model.bodies.front();
-  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) {
-    const glm::dvec3 w = velocity(start.model.rest_position(i));
-    for (int k = 0; k < 3; ++k) start.state.motion[physics::velocity_of(i) + static_cast<std::size_t>(k)] = w[k];
-  }
-}
-
 // How the ends of a bar along y turn against each other [rad/s a metre], and its sides come together [1/s].
 struct Wringing {
   double turning, pressing;
