@@ -8,10 +8,12 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <random>
+#include <utility>
 
 #include "core/stopwatch.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "render/frame_renderer.hpp"
+#include "simulation/measure.hpp"
 #include "simulation/overlap.hpp"
 #include "support/evolve.hpp"
 #include "support/expect_error.hpp"
@@ -52,8 +54,10 @@ class Player {
     else if (what < 0.6)
       pull();
     else
-      session_.pull({});
+      pull_.reset();
   }
+  // The test pulls instead of the session, so that it can measure before and after.
+  [[nodiscard]] const std::optional<Pull>& holds() const { return pull_; }
   [[nodiscard]] int thrown() const { return thrown_; }
   [[nodiscard]] int pulled() const { return pulled_; }
 
@@ -65,6 +69,7 @@ class Player {
   void throw_ball() try {
     const double size = session_.radius();
     const glm::dvec3 from = somewhere(2 * size);
+    pull_.reset();
     session_.add(ball_to_throw(session_.model(), size, {from, -from}, session_.scene().simulation.gravity));
     ++thrown_;
   } catch (const Error& error) {
@@ -75,13 +80,52 @@ class Player {
     const Model& model = session_.model();
     const auto vertex = static_cast<std::uint32_t>(between(0, model.vertex_count() - 1e-9));
     if (model.body_of(vertex).is_rigid()) return;
-    session_.pull(Pull{.vertex = vertex, .target = somewhere(session_.radius())});
+    pull_ = Pull{.vertex = vertex, .target = somewhere(session_.radius())};
     ++pulled_;
   }
 
   Session& session_;
+  std::optional<Pull> pull_;
   std::mt19937 random_;
   int thrown_ = 0, pulled_ = 0;
+};
+
+// Follows the energy of a session, less what scripts and pulls put in [J].
+class Balance {
+ public:
+  explicit Balance(Session& session) : session_(session), known_(energy()), put_in_(std::abs(known_)) {}
+
+  // After bodies may have come or gone, which brings energy. Reports count anew then.
+  void begin_anew() {
+    known_ = energy();
+    scripts_ = work_of_scripts();
+  }
+  void pull(const Pull& by, double seconds) {
+    session_.simulation().pull(by, seconds);
+    const double before = std::exchange(known_, energy());
+    put_in_ += std::abs(known_ - before);
+  }
+  void look() {
+    const double before = std::exchange(known_, energy());
+    const double by_scripts = work_of_scripts() - scripts_;
+    scripts_ += by_scripts;
+    put_in_ += std::abs(by_scripts);
+    gained_ += known_ - before - by_scripts;
+    most_gained_ = std::max(most_gained_, gained_);
+  }
+  [[nodiscard]] double most_gained() const { return most_gained_; }
+  // With the energy of the start. Signs do not count.
+  [[nodiscard]] double put_in() const { return put_in_; }
+
+ private:
+  double energy() {
+    return measure(session_.model(), session_.simulation().state(), session_.scene().simulation.gravity, pool_).energy();
+  }
+  double work_of_scripts() { return session_.simulation().report().response.work_of_scripts; }
+
+  Session& session_;
+  ThreadPool pool_{2};
+  double known_, put_in_, scripts_ = 0, gained_ = 0, most_gained_ = 0;
 };
 
 TEST_CASE("each demo says what to try, and begins") {
@@ -151,7 +195,7 @@ TEST_CASE("a folder without demos is an error, and a bad scene among them is lef
 
 // PLIANT_DEMO_SECONDS of each demo are simulated, or of those whose names have PLIANT_DEMO in them, on PLIANT_SOAK_DEVICE. Every
 // tenth step is looked at in fp64.
-TEST_CASE("in each demo bodies stay apart and finite while somebody plays", "[long]") {
+TEST_CASE("in each demo bodies stay apart and finite and gain no energy while somebody plays", "[long]") {
   const double seconds = from_environment("PLIANT_DEMO_SECONDS", 0.4);
   const char* const wanted = std::getenv("PLIANT_DEMO");
   const auto device = device_to_play_on();
@@ -160,25 +204,33 @@ TEST_CASE("in each demo bodies stay apart and finite while somebody plays", "[lo
     CAPTURE(demo.scene);
     Session session(*device, load(demo.scene));
     Player player(session, 7);
+    Balance balance(session);
     Stopwatch simulating, looking;
     double played_at = 0, told_at = 10;
     while (session.time() < seconds && !session.breakdown()) {
       if (session.time() >= played_at) {
         player.play();
+        balance.begin_anew();
         played_at += 0.25;
       }
-      simulating.time([&] { session.advance_toward(session.time() + 10 * session.plan().time_step, 10); });
+      const double before = session.time();
+      simulating.time([&] { session.advance_toward(before + 10 * session.plan().time_step, 10); });
       looking.time([&] {
+        balance.look();
+        if (player.holds()) balance.pull(*player.holds(), session.time() - before);
         const std::vector<glm::dvec3> positions = session.simulation().state().world_positions(session.model());
         CHECK(count_touching_pairs(session.model(), positions) == 0);
       });
       if (session.time() < told_at && session.time() < seconds) continue;
       told_at += 10;
-      std::printf("%-20s %6.1f s played in %.1f s and %.1f s of looks, %d balls thrown, %d pulls\n", demo.scene.stem().c_str(),
-                  session.time(), simulating.seconds(), looking.seconds(), player.thrown(), player.pulled());
+      std::printf(
+          "%-20s %6.1f s played in %.1f s and %.1f s of looks, %d balls thrown, %d pulls, %.1g J gained of %.3g J put in\n",
+          demo.scene.stem().c_str(), session.time(), simulating.seconds(), looking.seconds(), player.thrown(), player.pulled(),
+          balance.most_gained(), balance.put_in());
       std::fflush(stdout);
     }
     CHECK_FALSE(session.breakdown());
+    CHECK(balance.most_gained() <= 1e-6 * balance.put_in());
     if (seconds > 5) CHECK((player.thrown() > 0 && player.pulled() > 0));
   }
 }
