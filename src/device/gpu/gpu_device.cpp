@@ -153,7 +153,8 @@ class GpuDevice final : public Device {
     PLIANT_EXPECT(kernels_[round_kernel].caller == &round_caller);
     if (kernels_[round_kernel].groups_at_once == 0) {
       std::uint32_t groups = std::max(shares_at_once(), 1u);
-      while (groups > 1 && !all_meet(round_kernel, groups)) groups /= 2;
+      // twice, because another program may be in the way
+      while (groups > 1 && !all_meet(round_kernel, groups) && !all_meet(round_kernel, groups)) groups /= 2;
       kernels_[round_kernel].groups_at_once = groups;
     }
     return kernels_[round_kernel].groups_at_once;

@@ -38,6 +38,18 @@ TEST_CASE("the order of items does not matter where a body meets itself", "[gl][
   check_order(start, plan_of(Method{"verlet", 0.01}), by_impulses, 4);
 }
 
+TEST_CASE("the order of items does not matter where several bodies bounce", "[gl][long]") {
+  if (test::lacks_gl()) return;
+  std::vector<BodySetup> setups;
+  for (int k = 0; k < 3; ++k) {
+    BodySetup& ball = setups.emplace_back(soft(generate_mesh("icosphere:1"), "ball"));
+    ball.description.restitution = 0.8;
+    ball.description.position = {2.1 * k, 0.3 * k, 0.1};
+    ball.description.velocity = {k == 0 ? 6 : -3 * k, 0, 0};
+  }
+  check_order(build_model(setups, glm::dvec3(0.0)), plan_of(Method{"verlet", 0.01}), by_impulses, 12);
+}
+
 TEST_CASE("the order of items does not matter in a stack", "[gl][long]") {
   if (test::lacks_gl()) return;
   const SceneDescription stack = load_scene(source_dir() + "/scenes/demos/jelly_stack.toml");
