@@ -116,17 +116,19 @@ TEST_CASE("bodies that begin too near each other for proofs are an error, and hi
   CHECK_NOTHROW(Start(beside(0.01)).check());
 }
 
-TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl]") {
-  const std::string text = ball +
-                           "velocity = [1, 0, 0]\n[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\n"
-                           "position = [2.0000001, 0, 0]\nvelocity = [-1, 0, 0]\n";
+TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl][long]") {
+  const std::string text =
+      "[[body]]\nmesh = \"icosphere:1\"\nvelocity = [1, 0, 0]\n"
+      "[[body]]\nmesh = \"icosphere:1\"\nposition = [2.0000001, 0, 0]\nvelocity = [-1, 0, 0]\n";
   const SceneDescription scene = parse_scene(text, "scene.toml", {});
   const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity, scene.grounds);
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);
     Simulation simulation(*test.device, start.model, start.state, plan_time(scene, start.model), scene.collision);
+    if (simulation.precision() == 32)
+      CHECK_THROWS_AS(expect_apart(simulation, start.model, scene.collision, "scene.toml"), Error);
     CHECK_NOTHROW(expect_still_apart(simulation, start.model, scene.collision, "scene.toml"));
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < 5; ++k) {
       simulation.advance(20);
       CHECK(count_touching_pairs(start.model, simulation.state().world_positions(start.model)) == 0);
     }
