@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <optional>
+#include <memory>
+#include <utility>
 
+#include "bench/collision/engines.hpp"
 #include "bench/collision/spheres.hpp"
-#include "bench/collision/tree_peers.hpp"
 #include "bench/common/timing.hpp"
-#include "collision/collider.hpp"
-#include "core/stopwatch.hpp"
-#include "physics/collision/box.glsl"
-#include "physics/collision/certified_triangles.glsl"
 
 namespace pliant::bench {
 namespace {
@@ -22,32 +19,12 @@ constexpr int finest_level = 7, finest_quick_level = 4;
 constexpr std::size_t many_spheres = 16;                                      // of the finest, first of all: 5 million triangles
 constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
 
-// Rounds are repeated until both have passed.
+// Each engine makes rounds until both have passed, and in a turn until `turn_seconds` have.
 struct Rounds {
   std::size_t least;
-  double least_seconds;
+  double least_seconds, turn_seconds;
 };
-constexpr Rounds all_rounds{15, 0.3}, quick_rounds{3, 0.01};
-constexpr int rounds_of_a_batch = 8;  // a GPU slows down where it waits after each
-
-struct Seconds {
-  double refit, query;
-};
-
-// Returns medians. `batch` makes some rounds. Those of the first third of the time warm up.
-template <class Batch>
-Seconds repeated(const Rounds& rounds, const Batch& batch) {
-  std::vector<double> refits, queries;
-  for (double passed = 0; passed < rounds.least_seconds / 3;)
-    for (const Seconds& taken : batch()) passed += taken.refit + taken.query;
-  for (double passed = 0; refits.size() < rounds.least || passed < rounds.least_seconds;)
-    for (const Seconds& taken : batch()) {
-      refits.push_back(taken.refit);
-      queries.push_back(taken.query);
-      passed += taken.refit + taken.query;
-    }
-  return {median(refits), median(queries)};
-}
+constexpr Rounds all_rounds{15, 0.3, 0.005}, quick_rounds{3, 0.01, 0.005};
 
 struct Overlap {
   const char* name;
@@ -66,154 +43,88 @@ TwoMeshes meshes_of(const ModelAndState& start) {
   return meshes;
 }
 
-physics::PaddedBox box_of(const TwoMeshes& meshes, std::uint32_t triangle) {
-  const glm::vec4 p = meshes.corner(triangle, 0), q = meshes.corner(triangle, 1), r = meshes.corner(triangle, 2);
-  return {glm::min(glm::min(p, q), r), glm::max(glm::max(p, q), r)};
-}
-
-// Embree gives all pairs of triangles of two leaves, so boxes are tested first.
-bool touch(const TwoMeshes& meshes, glm::uvec2 pair) {
-  if (!physics::overlaps(box_of(meshes, pair.x), box_of(meshes, pair.y))) return false;
-  const auto corner = [&](std::uint32_t triangle, std::uint32_t k) { return glm::vec3(meshes.corner(triangle, k)); };
-  const glm::vec3 p[3] = {corner(pair.x, 0), corner(pair.x, 1), corner(pair.x, 2)};
-  const glm::vec3 q[3] = {corner(pair.y, 0), corner(pair.y, 1), corner(pair.y, 2)};
-  return physics::triangles_may_touch(p, q);
-}
-
-struct Found {
-  std::uint64_t pairs = 0;
-  std::vector<bool> touched;  // vertices
-
-  bool operator==(const Found&) const = default;
-};
-
-// How pliant searches: a row of the result. The first has what is best on the device.
-struct Search {
-  const char* name;
-  ContactSearch method = ContactSearch::tree;
-  TreeDescription tree{};
-};
-const std::array<Search, 7> searches = {Search{"pliant"},
-                                        Search{"pliant, bottom-up", ContactSearch::tree, {.refit = TreeRefit::bottom_up}},
-                                        Search{"pliant, fan-out 2", ContactSearch::tree, {.fan_out = 2}},
-                                        Search{"pliant, fan-out 4", ContactSearch::tree, {.fan_out = 4}},
-                                        Search{"pliant, centre", ContactSearch::tree, {.split = TreeSplit::centre}},
-                                        Search{"pliant, surface area", ContactSearch::tree, {.split = TreeSplit::surface_area}},
-                                        Search{"brute force", ContactSearch::brute_force}};
-
-// One size and overlap. The first row says what others have to find.
+// One size and overlap. Its engines take turns, because a processor's clock changes while they are measured.
 class Case {
  public:
-  Case(std::size_t bodies, const Overlap& overlap, int level, bool quick, CollisionResult& into)
+  Case(std::size_t bodies, const Overlap& overlap, int level, bool quick)
       : overlap_(overlap),
         start_(spheres(bodies, level, overlap.apart)),
         meshes_(meshes_of(start_)),
-        rounds_(quick ? quick_rounds : all_rounds),
-        into_(into) {}
+        rounds_(quick ? quick_rounds : all_rounds) {}
 
   [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
 
-  void measure(const Place& place, const Search& search) {
-    const auto device = open(place);
-    CollisionDescription description;
-    description.search = search.method;
-    description.tree = search.tree;
-    description.response = {"none"};
-    const bool has_trees = search.method == ContactSearch::tree;
-    DeviceBodies bodies(*device, start_.model, start_.state);
-    Collider collider(bodies, start_.model, description, {});
-    device->run(std::array{collider.bounding_pass(0)});
-    const Pass end = make_pass(bodies.arrays, "finish_step", {}, physics::counter_count);
-    const std::vector<Pass> pairing = collider.pairing_passes(0), refitting = collider.refitting_passes(0);
-    std::vector<Pass> querying = collider.finding_passes();
-    std::ranges::move(collider.testing_passes(0), std::back_inserter(querying));
-    const auto make_round = [&] {
-      device->run(pairing);
-      device->mark_time();
-      device->run(refitting);
-      device->mark_time();
-      device->run(querying);
-      device->mark_time();
-    };
-    make_round();
-    (void)device->take_times();
-    const Found found = what_it_found(bodies, collider);
-    device->run(std::array{end});
-    const Seconds seconds = repeated(rounds_, [&] {
-      for (int round = 0; round < rounds_of_a_batch; ++round) {
-        make_round();
-        device->run(std::array{end});
+  void add(const Place& place, std::span<const Search> ways) {
+    Device& device = *devices_.emplace_back(open(place));  // one for all, because a thread can have one context of OpenGL
+    for (const Search& way : ways) add(way.name, place, make_engine(device, start_, way));
+  }
+  void add(const TreeLibrary& library) { add(library.name, {}, make_engine(library, meshes_)); }
+
+  /// Lets each engine that has not measured enough take a turn. Returns false if there was none.
+  bool take_turns() {
+    bool all_have_enough = true;
+    for (Entry& entry : entries_)
+      if (!has_enough(entry)) {
+        all_have_enough = false;
+        take_turn(entry);
       }
-      const std::vector<double> at = device->take_times();
-      std::vector<Seconds> taken;
-      for (std::size_t k = 0; k < at.size(); k += 3) taken.push_back({at[k + 1] - at[k], at[k + 2] - at[k + 1]});
-      return taken;
-    });
-    add(search.name, place.device, place.threads, has_trees ? seconds_of_build(search.tree) : 0, seconds, found);
+    return !all_have_enough;
   }
 
-  void measure(const TreeLibrary& library) {
-    Stopwatch building;
-    building.start();
-    const std::unique_ptr<TreePeer> peer = library.build(meshes_);
-    building.stop();
-    TrianglePairs pairs;
-    const Seconds seconds = repeated(rounds_, [&] {
-      Stopwatch refit, query;
-      refit.time([&] { peer->refit(); });
-      query.time([&] {
-        pairs.clear();
-        peer->find(pairs);
-        if (!library.tests_triangles) std::erase_if(pairs, [&](glm::uvec2 pair) { return !touch(meshes_, pair); });
-      });
-      return std::array{Seconds{refit.seconds(), query.seconds()}};
-    });
-    add(library.name, DeviceKind::cpu, 1, building.seconds(), seconds, what_it_found(pairs));
+  /// The first says what others have to find.
+  [[nodiscard]] std::vector<CollisionRow> rows() const {
+    std::vector<CollisionRow> rows;
+    for (const Entry& entry : entries_)
+      rows.push_back({.engine = entry.name,
+                      .device = entry.place.device,
+                      .threads = entry.place.threads,
+                      .overlap = overlap_.name,
+                      .bodies = start_.model.bodies.size(),
+                      .triangles = triangles(),
+                      .build_seconds = entry.engine->build_seconds(),
+                      .refit_seconds = median(entry.refits),
+                      .query_seconds = median(entry.queries),
+                      .pairs = entry.found.pairs,
+                      .agrees = entry.found == entries_.front().found});
+    return rows;
   }
 
  private:
-  [[nodiscard]] double seconds_of_build(const TreeDescription& tree) const {
-    Stopwatch building;
-    building.time([&] { (void)build_forest(start_.model, start_.model.rest_positions, tree); });
-    return building.seconds();
+  struct Entry {
+    std::string name;
+    Place place;
+    std::unique_ptr<Engine> engine;
+    Found found;
+    std::vector<double> refits = {}, queries = {};
+    double seconds = 0;
+  };
+
+  void add(std::string name, const Place& place, std::unique_ptr<Engine> engine) {
+    Found found = engine->find();
+    entries_.push_back({std::move(name), place, std::move(engine), std::move(found)});
   }
 
-  static Found what_it_found(const DeviceBodies& bodies, const Collider& collider) {
-    const physics::Control control = bodies.control.download().front();
-    Found found{control.count[physics::contact_pairs], {}};
-    for (const std::uint32_t step : collider.touching().marks()) found.touched.push_back(step == control.step);
-    return found;
-  }
-  [[nodiscard]] Found what_it_found(const TrianglePairs& pairs) const {
-    Found found{pairs.size(), std::vector<bool>(meshes_.positions.size())};
-    for (const glm::uvec2& pair : pairs)
-      for (const std::uint32_t triangle : {pair.x, pair.y})
-        for (const std::uint32_t vertex : meshes_.triangles[triangle]) found.touched[vertex] = true;
-    return found;
+  [[nodiscard]] bool has_enough(const Entry& entry) const {
+    return entry.refits.size() >= rounds_.least && entry.seconds >= rounds_.least_seconds;
   }
 
-  void add(const std::string& engine, DeviceKind device, unsigned threads, double build, const Seconds& seconds,
-           const Found& found) {
-    if (!first_) first_ = found;
-    into_.rows.push_back({.engine = engine,
-                          .device = device,
-                          .threads = threads,
-                          .overlap = overlap_.name,
-                          .bodies = start_.model.bodies.size(),
-                          .triangles = triangles(),
-                          .build_seconds = build,
-                          .refit_seconds = seconds.refit,
-                          .query_seconds = seconds.query,
-                          .pairs = found.pairs,
-                          .agrees = found == *first_});
+  void take_turn(Entry& entry) const {
+    (void)entry.engine->make_rounds();  // fills caches, wakes threads
+    for (double passed = 0; passed < rounds_.turn_seconds;)
+      for (const RoundSeconds& round : entry.engine->make_rounds()) {
+        entry.refits.push_back(round.refit);
+        entry.queries.push_back(round.query);
+        passed += round.refit + round.query;
+        entry.seconds += round.refit + round.query;
+      }
   }
 
   const Overlap& overlap_;
   ModelAndState start_;
   TwoMeshes meshes_;
   Rounds rounds_;
-  CollisionResult& into_;
-  std::optional<Found> first_;
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<Entry> entries_;
 };
 
 std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
@@ -229,8 +140,10 @@ std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
 // Opens the device, because it alone knows.
 bool is_gpu_in_hardware(const Place& place) { return place.device == DeviceKind::gpu && open(place)->shares_at_once() > 0; }
 
-bool is_short_enough(const Case& what, bool quick) {
-  return double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
+std::span<const Search> ways_to_search(const Case& what, bool quick) {
+  const bool by_brute_force =
+      double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
+  return searches().first(searches().size() - !by_brute_force);
 }
 
 }  // namespace
@@ -250,26 +163,29 @@ CollisionResult bench_collision(const CollisionOptions& options, const Progress&
     if (!result.interrupted) result.interrupted = !progress(double(done) / cases, what);
     return !result.interrupted;
   };
-  if (!of_many.empty()) {
-    Case what(many_spheres, overlaps[1], finest, options.quick, result);
-    for (const Place& place : of_many)
-      if (tell(fmt::format("{} bodies of {} triangles, {}", many_spheres, what.triangles(), name_of(place))))
-        what.measure(place, searches[0]);
-    if (result.interrupted) return result;
+  const auto measure = [&](Case& what, const std::string& name) {
+    do
+      if (!tell(name)) return;
+    while (what.take_turns());
+    std::ranges::move(what.rows(), std::back_inserter(result.rows));
     ++done;
+  };
+  if (!of_many.empty()) {
+    Case what(many_spheres, overlaps[1], finest, options.quick);
+    for (const Place& place : of_many) what.add(place, searches().first(1));
+    measure(what, fmt::format("{} bodies of {} triangles", many_spheres, what.triangles()));
+    if (result.interrupted) return result;
   }
   for (int level = 3; level <= finest; ++level) {
     for (const Overlap& overlap : overlaps) {
-      Case what(2, overlap, level, options.quick, result);
-      const std::string size = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
+      Case what(2, overlap, level, options.quick);
+      const std::string name = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
       for (const Place& place : places)
-        for (const Search& search : searches)
-          if (search.method == ContactSearch::tree || is_short_enough(what, options.quick))
-            if (tell(fmt::format("{}, {}, {}", size, search.name, name_of(place)))) what.measure(place, search);
+        if (tell(fmt::format("{}, {}", name, name_of(place)))) what.add(place, ways_to_search(what, options.quick));
       for (const TreeLibrary& library : libraries)
-        if (tell(fmt::format("{}, {}", size, library.name))) what.measure(library);
+        if (tell(fmt::format("{}, {}", name, library.name))) what.add(library);
+      measure(what, name);
       if (result.interrupted) return result;
-      ++done;
     }
     for (const Place& place : places)
       if (tell(fmt::format("a step in contact, icosphere:{}, {}", level, name_of(place))))
