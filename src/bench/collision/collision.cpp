@@ -19,12 +19,12 @@ constexpr int finest_level = 7, finest_quick_level = 4;
 constexpr std::size_t many_spheres = 16;                                      // of the finest, first of all: 5 million triangles
 constexpr double longest_brute_force = 3e7, longest_quick_brute_force = 2e6;  // pairs of triangles
 
-// Each engine makes rounds until both have passed, and in a turn until `turn_seconds` have.
-struct Rounds {
-  std::size_t least;
-  double least_seconds, turn_seconds;
+// Each engine has so many turns, and makes rounds for so long in each.
+struct Turns {
+  int count;
+  double seconds;
 };
-constexpr Rounds all_rounds{15, 0.3, 0.005}, quick_rounds{3, 0.01, 0.005};
+constexpr Turns all_turns{15, 0.02}, quick_turns{3, 0.003};
 
 struct Overlap {
   const char* name;
@@ -50,25 +50,20 @@ class Case {
       : overlap_(overlap),
         start_(spheres(bodies, level, overlap.apart)),
         meshes_(meshes_of(start_)),
-        rounds_(quick ? quick_rounds : all_rounds) {}
+        turns_(quick ? quick_turns : all_turns) {}
 
   [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
 
-  void add(const Place& place, std::span<const Search> ways) {
-    Device& device = *devices_.emplace_back(open(place));  // one for all, because a thread can have one context of OpenGL
-    for (const Search& way : ways) add(way.name, place, make_engine(device, start_, way));
+  /// Returns a device of the case. A place has one for all its searches, because a thread can have one context of OpenGL.
+  Device& open_device(const Place& place) { return *devices_.emplace_back(open(place)); }
+  void add(Device& device, const Place& place, const Search& search) {
+    add(search.name, place, make_engine(device, start_, search));
   }
-  void add(const TreeLibrary& library) { add(library.name, {}, make_engine(library, meshes_)); }
+  void add(const TreeLibrary& library) { add(library.name, Place{.threads = 1}, make_engine(library, meshes_)); }
 
-  /// Lets each engine that has not measured enough take a turn. Returns false if there was none.
-  bool take_turns() {
-    bool all_have_enough = true;
-    for (Entry& entry : entries_)
-      if (!has_enough(entry)) {
-        all_have_enough = false;
-        take_turn(entry);
-      }
-    return !all_have_enough;
+  [[nodiscard]] int turn_count() const { return turns_.count; }
+  void take_turns() {
+    for (Entry& entry : entries_) take_turn(entry);
   }
 
   /// The first says what others have to find.
@@ -96,7 +91,6 @@ class Case {
     std::unique_ptr<Engine> engine;
     Found found;
     std::vector<double> refits = {}, queries = {};
-    double seconds = 0;
   };
 
   void add(std::string name, const Place& place, std::unique_ptr<Engine> engine) {
@@ -104,25 +98,20 @@ class Case {
     entries_.push_back({std::move(name), place, std::move(engine), std::move(found)});
   }
 
-  [[nodiscard]] bool has_enough(const Entry& entry) const {
-    return entry.refits.size() >= rounds_.least && entry.seconds >= rounds_.least_seconds;
-  }
-
   void take_turn(Entry& entry) const {
-    (void)entry.engine->make_rounds();  // fills caches, wakes threads
-    for (double passed = 0; passed < rounds_.turn_seconds;)
+    entry.engine->make_rounds();  // fills caches, wakes threads
+    for (double passed = 0; passed < turns_.seconds;)
       for (const RoundSeconds& round : entry.engine->make_rounds()) {
         entry.refits.push_back(round.refit);
         entry.queries.push_back(round.query);
         passed += round.refit + round.query;
-        entry.seconds += round.refit + round.query;
       }
   }
 
   const Overlap& overlap_;
   ModelAndState start_;
   TwoMeshes meshes_;
-  Rounds rounds_;
+  Turns turns_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Entry> entries_;
 };
@@ -140,61 +129,91 @@ std::vector<TreeLibrary> tree_libraries(std::vector<std::string>& notes) {
 // Opens the device, because it alone knows.
 bool is_gpu_in_hardware(const Place& place) { return place.device == DeviceKind::gpu && open(place)->shares_at_once() > 0; }
 
-std::span<const Search> ways_to_search(const Case& what, bool quick) {
+std::span<const Search> searches_of(const Case& what, bool quick) {
   const bool by_brute_force =
       double(what.triangles()) * what.triangles() <= (quick ? longest_quick_brute_force : longest_brute_force);
   return searches().first(searches().size() - !by_brute_force);
 }
 
+class Suite {
+ public:
+  Suite(const CollisionOptions& options, const Progress& progress) : quick_(options.quick), progress_(progress) {
+    constexpr int precisions[] = {32};
+    places_ = places_of(options.devices, precisions);
+    libraries_ = tree_libraries(result_.notes);
+    std::ranges::copy_if(places_, std::back_inserter(places_of_many_),
+                         [&](const Place& place) { return quick_ || is_gpu_in_hardware(place); });
+  }
+
+  CollisionResult run() {
+    if (!places_of_many_.empty()) measure_many();
+    for (int level = 3; level <= finest(); ++level) {
+      for (const Overlap& overlap : overlaps) measure_two(level, overlap);
+      measure_contact_steps(level);
+    }
+    if (!result_.interrupted) progress_(1, "");
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] int finest() const { return quick_ ? finest_quick_level : finest_level; }
+  [[nodiscard]] int parts() const { return (finest() - 2) * (static_cast<int>(overlaps.size()) + 1) + !places_of_many_.empty(); }
+  // Returns whether the suite goes on.
+  bool tell(const std::string& next) {
+    if (!result_.interrupted) result_.interrupted = !progress_(double(done_) / parts(), next);
+    return !result_.interrupted;
+  }
+
+  void measure_many() {
+    Case what(many_spheres, overlaps[1], finest(), quick_);
+    const std::string name = fmt::format("{} bodies of {} triangles", many_spheres, what.triangles());
+    for (const Place& place : places_of_many_)
+      if (tell(fmt::format("{}, {}", name, name_of(place)))) what.add(what.open_device(place), place, searches().front());
+    let_take_turns(what, name);
+  }
+
+  void measure_two(int level, const Overlap& overlap) {
+    if (result_.interrupted) return;
+    Case what(2, overlap, level, quick_);
+    const std::string name = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
+    for (const Place& place : places_) {
+      Device& device = what.open_device(place);
+      for (const Search& search : searches_of(what, quick_))
+        if (tell(fmt::format("{}, {}, {}", name, search.name, name_of(place)))) what.add(device, place, search);
+    }
+    for (const TreeLibrary& library : libraries_)
+      if (tell(fmt::format("{}, {}", name, library.name))) what.add(library);
+    let_take_turns(what, name);
+  }
+
+  void let_take_turns(Case& what, const std::string& name) {
+    for (int turn = 0; turn < what.turn_count(); ++turn) {
+      if (!tell(name)) return;
+      what.take_turns();
+    }
+    std::ranges::move(what.rows(), std::back_inserter(result_.rows));
+    ++done_;
+  }
+
+  void measure_contact_steps(int level) {
+    for (const Place& place : places_)
+      if (tell(fmt::format("a step in contact, icosphere:{}, {}", level, name_of(place))))
+        result_.contact_steps.push_back(measure_contact_step(place, level, quick_));
+    ++done_;
+  }
+
+  bool quick_;
+  const Progress& progress_;
+  std::vector<Place> places_, places_of_many_;
+  std::vector<TreeLibrary> libraries_;
+  CollisionResult result_;
+  int done_ = 0;
+};
+
 }  // namespace
 
 CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress) {
-  constexpr int precisions[] = {32};
-  CollisionResult result;
-  const std::vector<Place> places = places_of(options.devices, precisions);
-  const std::vector<TreeLibrary> libraries = tree_libraries(result.notes);
-  const int finest = options.quick ? finest_quick_level : finest_level;
-  std::vector<Place> of_many;
-  std::ranges::copy_if(places, std::back_inserter(of_many),
-                       [&](const Place& place) { return options.quick || is_gpu_in_hardware(place); });
-  const int cases = (finest - 2) * (static_cast<int>(overlaps.size()) + 1) + !of_many.empty();
-  int done = 0;
-  const auto tell = [&](const std::string& what) {
-    if (!result.interrupted) result.interrupted = !progress(double(done) / cases, what);
-    return !result.interrupted;
-  };
-  const auto measure = [&](Case& what, const std::string& name) {
-    do
-      if (!tell(name)) return;
-    while (what.take_turns());
-    std::ranges::move(what.rows(), std::back_inserter(result.rows));
-    ++done;
-  };
-  if (!of_many.empty()) {
-    Case what(many_spheres, overlaps[1], finest, options.quick);
-    for (const Place& place : of_many) what.add(place, searches().first(1));
-    measure(what, fmt::format("{} bodies of {} triangles", many_spheres, what.triangles()));
-    if (result.interrupted) return result;
-  }
-  for (int level = 3; level <= finest; ++level) {
-    for (const Overlap& overlap : overlaps) {
-      Case what(2, overlap, level, options.quick);
-      const std::string name = fmt::format("{} triangles each, {}", what.triangles(), overlap.name);
-      for (const Place& place : places)
-        if (tell(fmt::format("{}, {}", name, name_of(place)))) what.add(place, ways_to_search(what, options.quick));
-      for (const TreeLibrary& library : libraries)
-        if (tell(fmt::format("{}, {}", name, library.name))) what.add(library);
-      measure(what, name);
-      if (result.interrupted) return result;
-    }
-    for (const Place& place : places)
-      if (tell(fmt::format("a step in contact, icosphere:{}, {}", level, name_of(place))))
-        result.contact_steps.push_back(measure_contact_step(place, level, options.quick));
-    if (result.interrupted) return result;
-    ++done;
-  }
-  progress(1, "");
-  return result;
+  return Suite(options, progress).run();
 }
 
 }  // namespace pliant::bench

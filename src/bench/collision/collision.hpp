@@ -41,7 +41,8 @@ struct CollisionResult {
 };
 
 /// 16 spheres of 327,680 triangles each on GPUs, or smaller ones on all devices if it is quick. Then two from 1,280 triangles
-/// each to 327,680. Other libraries run on one thread. Throws Error (device).
+/// each to 327,680, for which all engines together take some 2 GB. They take turns. Other libraries run on one thread. A case
+/// that is interrupted has no rows. Throws Error (device).
 [[nodiscard]] CollisionResult bench_collision(const CollisionOptions& options, const Progress& progress);
 
 }  // namespace pliant::bench

@@ -100,6 +100,10 @@ TEST_CASE("a measurement of collisions that is told to end has the rows of cases
   const CollisionResult result = bench_collision({.devices = {.threads = 1}, .quick = true}, first_case_alone);
   CHECK(result.interrupted);
   CHECK(result.rows.size() == 1);
+  int told = 0;
+  const auto amid_the_first = [&](double, std::string_view) { return ++told < 3; };
+  const CollisionResult cut = bench_collision({.devices = {.threads = 1}, .quick = true}, amid_the_first);
+  CHECK((cut.interrupted && told == 3 && cut.rows.empty()));
 }
 
 }  // namespace
