@@ -105,7 +105,7 @@ std::map<std::array<std::uint32_t, 4>, std::vector<double>> contacts_of(Bench& b
 std::map<std::array<std::uint32_t, 4>, std::vector<double>> kept_by(Bench& bench) {
   const Arrays& arrays = bench.bodies.arrays;
   const std::uint32_t count = arrays.get<physics::ContactList>("contact_list").download().front().latest_count;
-  const auto vertices = arrays.get<glm::uvec4>("kept_vertex").download(0, count);
+  const auto vertices = arrays.get<glm::uvec4>("kept_key").download(0, count);
   const auto impulses = bench.read<float>(arrays.buffer("kept_impulse"));
   std::map<std::array<std::uint32_t, 4>, std::vector<double>> kept;
   for (std::uint32_t c = 0; c < count; ++c)
@@ -164,7 +164,7 @@ bool check_impulses(Bench& cpu, Bench& gpu, const Written& written) {
     CHECK(as_set(gpu.read<glm::uvec2>(b), count) == as_set(cpu.read<glm::uvec2>(a), count));
   } else if (name == "contact_vertex" || name == "contact" || name == "contact_impulse") {
     check_same_contacts(cpu, gpu);
-  } else if (name == "kept_slot" || name == "kept_vertex" || name == "kept_impulse") {
+  } else if (name == "kept_slot" || name == "kept_key" || name == "kept_impulse") {
     check_same_kept(cpu, gpu);
   } else if (name == "impulse_sum" || name == "contact_sum" || name == "impact_sum" || name == "island_sum") {
     const auto [x, y] = read_both<glm::uvec2>(cpu, gpu, a, b);

@@ -9,7 +9,7 @@ READ(contact_vertex)
 READ_AS(contact, real4, contact_row)
 READ_AS(contact_impulse, real4, impulse_row)
 SHARED_WRITE(kept_slot)
-WRITE(kept_vertex)
+WRITE(kept_key)
 WRITE_AS(kept_impulse, real4, kept_row)
 PARAMETER(uint, contacts_at_once)
 #include "parts/kept_slots.glsl"
@@ -30,8 +30,8 @@ void keep_impulses(uint item) {
   if (control[0].time_step == double(0)) return;
   for (uint c = item; c < contact_list[0].latest_count; c += contacts_at_once) {
     bool gave = impulse_row[c].x > real(0);
-    kept_vertex[c] = gave ? key_of(contact_vertex[c], contact_row[contact_rows * c + 1u]) : uvec4(no_vertex);
+    kept_key[c] = gave ? key_of(contact_vertex[c], contact_row[contact_rows * c + 1u]) : uvec4(no_vertex);
     kept_row[c] = impulse_row[c];
-    if (gave) note(kept_vertex[c], c);
+    if (gave) note(kept_key[c], c);
   }
 }

@@ -12,7 +12,7 @@ READ(contact_vertex)
 READ_AS(contact, real4, contact_row)
 WRITE_AS(contact_impulse, real4, impulse_row)
 READ(kept_slot)
-READ(kept_vertex)
+READ(kept_key)
 READ_AS(kept_impulse, real4, kept_row)
 WRITE(impulse_sum)
 PARAMETER(uint, vertex_count)
@@ -27,7 +27,7 @@ real4 kept_impulse_of(uvec4 key) {
   uint slot = first_slot_of(key);
   for (uint k = 0u; k < kept_slot_count && is_of_this_step(kept_slot[slot]); ++k, slot = slot_after(slot)) {
     uint c = index_of(kept_slot[slot]);
-    if (c < contact_list[0].latest_count && kept_vertex[c] == key) return growth * kept_row[c];
+    if (c < contact_list[0].latest_count && kept_key[c] == key) return growth * kept_row[c];
   }
   return real4(0);
 }

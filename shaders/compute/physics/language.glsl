@@ -72,7 +72,11 @@
   #define INOUT(T) inout T
   #define IN_ARRAY(T, name, n) in T name[n]
   #define PRIVATE(T, name) T name;      // each thread has its own
-  #define THREAD gl_LocalInvocationID.x
+  #ifdef DESCENDS  // turns.glsl says why
+    #define THREAD (gl_WorkGroupSize.x - 1u - gl_LocalInvocationID.x)
+  #else
+    #define THREAD gl_LocalInvocationID.x
+  #endif
   #define THREADS gl_WorkGroupSize.x
   #define MEET { groupMemoryBarrier(); barrier(); }
   #define NEAR(T, name, n) shared T name[n];

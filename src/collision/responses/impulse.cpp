@@ -334,7 +334,7 @@ class Impulse final : public Response {
     arrays.set_parameter("keeps_impulses", keeps_impulses() ? 1u : 0u);
     const std::size_t contacts = keeps_impulses() ? contact_capacity_ : 0;
     arrays.make<std::uint32_t>("kept_slot", kept_slot_count());
-    arrays.make<glm::uvec4>("kept_vertex", contacts);
+    arrays.make<glm::uvec4>("kept_key", contacts);
     arrays.make_reals("kept_impulse", 4 * contacts);
   }
 

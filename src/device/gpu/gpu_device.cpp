@@ -153,8 +153,7 @@ class GpuDevice final : public Device {
     PLIANT_EXPECT(kernels_[round_kernel].caller == &round_caller);
     if (kernels_[round_kernel].groups_at_once == 0) {
       std::uint32_t groups = std::max(shares_at_once(), 1u);
-      // twice, because another program may be in the way
-      while (groups > 1 && !all_meet(round_kernel, groups) && !all_meet(round_kernel, groups)) groups /= 2;
+      while (groups > 1 && !all_meet_in_one_of_two_tries(round_kernel, groups)) groups /= 2;
       kernels_[round_kernel].groups_at_once = groups;
     }
     return kernels_[round_kernel].groups_at_once;
@@ -246,11 +245,11 @@ class GpuDevice final : public Device {
     std::vector<Parameter> parameters;    // as last set, where uniforms start as zero
     std::uint32_t groups_at_once = 0;     // of a kernel in rounds. 0: not known yet
   };
-  // Of the kernel's file and function, and more.
+  // Of the kernel's file and function, of the order of items, and more. Force kernels have no such order.
   std::vector<gl::Define> defines_of(std::string_view name, std::vector<gl::Define> more) const {
     more.insert(more.end(), {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
                              {"KERNEL", std::string(name)},
-                             {"DESCENDS", order_ == ItemOrder::descending ? "true" : "false"}});
+                             {order_ == ItemOrder::descending ? "DESCENDS" : "!DESCENDS", ""}});
     return more;
   }
 
@@ -298,6 +297,11 @@ class GpuDevice final : public Device {
     run(std::span(&pass, 1));
     glProgramUniform1ui(kernel.program.id(), is_rehearsal, 0);
     return (list.download().front().arrivals & physics::waited_in_vain) == 0;
+  }
+
+  // Another program may be in the way of one.
+  bool all_meet_in_one_of_two_tries(KernelId round_kernel, std::uint32_t groups) {
+    return all_meet(round_kernel, groups) || all_meet(round_kernel, groups);
   }
 
   // Of searches and lists. Those of few bodies are short, and threads with nothing to do take time, too.

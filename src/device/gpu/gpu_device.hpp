@@ -12,7 +12,8 @@ namespace pliant {
 /// Makes a GPU device in a context, such as a window's. The context must stay current on this thread and outlive the device.
 [[nodiscard]] std::unique_ptr<Device> make_gpu_device(gl::Context& context);
 
-/// In which order the items of a kernel are given to threads. No result may depend on it.
+/// In which order the items of a kernel are given to threads, and the threads of a group work. No result may depend on it. Force
+/// kernels have an order of their own.
 enum class ItemOrder { ascending, descending };
 
 /// Makes one as make_gpu_device(index) does, with this order.

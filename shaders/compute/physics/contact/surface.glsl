@@ -137,7 +137,7 @@ const uint no_round = ~0u;
 // From this one on contacts that have not settled jam: impulses along and across the normal raise each other. They lose friction. After a
 // bounce they have as many rounds before that as after a forced one.
 const uint jam_rounds = 81u;
-// `kept_slot` finds a contact of the last step by its vertices. An entry has the step's number in its upper bits and the contact's in
+// `kept_slot` finds a contact of the last step by its key. An entry has the step's number in its upper bits and the contact's in
 // these lower ones.
 const uint kept_index_bits = 18u;
 // Where the sums of a step stand in `contact_sum`, behind the three components of the impulse.
