@@ -15,6 +15,8 @@
 namespace pliant {
 namespace {
 
+enum class Nearness { provable, any };  // how near each other bodies may be that do not intersect
+
 // How deep the body's deepest vertex stands in the ground [m], or below 0 if none does.
 double depth_in(const Ground& ground, const ModelBody& body, std::span<const glm::dvec3> positions) {
   double deepest = -std::numeric_limits<double>::infinity();
@@ -71,8 +73,6 @@ void expect_out_of_grounds(const Model& model, std::span<const glm::dvec3> posit
   }
 }
 
-enum class Nearness { provable, any };  // how near each other bodies may be that do not intersect
-
 void expect_out_of_themselves(const Model& model, std::span<const glm::dvec3> positions, int precision, Nearness allowed,
                               const std::string& place) {
   for (const ModelBody& body : model.bodies) {
@@ -114,8 +114,8 @@ std::string way_apart(const Model& model, const Overlap& overlap, int precision)
                      other_way);
 }
 
-void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, Nearness allowed,
-                  const std::string& place) {
+void expect_no_nearer(Nearness allowed, Simulation& simulation, const Model& model, const CollisionDescription& collision,
+                      const std::string& place) {
   if (!simulation.collider().response_row().keeps_apart) return;
   const std::vector<glm::dvec3> positions = simulation.state().world_positions(model);
   const int precision = simulation.precision();
@@ -227,12 +227,12 @@ std::string told_overlap(Simulation& simulation, const Model& model) {
 }
 
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place) {
-  expect_apart(simulation, model, collision, Nearness::provable, place);
+  expect_no_nearer(Nearness::provable, simulation, model, collision, place);
 }
 
 void expect_still_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision,
                         const std::string& place) {
-  expect_apart(simulation, model, collision, Nearness::any, place);
+  expect_no_nearer(Nearness::any, simulation, model, collision, place);
 }
 
 void expect_provable(Simulation& simulation, const Model& model, const CollisionDescription& collision,

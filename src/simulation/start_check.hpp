@@ -21,7 +21,7 @@ namespace pliant {
 void expect_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision, const std::string& place);
 
 /// Does the same where a run goes on with other bodies or settings, but lets bodies be too near each other for proofs. Steps hold
-/// these still against each other, as they did before.
+/// such bodies still against each other.
 void expect_still_apart(Simulation& simulation, const Model& model, const CollisionDescription& collision,
                         const std::string& place);
 

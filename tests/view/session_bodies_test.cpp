@@ -73,6 +73,22 @@ TEST_CASE("a body that is added or removed leaves the others where they are, and
   CHECK(positions_of_body(session, 0) == ball);
 }
 
+TEST_CASE(
+    "bodies may be added and settings changed where bodies are too near each other for proofs, but not where they intersect") {
+  const auto device = make_cpu_device(2, 32);
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "ball.toml";
+  std::ofstream(file) << "[[body]]\nmesh = \"icosphere:1\"\n";
+  Session session(*device, load(file));
+  const double touching = 1.2;  // from centre to centre, as each has a vertex on the axis
+  CHECK_NOTHROW(session.add(small_ball({touching + 1e-7, 0, 0})));
+  Settings settings = session.settings();
+  settings.friction = 0.25;
+  CHECK_NOTHROW(session.change(settings));
+  CHECK_THROWS_WITH(session.add(small_ball({-touching + 0.01, 0, 0})), Catch::Contains("intersect"));
+  CHECK(session.model().bodies.size() == 2);
+}
+
 TEST_CASE("a body that would touch another is not added") {
   const auto device = make_cpu_device(2, 32);
   Session session(*device, boxed());
