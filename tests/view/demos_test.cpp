@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <random>
 #include <utility>
 
@@ -40,13 +41,15 @@ std::unique_ptr<Device> device_to_play_on() {
   return text != nullptr && std::string_view(text) == "gpu" ? make_gpu_device(0) : make_cpu_device(0, 32);
 }
 
-// Pulls, throws and shakes at random.
+// Throws, shakes, chooses what to pull, and then does any of these at random.
 class Player {
  public:
   Player(Session& session, unsigned seed) : session_(session), random_(seed) {}
 
   void play() {
-    const double what = between(0, 1);
+    constexpr double first_ones[] = {0, 0.1, 0.2};
+    const double what = played_ < std::size(first_ones) ? first_ones[played_] : between(0, 1);
+    ++played_;
     if (what < 0.1)
       throw_ball();
     else if (what < 0.15)
@@ -65,21 +68,24 @@ class Player {
   double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   glm::dvec3 somewhere(double size) { return {between(-size, size), between(0.2, size), between(-size, size)}; }
 
-  // One that would touch something at once is not thrown.
-  void throw_ball() try {
-    const double size = session_.radius();
-    const glm::dvec3 from = somewhere(2 * size);
+  // One that would touch something at once is not thrown, but another is.
+  void throw_ball() {
     pull_.reset();
-    session_.add(ball_to_throw(session_.model(), size, {from, -from}, session_.scene().simulation.gravity));
-    ++thrown_;
-  } catch (const Error& error) {
-    CHECK_THAT(error.what(), Catch::Contains("intersect") || Catch::Contains("deep in this ground"));
+    for (int k = 0; k < 20; ++k) try {
+        const double size = session_.radius();
+        const glm::dvec3 from = somewhere(2 * size);
+        session_.add(ball_to_throw(session_.model(), size, {from, -from}, session_.scene().simulation.gravity));
+        ++thrown_;
+        return;
+      } catch (const Error& error) {
+        CHECK_THAT(error.what(), Catch::Contains("intersect") || Catch::Contains("deep in this ground"));
+      }
   }
 
   void pull() {
     const Model& model = session_.model();
     const auto vertex = static_cast<std::uint32_t>(between(0, model.vertex_count() - 1e-9));
-    if (model.body_of(vertex).is_rigid()) return;
+    if (model.body_of(vertex).is_rigid()) return pull();
     pull_ = Pull{.vertex = vertex, .target = somewhere(session_.radius())};
     ++pulled_;
   }
@@ -87,8 +93,13 @@ class Player {
   Session& session_;
   std::optional<Pull> pull_;
   std::mt19937 random_;
+  std::size_t played_ = 0;
   int thrown_ = 0, pulled_ = 0;
 };
+
+// What is measured of a vibration's energy swings by (omega h / 2)^2 of it where Verlet's method makes steps of h. Steps of
+// bodies in contact have at most 0.8 / omega, and the demos' others less.
+constexpr double swing_of_verlet = 0.16;
 
 // Follows the energy of a session, less what scripts and pulls put in [J].
 class Balance {
@@ -110,10 +121,16 @@ class Balance {
     const double by_scripts = work_of_scripts() - scripts_;
     scripts_ += by_scripts;
     put_in_ += std::abs(by_scripts);
-    gained_ += known_ - before - by_scripts;
-    most_gained_ = std::max(most_gained_, gained_);
+    const double gained = known_ - before - by_scripts;
+    gained_ += gained;
+    most_gained_ = std::max(most_gained_, gained_ / put_in_);
+    rise_ = std::max(rise_ + gained, 0.0);
+    highest_rise_ = std::max(highest_rise_, rise_ / put_in_);
   }
+  // Since the start, as a part of what had been put in by then.
   [[nodiscard]] double most_gained() const { return most_gained_; }
+  // Between any two looks. What damping took before does not hide it.
+  [[nodiscard]] double highest_rise() const { return highest_rise_; }
   // With the energy of the start. Signs do not count.
   [[nodiscard]] double put_in() const { return put_in_; }
 
@@ -125,7 +142,7 @@ class Balance {
 
   Session& session_;
   ThreadPool pool_{2};
-  double known_, put_in_, scripts_ = 0, gained_ = 0, most_gained_ = 0;
+  double known_, put_in_, scripts_ = 0, gained_ = 0, most_gained_ = 0, rise_ = 0, highest_rise_ = 0;
 };
 
 TEST_CASE("each demo says what to try, and begins") {
@@ -211,7 +228,7 @@ TEST_CASE("in each demo bodies stay apart and finite and gain no energy while so
       if (session.time() >= played_at) {
         player.play();
         balance.begin_anew();
-        played_at += 0.25;
+        played_at += std::min(0.25, seconds / 4);
       }
       const double before = session.time();
       simulating.time([&] { session.advance_toward(before + 10 * session.plan().time_step, 10); });
@@ -224,14 +241,16 @@ TEST_CASE("in each demo bodies stay apart and finite and gain no energy while so
       if (session.time() < told_at && session.time() < seconds) continue;
       told_at += 10;
       std::printf(
-          "%-20s %6.1f s played in %.1f s and %.1f s of looks, %d balls thrown, %d pulls, %.1g J gained of %.3g J put in\n",
+          "%-20s %6.1f s played in %.1f s and %.1f s of looks, %d balls thrown, %d pulls, %.3g J put in, "
+          "of which %.1g gained in all and %.1g in a while\n",
           demo.scene.stem().c_str(), session.time(), simulating.seconds(), looking.seconds(), player.thrown(), player.pulled(),
-          balance.most_gained(), balance.put_in());
+          balance.put_in(), balance.most_gained(), balance.highest_rise());
       std::fflush(stdout);
     }
     CHECK_FALSE(session.breakdown());
-    CHECK(balance.most_gained() <= 1e-6 * balance.put_in());
-    if (seconds > 5) CHECK((player.thrown() > 0 && player.pulled() > 0));
+    CHECK(balance.most_gained() <= 1e-6);
+    CHECK(balance.highest_rise() <= swing_of_verlet);
+    CHECK((player.thrown() > 0 && player.pulled() > 0));
   }
 }
 
