@@ -34,8 +34,8 @@ struct RunProgress {
   double most_of_gravity = 0;        // largest change of the gravitational energy since the start [J]
   double work_of_scripts = 0;        // at the latest row [J]
   double most_work_of_scripts = 0;   // its largest size [J]
-  double largest_growth = 1;         // of the energy, at a row of the history: what energy_growth says
-  double time_of_growth = 0;         // of that row [s]
+  double most_gained = 0;            // at a row of the history: what energy_gained says [J]
+  double time_of_gain = 0;           // of that row [s]
   RunTimes times;                    // includes the run's parts before it was resumed
 };
 

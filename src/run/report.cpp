@@ -21,33 +21,36 @@
 namespace pliant {
 namespace {
 
-// A run warns if its energy has grown by this factor or more.
-constexpr double told_growth = 1.05;
+// A run warns if its energy has grown by this part or more of what it has had.
+constexpr double told_gain = 0.05;
 
-// Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts.
-constexpr double ruinous_growth = 1e3;
-// The same where there was no energy to compare with, in units of smallest_energy().
-constexpr double ruinous_growth_of_none = 1e15;
+// Such growth ends a run whose steps fall into parts. It would not become non-finite, but have ever more parts. A run that has
+// had less than this part of energy_scale() is compared with that: what is little to deformed bodies may be much to it.
+constexpr double ruinous_growth = 1e3, least_part_to_ruin = 1e-3;
 
 // A run warns of cuts if there are so many, and this part of all motions of vertices in parts of steps with a contact. Ordinary
 // contacts cut less than 2e-4 of them.
 constexpr double fewest_cuts = 100, told_share_of_cuts = 0.01;
 
-// Returns the energy [J] below which a change counts as rounding: 1e-12 of the largest energy_scale of a force.
-double smallest_energy(const Model& model) {
-  double scale = std::numeric_limits<double>::min();
+// Returns the largest energy_scale of a force [J].
+double energy_scale(const Model& model) {
+  double scale = 1e12 * std::numeric_limits<double>::min();
   for (const ModelBody& body : model.bodies)
     for (const Force& force : forces())
-      if (feels(body, force)) scale = std::max(scale, 1e-12 * force.energy_scale(body));
+      if (feels(body, force)) scale = std::max(scale, force.energy_scale(body));
   return scale;
 }
+
+// Returns the energy below which a change counts as rounding [J].
+double smallest_energy(const Model& model) { return 1e-12 * energy_scale(model); }
 
 // A body that forces set in motion from rest starts with no energy to compare with.
 bool is_driven_from_rest(const Model& model) {
   return std::ranges::any_of(forces(), [&](const Force& force) { return !force.is_zero_at_rest && any_feels(model, force); });
 }
 
-// Returns the energy that energy_growth() compares with [J].
+// Returns the energy that gains are compared with [J]. It never falls. The largest change of the gravitational energy counts: a
+// body that comes back to where it began has had it. If a force sets bodies at rest in motion, the most energy in motion counts.
 double energy_had(const RunProgress& progress, const Model& model) {
   const double had =
       progress.first.kinetic + progress.first.elastic_size + progress.most_of_gravity + progress.most_work_of_scripts;
@@ -55,13 +58,13 @@ double energy_had(const RunProgress& progress, const Model& model) {
 }
 
 std::string told_growth_of(const RunProgress& progress, const Model& model) {
-  const double growth = progress.largest_growth - 1, time = progress.time_of_growth;
-  if (energy_had(progress, model) < smallest_energy(model))
-    return fmt::format("the energy has grown by {:.3g} J at {:.6g} s, and was too small at the start to compare with",
-                       growth * smallest_energy(model), time);
+  const double gain = progress.most_gained, had = energy_had(progress, model), time = progress.time_of_gain;
+  if (had < smallest_energy(model))
+    return fmt::format("the energy has grown by {:.3g} J at {:.6g} s, and was too small at the start to compare with", gain,
+                       time);
   if (is_driven_from_rest(model))
-    return fmt::format("the energy has grown by {:.3g} times the most energy in motion at {:.6g} s", growth, time);
-  return fmt::format("the energy has grown {:.3g}-fold at {:.6g} s", 1 + growth, time);
+    return fmt::format("the energy has grown by {:.3g} times the most energy in motion at {:.6g} s", gain / had, time);
+  return fmt::format("the energy has grown {:.3g}-fold at {:.6g} s", 1 + gain / had, time);
 }
 
 std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
@@ -97,19 +100,14 @@ std::string_view shorter_steps(const RunStatus& status) {
 
 }  // namespace
 
-// None of this depends on the world's origin. The largest change of the gravitational energy counts: a body that comes back to
-// where it began has had it. What scripted bodies give is no growth. If a force sets bodies at rest in motion, this compares with
-// the most energy in motion.
-double energy_growth(const RunProgress& progress, const Model& model) {
-  const double had = std::max(energy_had(progress, model), smallest_energy(model));
-  return 1 + (progress.latest.energy() - progress.work_of_scripts - progress.first.energy()) / had;
+double energy_gained(const RunProgress& progress) {
+  return progress.latest.energy() - progress.work_of_scripts - progress.first.energy();
 }
 
 bool has_blown_up(const RunStatus& status) {
   const Model& model = status.run.start.model;
-  const bool has_measure = energy_had(status.progress, model) >= smallest_energy(model);
-  return status.report.substeps > 0 &&
-         energy_growth(status.progress, model) >= (has_measure ? ruinous_growth : ruinous_growth_of_none);
+  const double had = std::max(energy_had(status.progress, model), least_part_to_ruin * energy_scale(model));
+  return status.report.substeps > 0 && energy_gained(status.progress) >= ruinous_growth * had;
 }
 
 std::optional<std::string> instability_of(const RunStatus& status) {
@@ -119,7 +117,7 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   if (has_blown_up(status))
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
                        shorter_steps(status));
-  if (progress.largest_growth >= told_growth)
+  if (progress.most_gained >= told_gain * std::max(energy_had(progress, model), smallest_energy(model)))
     return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
                        report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                                 : "the motion is unstable, or the steps are too long for the method",

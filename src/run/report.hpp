@@ -19,13 +19,11 @@ struct RunStatus {
   const StepReport& report;
 };
 
-/// Returns the energy at the latest row of the history, divided by what the run has had. That is the energy in motion at the
-/// start and what gravity has given or taken at most.
-[[nodiscard]] double energy_growth(const RunProgress& progress, const Model& model);
+/// Returns what the energy at the latest row of the history is above that of the start [J]. What scripted bodies give is no gain.
+[[nodiscard]] double energy_gained(const RunProgress& progress);
 
-/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts. If
-/// it had no energy to compare with, a thousand times the energy_scale of its forces counts. Holds for the latest row of the
-/// history.
+/// Returns whether the run has to end because its energy has grown a thousandfold while its steps fall into ever more parts, and
+/// to more than the energy_scale of its forces. Holds for the latest row of the history.
 [[nodiscard]] bool has_blown_up(const RunStatus& status);
 
 /// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its

@@ -204,10 +204,10 @@ class Run {
     progress_.most_work_of_scripts = std::max(progress_.most_work_of_scripts, std::abs(progress_.work_of_scripts));
     const double drift = std::abs(now.energy() - first.energy());
     progress_.largest_drift = drift <= progress_.largest_drift ? progress_.largest_drift : drift;
-    const double growth = energy_growth(progress_, run_.start.model);
-    if (!(growth > progress_.largest_growth)) return;
-    progress_.largest_growth = growth;
-    progress_.time_of_growth = report_.time;
+    const double gained = energy_gained(progress_);
+    if (!(gained > progress_.most_gained)) return;
+    progress_.most_gained = gained;
+    progress_.time_of_gain = report_.time;
   }
 
   void warn_of_forces() {

@@ -314,6 +314,23 @@ TEST_CASE("a run whose energy grows a thousandfold while its steps fall into par
   CHECK(summary["energy"]["final"].get<double>() >= 1000 * summary["energy"]["initial"].get<double>());
 }
 
+TEST_CASE("energy of a push at the start is no blow-up once a scripted body gives a little") {
+  const ScratchFolder folder;
+  const auto scene = folder.path / "touched.toml";
+  std::ofstream(scene) << "[simulation]\nintegrator = \"verlet\"\n";
+  for (const char* position : {"[0, 0, 0]", "[1.0001, 0, 0]"})
+    std::ofstream(scene, std::ios::app) << "[[body]]\nmesh = \"cube:3\"\ntotal_mass = 1\ntotal_stiffness = 1000\nposition = "
+                                        << position << "\n";
+  std::ofstream(scene, std::ios::app) << "[[body]]\nkind = \"scripted\"\nmesh = \"icosphere:1\"\nscale = 0.1\n"
+                                         "position = [-0.65, 0, 0]\nvelocity = [0.0001, 0, 0]\n";
+  const ProgramResult result =
+      run_program("run " + scene.string() + " --device cpu --duration 2.5 --quiet --out " + folder.path.string());
+  CHECK(result.exit_code == 0);
+  const auto summary = summary_in(folder.path);
+  CHECK(summary["contacts"]["work_of_scripts"].get<double>() > 0);
+  CHECK_THAT(result.output, Catch::Contains("nearer than the gap") && Catch::Contains("the energy has grown"));
+}
+
 TEST_CASE("pressure in an open mesh is an error with the body's file and line") {
   const ScratchFolder folder;
   std::ofstream(folder.path / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
