@@ -47,13 +47,22 @@ bool show_progress(double done, std::string_view next) {
   return !is_interrupted();
 }
 
+// If standard output can't be written, the program says so at its end.
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
 // Prints the table first, so that an error of writing the file does not lose it. If an interrupted suite has no rows, an earlier
 // file stays.
 template <class Options, class Result>
 void write_results(const bench::Machine& machine, const Options& asked, const Result& result, std::optional<WholeFile>& file) {
-  fmt::print("{}", bench::to_table(result));
-  std::fflush(stdout);
-  if (!file || (result.interrupted && result.rows.empty())) return;
+  print(bench::to_table(result));
+  const bool has_nothing = result.interrupted && result.rows.empty();
+  if (result.interrupted)
+    fmt::print(stderr, "pliant: interrupted after {} row{}{}\n", result.rows.size(), result.rows.size() == 1 ? "" : "s",
+               file && has_nothing ? "; no file was written" : "");
+  if (!file || has_nothing) return;
   file->write(bench::to_json(machine, asked, result));
   file->close();
 }
@@ -65,12 +74,9 @@ int measure_and_write(const BenchOptions& options, const Options& asked, const M
   std::optional<WholeFile> file;
   if (!options.json.empty()) file.emplace(options.json);
   const bench::Machine machine = bench::describe_machine(options.gpu_index.value_or(0));
-  fmt::print("{}\n", bench::to_text(machine));
-  std::fflush(stdout);  // before minutes of measuring
+  print(bench::to_text(machine) + '\n');  // before minutes of measuring
   const auto result = measure(asked, show_progress);
   write_results(machine, asked, result, file);
-  if (result.interrupted)
-    fmt::print(stderr, "pliant: interrupted after {} row{}\n", result.rows.size(), result.rows.size() == 1 ? "" : "s");
   return result.interrupted ? exit_interrupted : 0;
 }
 

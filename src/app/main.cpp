@@ -365,14 +365,18 @@ int execute(int count, char** arguments) {
 
 }  // namespace
 
+int tell_that_output_is_lost(int code) {
+  std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
+  return code != 0 ? code : static_cast<int>(pliant::ErrorKind::command_line);
+}
+
 int main(int count, char** arguments) {
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on the size of files then fails, as on a full disk
   try {
     const int code = execute(count, arguments);
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
-    std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
-    return code != 0 ? code : static_cast<int>(pliant::ErrorKind::command_line);
+    return tell_that_output_is_lost(code);
   } catch (const pliant::Error& error) {
     std::fprintf(stderr, "pliant: %s\n", error.what());
     return static_cast<int>(error.kind());
@@ -380,6 +384,7 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "pliant: there is not enough memory; take smaller meshes or fewer bodies\n");
     return static_cast<int>(pliant::ErrorKind::device);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return tell_that_output_is_lost(0);
     std::fprintf(stderr, "pliant: unexpected error: %s; this is a bug, please report it\n", error.what());
     return 1;
   }

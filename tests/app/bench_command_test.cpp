@@ -124,6 +124,15 @@ TEST_CASE("a full disk is told after the table") {
   CHECK(result.output.find("/dev/full") != std::string::npos);
 }
 
+TEST_CASE("results are written where standard output can't be") {
+  const ScratchFolder folder;
+  const auto file = folder.path / "results.json";
+  const ProgramResult result =
+      run_program("bench collision --quick --device cpu --threads 1 --json " + file.string() + " > /dev/full");
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(read_text(file), Catch::Contains("\"collision\""));
+}
+
 // The program shows progress before each row.
 TEST_CASE("Ctrl-C and SIGTERM end bench early, and an earlier result gives way to finished rows alone") {
   for (const int signal : {SIGINT, SIGTERM})
