@@ -178,11 +178,12 @@ Ground make_ground(const GroundDescription& description) {
 void expect_within_reach(const BodyDescription& description, const BodyPath& path) {
   constexpr double fastest_spin = 1e9;  // [rad/s]
   if (!(path.fastest_spin() <= fastest_spin))
-    throw body_error(description, fmt::format("its path turns it faster than {} rad/s", fastest_spin),
-                     "give its keys more time, or a smaller rotation or spin");
+    throw body_error(description, fmt::format("it turns faster than {} rad/s", fastest_spin),
+                     description.path.empty() ? "give it a smaller spin" : "give its keys more time, or smaller rotations");
   if (!(path.highest_speed() <= largest_coordinate))
-    throw body_error(description, fmt::format("its path is faster than {} m/s", largest_coordinate),
-                     "give its keys more time, or bring them nearer to each other");
+    throw body_error(
+        description, fmt::format("it moves faster than {} m/s", largest_coordinate),
+        description.path.empty() ? "give it a smaller velocity" : "give its keys more time, or bring them nearer to each other");
 }
 
 void append_body(const BodySetup& setup, const glm::dvec3& gravity, ModelAndState& built) {

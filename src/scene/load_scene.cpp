@@ -212,8 +212,10 @@ void expect_none_of(const TableReader& table, std::initializer_list<const char*>
 }
 
 void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) {
-  const char* const instead_of_path = body.is_container ? "path" : "change kind";
-  if (body.kind != BodyKind::scripted) expect_none_of(table, {"path", "repeats"}, "is for bodies of the kind \"scripted\"");
+  if (body.kind != BodyKind::scripted) {
+    if (body.is_container) expect_none_of(table, {"repeats"}, "has no path to repeat", "add a path");
+    expect_none_of(table, {"path", "repeats"}, "is for bodies of the kind \"scripted\"");
+  }
   if (body.kind == BodyKind::immovable)
     expect_none_of(table, {"velocity", "spin", "stretch", "pressure", "self_contact"},
                    "a static body neither moves nor changes its shape");
@@ -221,9 +223,9 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
   expect_none_of(table, {"stretch", "pressure", "self_contact"}, "a scripted body does not change its shape");
   expect_none_of(table, {"restitution"}, "a scripted body takes no part in impacts that restitution restores");
   if (body.path.empty())
-    expect_none_of(table, {"repeats"}, "has no path to repeat");
+    expect_none_of(table, {"repeats"}, "has no path to repeat", "add a path");
   else
-    expect_none_of(table, {"velocity", "spin"}, "what has a path moves along it alone", instead_of_path);
+    expect_none_of(table, {"velocity", "spin"}, "what has a path moves along it alone", "path");
 }
 
 constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", "vertex_mass",

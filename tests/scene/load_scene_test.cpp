@@ -334,7 +334,7 @@ TEST_CASE("a scripted body has what moves it, and no other body has that") {
     check_input_error(scripted + key + "\n", 4, {"does not change its shape", "remove"});
   check_input_error(scripted + "restitution = 0.5\n", 4, {"restitution", "remove"});
   for (const char* key : {"velocity = [1, 0, 0]", "spin = [1, 0, 0]"}) {
-    check_input_error(scripted + path + key + "\n", 5, {"along it alone", "change kind"});
+    check_input_error(scripted + path + key + "\n", 5, {"along it alone", "or path"});
     CHECK(load_text(scripted + key).bodies.at(0).path.empty());
   }
   CHECK(load_text(scripted + "damping = 3\n").bodies.at(0).idle_keys.at(0).why == "on a scripted body");
