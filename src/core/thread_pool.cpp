@@ -1,4 +1,4 @@
-// Between loops each part says `closed`, so a late thread never takes an item by the count of another loop.
+// Between loops `next_` says `closed`, so a late thread never takes an item by the count of another loop.
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
@@ -59,15 +59,14 @@ void keep_on(std::thread&, int) {}
 
 unsigned thread_count(unsigned asked) { return asked != 0 ? asked : std::max(1u, std::thread::hardware_concurrency()); }
 
-ThreadPool::ThreadPool(unsigned threads) : parts_(thread_count(threads)) {
+ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   threads = thread_count(threads);
-  for (Part& part : parts_) part.next = place(0, closed);
   const std::vector<int> processors = allowed_processors();
   own_processors_ = threads <= processors.size();
   const bool pinned = threads == processors.size();  // smaller pools would all crowd the same processors
   try {
     for (unsigned k = 1; k < threads; ++k) {
-      workers_.emplace_back([this, k] { work(k); });
+      workers_.emplace_back([this] { work(); });
       if (pinned) keep_on(workers_.back(), processors[k - 1]);
     }
   } catch (const std::exception&) {
@@ -99,24 +98,18 @@ void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body
   grain_ = grain;
   done_ = 0;
   const std::uint32_t loop = loop_ + 1;
-  for (unsigned part = 0; part < parts_.size(); ++part)
-    parts_[part].next.store(place(loop, first_item(part, count, grain)), std::memory_order_release);
+  next_ = place(loop, 0);
   loop_ = loop;
   loop_.notify_all();
-  take_ranges(0);
+  take_ranges();
   for (std::uint32_t done = done_; done != count; done = done_) await_change(done_, done);
-  for (Part& part : parts_) part.next.store(place(loop, closed), std::memory_order_release);
+  next_ = place(loop, closed);
 }
 
-std::uint32_t ThreadPool::first_item(unsigned part, std::uint32_t count, std::uint32_t grain) const {
-  const std::uint64_t ranges = (std::uint64_t{count} + grain - 1) / grain;
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(ranges * part / parts_.size() * grain, count));
-}
-
-void ThreadPool::work(unsigned thread) {
+void ThreadPool::work() {
   std::uint32_t seen = 0;
   while (!stopping_) {
-    take_ranges(thread);
+    take_ranges();
     await_change(loop_, seen);
     seen = loop_;
   }
@@ -135,25 +128,19 @@ void ThreadPool::await_change(const std::atomic<std::uint32_t>& value, std::uint
   value.wait(from);
 }
 
-void ThreadPool::take_ranges_of(unsigned part, std::uint32_t& loop_count, std::uint32_t& own_done) {
-  std::atomic<std::uint64_t>& of_part = parts_[part].next;
-  std::uint64_t next = of_part;
+void ThreadPool::take_ranges() {
+  std::uint64_t next = next_;
+  std::uint32_t loop_count = 0, own_done = 0;
   while (true) {
-    const std::uint32_t count = count_, grain = grain_, first = item_of(next), end = first_item(part + 1, count, grain);
-    if (first >= end) return;
-    const std::uint32_t size = std::min<std::uint32_t>(grain, end - first);
-    if (!of_part.compare_exchange_weak(next, next + size)) continue;
+    const std::uint32_t count = count_, first = item_of(next);
+    if (first >= count) break;
+    const std::uint32_t size = std::min<std::uint32_t>(grain_, count - first);
+    if (!next_.compare_exchange_weak(next, next + size)) continue;
     (*body_)(first, first + size);
     loop_count = count;
     own_done += size;
-    next = of_part;
+    next = next_;
   }
-}
-
-void ThreadPool::take_ranges(unsigned thread) {
-  std::uint32_t loop_count = 0, own_done = 0;
-  for (unsigned k = 0; k < parts_.size(); ++k)
-    take_ranges_of((thread + k) % static_cast<unsigned>(parts_.size()), loop_count, own_done);
   if (own_done > 0 && (done_ += own_done) == loop_count) done_.notify_one();
 }
 

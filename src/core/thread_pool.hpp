@@ -33,21 +33,15 @@ class ThreadPool {
 
  private:
   void stop();
-  void work(unsigned thread);
-  void take_ranges(unsigned thread);
-  void take_ranges_of(unsigned part, std::uint32_t& loop_count, std::uint32_t& own_done);
-  [[nodiscard]] std::uint32_t first_item(unsigned part, std::uint32_t count, std::uint32_t grain) const;
+  void work();
+  void take_ranges();
   void await_change(const std::atomic<std::uint32_t>& value, std::uint32_t from) const;
 
   std::vector<std::thread> workers_;
   // What threads write while others read stands on cache lines of its own.
   std::atomic<const Body*> body_{nullptr};
   std::atomic<std::uint32_t> count_{0}, grain_{1};
-  // Each thread begins with a part of its own, which is the same in each loop of so many items, and then helps others.
-  struct alignas(64) Part {
-    std::atomic<std::uint64_t> next;  // high half: the loop's number, low half: the part's first item that nobody has taken
-  };
-  std::vector<Part> parts_;
+  alignas(64) std::atomic<std::uint64_t> next_;  // high half: the loop's number, low half: its first item that nobody has taken
   alignas(64) std::atomic<std::uint32_t> done_{0};  // items finished by threads that found no more to take
   alignas(64) std::atomic<std::uint32_t> loop_{0};  // number of the latest loop, whose change wakes the workers
   std::atomic<bool> stopping_{false};
