@@ -363,12 +363,12 @@ int execute(int count, char** arguments) {
   return 0;
 }
 
-}  // namespace
-
 int tell_that_output_is_lost(int code) {
   std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
   return code != 0 ? code : static_cast<int>(pliant::ErrorKind::command_line);
 }
+
+}  // namespace
 
 int main(int count, char** arguments) {
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit on the size of files then fails, as on a full disk

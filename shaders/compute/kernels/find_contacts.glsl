@@ -348,7 +348,7 @@ void meet(uvec2 triangles, uint first, uint threads) {
   bool is_own = body_of(p.vertex[0]) == body_of(p.vertex[3]);
   if (is_own) wanted &= apart_features(p);
   real gap = p.gap;
-  for (uint feature = 0u; feature < 15u; ++feature) {  // threads of a subgroup that have others wait, and take the same branches
+  for (uint feature = 0u; feature < 15u; ++feature) {  // each thread passes over others', so a subgroup takes the same branches
     if ((wanted >> feature & 1u) == 0u) continue;
     if (is_own) p.gap = min(gap, gap_at_rest(p, feature));
     meet_feature(p, feature);

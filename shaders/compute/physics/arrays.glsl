@@ -87,7 +87,7 @@ ARRAY(triangle_pair, uvec2, pair, step, "two triangles whose cages overlap, in l
 ARRAY(contact_vertex, uvec4, contact, step, "four vertices; contacts are in no fixed order")
 ARRAY(contact, real, contact, step, "[contact][6][4] physics/contact/contact.glsl has the rows")
 ARRAY(contact_impulse, real, contact, step, "[contact][4] impulse along the normal, then across it [Ns]")
-ARRAY(kept_slot, uint, slot, step, "contacts of the last step by their vertices: the step's number, then the contact's")
+ARRAY(kept_slot, uint, slot, step, "contacts of the last step by their keys: the step's number, then the contact's")
 ARRAY(kept_key, uvec4, contact, step, "key of a contact of the last step (kept_slots.glsl)")
 ARRAY(kept_impulse, real, contact, step, "[contact][4] its impulse along the normal, then across it [Ns]")
 ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^-13; 0 once it is kicked")

@@ -100,7 +100,7 @@ class Library final : public Engine {
   double build_seconds() const override { return building_.seconds(); }
 
   Found find() override {
-    (void)make_rounds();
+    make_rounds();
     Found found{pairs_.size(), std::vector<bool>(meshes_.positions.size())};
     for (const glm::uvec2& pair : pairs_)
       for (const std::uint32_t triangle : {pair.x, pair.y})

@@ -9,10 +9,11 @@ uint stamp() { return 1u + control[0].step % ((1u << (32u - kept_index_bits)) - 
 bool is_of_this_step(uint entry) { return entry >> kept_index_bits == stamp(); }
 uint index_of(uint entry) { return entry & ((1u << kept_index_bits) - 1u); }
 
+const uint of_two_edges = 0x80000000u;
+
 // Contacts of a vertex with several grounds differ in the last number. physics/contact/contact.glsl says where it stands. In a body that
 // meets itself two edges may have the same vertices, in the same order, as a vertex and a triangle. A bit that no vertex has tells them
 // apart.
-const uint of_two_edges = 0x80000000u;
 uvec4 key_of(uvec4 who, real4 weight) {
   if (who.y == no_vertex) return uvec4(who.x, who.y, who.z, uint(weight.w));
   bool are_edges = weight.x > real(0) && weight.y > real(0);
