@@ -1,5 +1,5 @@
-// Reads scene files, which are TOML, strictly. Every key and its range are in load_scene.cpp, one line each. Defaults are in
-// scene_description.hpp.
+// Reads scene files, which are TOML, strictly. Every key and its range are in load_scene.cpp and body_tables.cpp, one line each.
+// Defaults are in scene_description.hpp.
 #pragma once
 #include <filesystem>
 #include <span>

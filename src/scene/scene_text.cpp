@@ -1,4 +1,4 @@
-// Each key has one line, in the order of load_scene.cpp.
+// Each key has one line, in the order of load_scene.cpp and body_tables.cpp.
 #include "scene/scene_text.hpp"
 
 #include <fmt/format.h>
