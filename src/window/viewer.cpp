@@ -12,13 +12,11 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
-#include "output/file.hpp"
-#include "output/png.hpp"
-#include "scene/scene_text.hpp"
 #include "simulation/breakdown.hpp"
 #include "view/orbit.hpp"
 #include "view/present_scene.hpp"
 #include "view/thrown_ball.hpp"
+#include "window/saved_files.hpp"
 
 namespace pliant::view {
 namespace {
@@ -35,23 +33,6 @@ Json described(const CameraDescription& camera) {
 }
 
 glm::uvec2 at_least_a_pixel(const glm::uvec2& size) { return glm::max(size, glm::uvec2(1)); }
-
-std::vector<std::filesystem::path> scenes_beside(const std::filesystem::path& file) {
-  std::vector<std::filesystem::path> scenes;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  for (const auto& entry :
-       std::filesystem::directory_iterator(folder, std::filesystem::directory_options::skip_permission_denied))
-    if (entry.path().extension() == ".toml") scenes.push_back(entry.path());
-  std::ranges::sort(scenes);
-  return scenes;
-}
-
-std::filesystem::path free_name(const std::string& stem, const char* extension) {
-  for (int number = 0;; ++number) {
-    std::filesystem::path name = fmt::format("{}_{:04}{}", stem, number, extension);
-    if (!std::filesystem::exists(name)) return name;
-  }
-}
 
 }  // namespace
 
@@ -359,9 +340,7 @@ void Viewer::save_picture() {
   if (wanted.size.x == 0)
     throw Error(ErrorKind::command_line, "", "there is no picture to save while the window is minimised", "");
   view_->draw(wanted);
-  const std::filesystem::path name = free_name(session_->scene().file.stem().string(), ".png");
-  write_png(name, view_->picture());
-  say_saved(name);
+  say_saved(view::save_picture(session_->scene().file.stem().string(), view_->picture()));
 }
 
 // Opens the file to see whether it can be opened. Bodies without their deformation may intersect.
@@ -372,10 +351,7 @@ void Viewer::save_scene() {
   scene.output.marks = shows_.contacts ? Marks::contacts : Marks::none;
   if (shows_.colors != Colors::speed)
     scene.output.coloring = shows_.colors == Colors::deformation ? Coloring::deformation : Coloring::body;
-  const std::filesystem::path name = free_name(scene.file.stem().string(), ".toml");
-  WholeFile file(name);
-  file.write(scene_text(scene, name.parent_path()));
-  file.close();
+  const std::filesystem::path name = view::save_scene(scene);
   say_saved(name);
   scenes_ = scenes_beside(scene.file);
   try {
