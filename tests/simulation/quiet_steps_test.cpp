@@ -1,38 +1,16 @@
 // Steps in which nothing comes near are made many at once, to the bit as others. The oracle is a run that makes all of each step.
-#include "simulation/quiet_steps.hpp"
-
 #include <catch2/catch.hpp>
 #include <functional>
-#include <map>
-#include <span>
+#include <string_view>
 #include <utility>
 
-#include "support/device_bench.hpp"
 #include "support/evolve.hpp"
 #include "support/has.hpp"
 #include "support/impulse_scene.hpp"
-#include "support/shared_phases.hpp"
+#include "support/quiet_scenes.hpp"
 
 namespace pliant {
 namespace {
-
-BodySetup ball_of(const char* mesh, const glm::dvec3& place) {
-  BodySetup setup = soft(generate_mesh(mesh), "ball");
-  setup.description.position = place;
-  return setup;
-}
-
-// One turns and vibrates, one comes towards it undeformed, one rests and one turns aside.
-std::vector<BodySetup> four_balls() {
-  std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:0", {12, 0.3, 0}),
-                                   ball_of("icosphere:1", {0, 9, 0}), ball_of("cube:1", {0, 0, -9})};
-  setups[0].description.stretch = {1.1, 0.95, 1};
-  setups[0].description.spin = {0, 2, 1};
-  setups[1].description.velocity = {-6, 0, 0};
-  setups[3].description.velocity = {0.1, 0, -0.2};
-  setups[3].description.spin = {0.5, 0, 0};
-  return setups;
-}
 
 // A run that makes quiet steps, and one that makes none.
 struct Runs {
@@ -68,11 +46,9 @@ struct Runs {
   Simulation quiet, busy;
 };
 
-std::unique_ptr<Device> gpu() { return make_gpu_device(0); }
-
 TEST_CASE("quiet steps have the bits of others, and end in time for contacts", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
   for (const Method& method : {Method{"verlet", 0.01},
                                {"verlet", 0.01, DampingLaw::constant},
@@ -95,7 +71,7 @@ TEST_CASE("quiet steps have the bits of others, and end in time for contacts", "
 
 TEST_CASE("bodies that only reflect, or pass through each other, make quiet steps", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
   for (const char* response : {"reflect", "none"})
     for (const Method& method : {Method{"verlet", 0.01, DampingLaw::adaptive}, {"cv8", 0.02}, {"dprkn8", 0.02}}) {
@@ -117,7 +93,7 @@ TEST_CASE("bodies that only reflect, or pass through each other, make quiet step
 
 TEST_CASE("a body alone makes quiet steps, deformed or not, and where it blows up it tells the step", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   for (const double stretch : {1.0, 1.2}) {
     CAPTURE(stretch);
     BodySetup ball = ball_of("icosphere:1", {0, 0, 0});
@@ -140,7 +116,7 @@ TEST_CASE("a body alone makes quiet steps, deformed or not, and where it blows u
 
 TEST_CASE("what never moves counts as left alone in quiet steps, too", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:0", {60, 0, 0})};
   setups[0].description.velocity = {1, 0, 0};
   setups[1].description.kind = BodyKind::immovable;
@@ -173,7 +149,7 @@ TEST_CASE("a run that was told to stop goes on to the same bits", "[gl]") {
 
 TEST_CASE("a body falls to the ground in quiet steps, and rests in others", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   GroundDescription floor;
   floor.normal = {0, 0, 1};
   floor.point = {0, 0, -5};
@@ -190,7 +166,7 @@ TEST_CASE("a body falls to the ground in quiet steps, and rests in others", "[gl
 
 TEST_CASE("what pulls a body or goes on from a saved state leaves quiet steps right", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
   Runs runs(*device, start, {"verlet", 0.01});
   runs.advance(10);
@@ -206,159 +182,9 @@ TEST_CASE("what pulls a body or goes on from a saved state leaves quiet steps ri
   CHECK(runs.quiet.report().quiet_steps > 10);
 }
 
-// All that steps from this half on depend on. What each step begins with finding anew is left out.
-std::map<std::string, std::vector<std::byte>> carried_by(const Bench& bench, std::uint32_t half) {
-  std::map<std::string, std::vector<std::byte>> bytes;
-  for (CarriedArray array : bench.bodies.arrays.carried()) {
-    if (array.name == "cluster" || array.name == "slow_place") continue;
-    const bool has_halves = array.name == "motion" || array.name == "world_position";
-    if (has_halves) array.byte_count /= 2, array.first_byte = half * array.byte_count;
-    bytes[array.name].resize(array.byte_count);
-    bench.device->read(array.buffer, array.first_byte, bytes[array.name]);
-  }
-  // that steps were quiet
-  auto control = bench.bodies.control.download();
-  control[0].total_low[physics::quiet_steps_made] = 0;
-  const auto told = std::as_bytes(std::span(control));
-  bytes["control"].assign(told.begin(), told.end());
-  return bytes;
-}
-
-struct Turn {
-  std::uint32_t steps;  // so far
-  std::map<std::string, std::vector<std::byte>> carried;
-};
-
-// Makes whole steps in turn with quiet ones. Returns also whether one of these was undone.
-std::pair<std::vector<Turn>, bool> quiet_turns(const ModelAndState& start, const Method& method, int count,
-                                               const CollisionDescription& collision) {
-  Bench bench(gpu(), start, method, collision);
-  bench.bodies.run_all_stages(true);
-  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
-  REQUIRE(quiet.are_known());
-  std::vector<Turn> turns;
-  bool was_undone = false;
-  std::uint32_t steps = 0;
-  bench.begin();
-  while (count-- > 0) {
-    bench.device->run(bench.step(steps++ % 2));
-    quiet.aim_at(3);
-    fill_shared_memory(bench.bodies.arrays, std::byte{0xff});
-    bench.device->run(quiet.passes(steps % 2));
-    was_undone = was_undone || bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone != ~0u;
-    steps += quiet.take_made();
-    turns.push_back({steps, carried_by(bench, steps % 2)});
-  }
-  return {turns, was_undone};
-}
-
-// The oracle makes whole steps alone. Returns whether a quiet step was undone. One device at a time is the thread's own.
-bool check_turns(const ModelAndState& start, const Method& method, int count, const CollisionDescription& collision) {
-  const auto [turns, was_undone] = quiet_turns(start, method, count, collision);
-  CHECK(turns.back().steps > turns.size());
-  Bench bench(gpu(), start, method, collision);
-  bench.bodies.run_all_stages(true);
-  bench.begin();
-  std::uint32_t steps = 0;
-  for (const Turn& turn : turns) {
-    while (steps < turn.steps) bench.device->run(bench.step(steps++ % 2));
-    for (const auto& [name, bytes] : carried_by(bench, steps % 2)) {
-      CAPTURE(name, steps);
-      CHECK((turn.carried.at(name) == bytes));
-    }
-  }
-  return was_undone;
-}
-
-TEST_CASE("quiet steps leave all that other steps leave", "[gl]") {
-  if (test::lacks_gl()) return;
-  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
-  for (const char* integrator : {"verlet", "cv8"}) {
-    CAPTURE(integrator);
-    CHECK_FALSE(check_turns(start, {integrator, 0.01}, 8, by_impulses));
-  }
-}
-
-TEST_CASE("a step that takes a vertex out of its body's room is made again, with a search", "[gl]") {
-  if (test::lacks_gl()) return;
-  const ModelAndState start = build_model(four_balls(), glm::dvec3(0.0));
-  for (const char* integrator : {"verlet", "cv8"}) CHECK(check_turns(start, {integrator, 0.02}, 30, {.response = {"reflect"}}));
-}
-
-// Bodies after a step that was not quiet, and what quiet steps make of them.
-struct AfterStep {
-  explicit AfterStep(const std::vector<BodySetup>& setups)
-      : bench(gpu(), build_model(setups, glm::dvec3(0.0)), {"verlet", step}, by_impulses), quiet(quiet_steps_of(bench)) {
-    bench.begin();
-    bench.device->run(bench.step(0));
-  }
-  static QuietSteps quiet_steps_of(Bench& bench) {
-    bench.bodies.run_all_stages(true);
-    return {bench.bodies, bench.stepper, bench.collider};
-  }
-  // Vertex 0 is made to expect another velocity along y.
-  void expect_more(float velocity) {
-    const BufferId surplus = bench.bodies.arrays.buffer("surplus");
-    std::vector<float> expected(bench.device->size_of(surplus) / sizeof(float));
-    bench.device->read(surplus, 0, std::as_writable_bytes(std::span(expected)));
-    expected[physics::expected_surplus_of(0) + 1] += velocity / step;
-    bench.device->write(surplus, 0, std::as_bytes(std::span(expected)));
-  }
-  // Three steps are asked for. If none is made, nothing has changed.
-  void check_makes(std::uint32_t steps) {
-    const auto before = carried_by(bench, 1);
-    quiet.aim_at(3);
-    bench.device->run(quiet.passes(1));
-    CHECK((bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").download()[0].undone == 0) == (steps == 0));
-    CHECK(quiet.take_made() == steps);
-    if (steps > 0) return;
-    for (const auto& [name, bytes] : carried_by(bench, 1)) {
-      CAPTURE(name);
-      CHECK((before.at(name) == bytes));
-    }
-  }
-
-  static constexpr float step = 0.01f;
-  Bench bench;
-  QuietSteps quiet;
-};
-
-std::vector<BodySetup> two_balls() {
-  std::vector<BodySetup> setups = {ball_of("icosphere:1", {0, 0, 0}), ball_of("icosphere:1", {12, 0, 0})};
-  setups[0].description.stretch = {1.1, 0.95, 1};
-  setups[1].description.velocity = {1, 0, 0};
-  return setups;
-}
-
-// It flies aside, and is made to expect the opposite.
-TEST_CASE("a step that moves a vertex out of its cage is no quiet one", "[gl]") {
-  if (test::lacks_gl()) return;
-  std::vector<BodySetup> setups = two_balls();
-  setups[0].description.velocity = {0, 300, 0};
-  for (const bool foresees : {true, false}) {
-    CAPTURE(foresees);
-    AfterStep after(setups);
-    if (!foresees) after.expect_more(-600);
-    after.check_makes(foresees ? 3 : 0);
-  }
-}
-
-TEST_CASE("a step that surprises a body which may meet itself is no quiet one", "[gl]") {
-  if (test::lacks_gl()) return;
-  constexpr float tenth_of_edge = 0.055f;
-  for (const bool self_contact : {false, true}) {
-    CAPTURE(self_contact);
-    std::vector<BodySetup> setups = two_balls();
-    setups[0].description.self_contact = self_contact;
-    AfterStep after(setups);
-    after.expect_more(tenth_of_edge / AfterStep::step);
-    after.check_makes(self_contact ? 0 : 3);
-  }
-}
-
 TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   if (device->shares_at_once() == 0) return test::skip("groups of this device do not wait for each other");
   std::vector<BodySetup> setups = {ball_of("icosphere:3", {0, 0, 0}), ball_of("icosphere:3", {12, 0.3, 0})};
   setups[0].description.stretch = {1.1, 0.95, 1};
@@ -396,7 +222,7 @@ std::pair<std::uint64_t, std::uint64_t> steps_of_star(Device& device, const Meth
 
 TEST_CASE("a body that may meet itself makes quiet steps while its surface is a star, and no others", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   for (const Method& method : {Method{"verlet", 0.01}, {"cv8", 0.01}}) {
     CAPTURE(method.integrator);
     const auto [calm, of_calm] = steps_of_star(*device, method, [](const glm::dvec3& x) { return glm::dvec3(3 - x.y, x.x, 0); });
@@ -409,7 +235,7 @@ TEST_CASE("a body that may meet itself makes quiet steps while its surface is a 
 // A work group serves several of them, on a device in software all.
 TEST_CASE("many bodies make quiet steps, or none if a device would stop their loops", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   const bool is_software = device->shares_at_once() == 0;
   struct Many {
     const char* mesh;
@@ -439,7 +265,7 @@ TEST_CASE("many bodies make quiet steps, or none if a device would stop their lo
 // Of more bodies than are compared with each other, those that move are compared with all.
 TEST_CASE("a body that moves among thousands at rest makes quiet steps, and thousands that move make none", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   if (device->shares_at_once() == 0) return;  // in software a step of so many would be stopped
   constexpr int count = 1300;
   for (const int moving : {1, 70, count}) {
@@ -461,9 +287,32 @@ TEST_CASE("a body that moves among thousands at rest makes quiet steps, and thou
   }
 }
 
+// The first of `count` bodies is deformed. Returns the variants that serve them.
+std::vector<std::size_t> variants_of(Device& device, int count, const glm::dvec3& acceleration) {
+  std::vector<BodySetup> setups;
+  for (int k = 0; k < count; ++k) setups.push_back(ball_of("icosphere:1", {12.0 * k, 0, 0}));
+  setups[0].description.stretch = {1.1, 1, 1};
+  const ModelAndState start = build_model(setups, acceleration);
+  const DeviceBodies bodies(device, start.model, start.state);
+  std::vector<std::size_t> variants;
+  for (const ForceGroup& group : bodies.force_groups) variants.push_back(group.variant);
+  return variants;
+}
+
+TEST_CASE("bodies at rest do not change how the springs of one that moves are shared among threads", "[gl]") {
+  constexpr int many = 400;
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    const std::vector<std::size_t> alone = variants_of(*test.device, 1, glm::dvec3(0.0));
+    CHECK(variants_of(*test.device, many, glm::dvec3(0.0)) == alone);
+    // CPUs and software have one best way for all.
+    if (test.device->shares_at_once() > 0) CHECK(variants_of(*test.device, many, {0, -9.81, 0}) != alone);
+  }
+}
+
 TEST_CASE("bodies that sleep or never move are left alone in quiet steps", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   std::vector<BodySetup> setups(3, ball_of("icosphere:1", {0, 0.45, 0}));
   for (BodySetup& setup : setups) {
     setup.description.scale = 0.4;
@@ -487,25 +336,9 @@ TEST_CASE("bodies that sleep or never move are left alone in quiet steps", "[gl]
   CHECK(runs.quiet.report().quiet_steps > 50);
 }
 
-TEST_CASE("where work groups do not run at once no quiet step is made, and nothing changes", "[gl]") {
-  if (test::lacks_gl()) return;
-  Bench bench(gpu(), build_model(four_balls(), glm::dvec3(0.0)), {"verlet", 0.01}, by_impulses);
-  bench.bodies.run_all_stages(true);
-  QuietSteps quiet(bench.bodies, bench.stepper, bench.collider);
-  bench.begin();
-  bench.device->run(bench.step(0));
-  const auto before = carried_by(bench, 1);
-  const physics::QuietSteps asked{.end = 3, .undone = ~0u, .arrivals = physics::waited_in_vain, .begun = 0, .moving_bodies = 0};
-  bench.bodies.arrays.get<physics::QuietSteps>("quiet_steps").upload(std::span(&asked, 1));
-  bench.device->run(quiet.passes(1));
-  CHECK(quiet.take_made() == 0);
-  CHECK_FALSE(quiet.are_known());
-  CHECK((carried_by(bench, 1) == before));
-}
-
 TEST_CASE("where all bodies rest all steps are quiet but the first", "[gl]") {
   if (test::lacks_gl()) return;
-  const auto device = gpu();
+  const auto device = make_gpu_device(0);
   const std::vector<BodySetup> setups = {ball_of("cube:1", {0, 0, 0}), ball_of("cube:1", {5, 0, 0})};
   const ModelAndState start = build_model(setups, glm::dvec3(0.0));
   for (const char* method : {"verlet", "dop853"}) {
