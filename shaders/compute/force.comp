@@ -34,10 +34,10 @@ shared vec2 seen_beside[TILE];  // u.y, u.z
 #if LANES == 1
 layout(local_size_x = TEAMS) in;
 #else
-#if LANES % 16 != 0
-#error LANES is 1 or a multiple of 2 runs_of_lanes
+#if LANES % 16 != 0 && LANES != 8
+#error LANES is 1, or a multiple of 2 runs_of_lanes
 #endif
-const uint runs_of_lanes = 8u;
+const uint runs_of_lanes = min(LANES / 2u, 8u);
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // [axis][vertex][lane], later runs' totals and rests as sum_run() leaves them
 #endif

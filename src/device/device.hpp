@@ -131,8 +131,8 @@ class Device {
   /// known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// Returns the variant that is fastest for a body of so many vertices among so many in all, with one dispatch per sum.
-  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t all_vertices, std::uint32_t vertices_of_body) const = 0;
+  /// Returns the variant that is fastest for a body of so many vertices, if so many vertices move in all.
+  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t moving_vertices, std::uint32_t vertices_of_body) const = 0;
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

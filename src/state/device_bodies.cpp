@@ -65,21 +65,37 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
   return shares;
 }
 
+// Whether it moves from the start, whatever touches it later.
+bool moves(const Model& model, const State& state, std::size_t b) {
+  const ModelBody& body = model.bodies[b];
+  if (body.is_rigid()) return false;
+  const std::span<const double> motion =
+      std::span(state.motion).subspan(std::size_t{6} * body.first_vertex, std::size_t{6} * body.vertex_count);
+  const auto is_some = [](double value) { return value != 0; };
+  return body.inflation.pressure != 0 || std::ranges::any_of(state.poses[b].gravity, is_some) || std::ranges::any_of(motion, is_some);
+}
+
+std::uint32_t moving_vertices_of(const Model& model, const State& state) {
+  std::uint32_t count = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (moves(model, state, b)) count += model.bodies[b].vertex_count;
+  return count;
+}
+
 // Running all stages at once saves more than the best lanes do, where dispatches take time. Then all bodies have one variant.
-std::vector<std::size_t> best_force_variants(const Device& device, const Model& model) {
-  std::uint32_t largest = 0;
+std::vector<std::size_t> best_force_variants(const Device& device, const Model& model, const State& state) {
+  std::uint32_t largest = 1;
   for (const ModelBody& body : model.bodies)
     if (!body.is_rigid()) largest = std::max(largest, body.vertex_count);
-  const std::size_t best_for_one = device.best_force_variant(model.vertex_count(), model.vertex_count());
-  for (std::size_t variant = best_for_one; variant < device.force_variants().size(); ++variant) {
+  const std::uint32_t moving = moving_vertices_of(model, state);
+  for (std::size_t variant = device.best_force_variant(moving, largest); variant < device.force_variants().size(); ++variant) {
     if (largest > device.force_variants()[variant].largest_body) continue;
     std::vector<std::size_t> same(model.bodies.size(), variant);
     const std::vector<ForceGroup> groups = groups_of(device, model, same);
     if (groups.size() == 1 && groups[0].all_stages) return same;
   }
   std::vector<std::size_t> variants;
-  for (const ModelBody& body : model.bodies)
-    variants.push_back(device.best_force_variant(model.vertex_count(), body.vertex_count));
+  for (const ModelBody& body : model.bodies) variants.push_back(device.best_force_variant(moving, body.vertex_count));
   return variants;
 }
 
@@ -134,7 +150,7 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, best_force_variants(device, model)) {}
+    : DeviceBodies(device, model, state, best_force_variants(device, model, state)) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
     : DeviceBodies(device, model, state, std::vector(model.bodies.size(), force_variant)) {}

@@ -35,7 +35,7 @@ struct Lanes {
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
                           // memory has room for, in multiples that keep the order of additions
-  std::uint32_t most_vertices;          // of all bodies together, up to which this is the fastest
+  std::uint32_t most_vertices;          // of all that move, up to which this is the fastest
   std::uint32_t most_vertices_of_body;  // beyond, another one is faster
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
@@ -45,11 +45,13 @@ struct Lanes {
 // - Few vertices need many lanes each.
 // - With many vertices, a lane serves several of them with what it loads.
 // - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
-// The third is only for all stages at once, where every group has a multiprocessor to itself.
-// The fourth has a thread for each vertex of small bodies, where many lanes mostly idle.
+// The second is for small bodies as long as each has a multiprocessor to itself, and waits for no other group.
+// The fourth is only for all stages at once, where every group has a multiprocessor to itself.
+// The fifth has a thread for each vertex of small bodies, where many lanes mostly idle.
 constexpr std::uint32_t any_number = 0xffffffffu;
 constexpr Lanes lane_choices[] = {
-    {1, 4, 64, 2, 2, 64, 0, 0},  //
+    {1, 4, 64, 2, 2, 64, 0, 0},
+    {8, 1, 48, 3, 6, 48, 6000, 48},
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
     {1, 1, 64, 2, 2, 64, any_number, 64},
@@ -182,10 +184,10 @@ class GpuDevice final : public Device {
   // shared memory it takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t all_vertices, std::uint32_t vertices_of_body) const override {
+  std::size_t best_force_variant(std::uint32_t moving_vertices, std::uint32_t vertices_of_body) const override {
     if (context_.adapter().is_software) return 0;
     const auto fits = [&](const Lanes& lanes) {
-      return all_vertices <= lanes.most_vertices && vertices_of_body <= lanes.most_vertices_of_body;
+      return moving_vertices <= lanes.most_vertices && vertices_of_body <= lanes.most_vertices_of_body;
     };
     return static_cast<std::size_t>(std::ranges::find_if(lane_choices, fits) - std::begin(lane_choices));
   }
