@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "scene/scene_description.hpp"
-#include "scene/table_reader.hpp"
+#include "scene/toml.hpp"
 
 namespace pliant {
+class TableReader;
 
 /// Reads the keys of what touches others, of a body, a container or a ground.
 void read_surface(TableReader& table, SurfaceDescription& surface);

@@ -1,8 +1,7 @@
-// Reads one table of a scene file, and remembers which keys it was asked for.
+// Reads a table of a scene file, or one in front of another, and remembers which keys it was asked for.
 #pragma once
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -47,77 +46,41 @@ class TableReader {
     reader.finish();
   }
 
-  void require(const char* key) const {
-    if (peek(key) == nullptr) fail(table_, path_, fmt::format("has no {}", key), fmt::format("add {} = ...", key));
-  }
+  void require(const char* key) const;
 
   /// If both are there, the stronger one replaces the other: see peek(). Call it before either is read.
-  void keep_one_of(const char* first, const char* second) {
-    const toml::node *one = peek(first), *other = peek(second);
-    if (one == nullptr || other == nullptr) return;
-    const auto rank = [&](const char* key, const toml::node& node) { return std::pair(is_override(node), is_in_front(key)); };
-    if (rank(first, *one) == rank(second, *other))
-      fail(*other, path_of(second), fmt::format("can't be combined with {}", first), "keep one of them");
-    replaced_.emplace_back(rank(first, *one) > rank(second, *other) ? second : first);
-  }
+  void keep_one_of(const char* first, const char* second);
 
   /// Returns null if the key is absent. An override is stronger than the file, and the table in front than the one behind.
   /// Does not make the key a known one.
-  const toml::node* peek(const char* key) const {
-    if (std::ranges::find(replaced_, key) != replaced_.end()) return nullptr;
-    return is_in_front(key) ? front_->get(key) : table_.get(key);
-  }
+  [[nodiscard]] const toml::node* peek(const char* key) const;
 
   /// Whether peek() takes the key from the table in front.
-  [[nodiscard]] bool is_in_front(std::string_view key) const {
-    const toml::node* const in_front = front_ == nullptr ? nullptr : front_->get(key);
-    const toml::node* const behind = table_.get(key);
-    return in_front != nullptr && (behind == nullptr || is_override(*in_front) || !is_override(*behind));
-  }
+  [[nodiscard]] bool is_in_front(std::string_view key) const;
 
   /// Forgets what the table behind says of keys that the one in front lacks.
-  void forget_behind(std::initializer_list<const char*> keys) {
-    for (const char* key : keys)
-      if (front_ == nullptr || front_->get(key) == nullptr) replaced_.emplace_back(key);
-  }
+  void forget_behind(std::initializer_list<const char*> keys);
 
   /// Makes a key known that others read.
   void know(const char* key) { known_.emplace_back(key); }
 
-  const toml::node* find(const char* key) {
-    known_.emplace_back(key);
-    return peek(key);
-  }
+  /// Does the same, and makes the key a known one.
+  const toml::node* find(const char* key);
 
   /// Returns an origin from nowhere if the key is absent.
-  Origin where(const char* key) const {
-    const toml::node* node = peek(key);
-    return node == nullptr ? Origin() : origin_of(*node, path_of(key));
-  }
+  [[nodiscard]] Origin where(const char* key) const;
 
   /// Adds where those of the keys stand that are there.
-  void note(std::initializer_list<const char*> keys, std::vector<Origin>& found) const {
-    for (const char* key : keys)
-      if (peek(key) != nullptr) found.push_back(where(key));
-  }
+  void note(std::initializer_list<const char*> keys, std::vector<Origin>& found) const;
 
   /// Returns the key with its tables, such as "collision.tree.split".
-  [[nodiscard]] std::string path_of(std::string_view key) const {
-    const std::string& path = is_in_front(key) ? front_path_ : path_;
-    return fmt::format("{}{}{}", path, path.empty() ? "" : ".", key);
-  }
+  [[nodiscard]] std::string path_of(std::string_view key) const;
 
-  void finish() const {
-    for (const auto& [key, node] : table_)
-      if (front_path_.empty() || !key.str().starts_with('[')) expect_known(key.str(), node);  // other bodies in the rows
-    if (front_ == nullptr) return;
-    for (const auto& [key, node] : *front_) expect_known(key.str(), node);
-  }
+  /// Throws Error (input or command_line) of a key that is not a known one.
+  void finish() const;
 
  private:
-  void expect_known(std::string_view key, const toml::node& node) const {
-    if (std::ranges::find(known_, key) == known_.end()) fail(node, path_of(key), "unknown key", suggest(key, known_));
-  }
+  void expect_known(std::string_view key, const toml::node& node) const;
 
   const toml::table& table_;
   const toml::table* front_;
