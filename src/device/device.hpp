@@ -122,9 +122,9 @@ class Device {
   [[nodiscard]] virtual std::uint32_t groups_at_once(KernelId round_kernel) = 0;
   /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
   /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one
-  /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, which take shares in turn. There
-  /// are at most quiet_groups of them, and as many as shares unless each body is one share. If a device with shares_at_once()
-  /// does not run all of them at once, they make no step.
+  /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, at most quiet_groups of them.
+  /// These take shares of bodies that move in turn if each body is one share, and else one each. If a device with
+  /// shares_at_once() does not run all of them at once, they make no step.
   [[nodiscard]] virtual KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span = ForceSpan::stage) = 0;
   [[nodiscard]] virtual const KernelSignature& signature(KernelId kernel) const = 0;
   /// Returns how many items of a force kernel run side by side, so that they may wait for each other. It is 0 if that is not

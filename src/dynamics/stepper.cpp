@@ -202,18 +202,14 @@ bool Stepper::makes_a_step_in_one_pass() const {
 }
 
 bool Stepper::makes_quiet_steps() const {
-  if (bodies_.force_groups.size() != 1 || !makes_a_step_in_one_pass()) return false;
-  const ForceGroup& group = bodies_.force_groups[0];
-  const std::uint32_t work_groups = bodies_.arrays.device().force_variants()[group.variant].quiet_groups;
-  return work_groups > 0 && (group.has_whole_bodies || group.share_count <= work_groups);
+  return bodies_.force_groups.size() == 1 && adds_force() == 0 && bodies_.force_groups[0].quiet_steps;
 }
 
 Pass Stepper::quiet_pass(std::uint32_t first_half, ForceSpan span) const {
   PLIANT_EXPECT(makes_quiet_steps());
   const ForceGroup& group = bodies_.force_groups[0];
-  Parameters parameters = {{"first_half", first_half},         {"damping_law", law_},
-                           {"stage_count", stage_count_},      {"first_share", group.first_share},
-                           {"share_count", group.share_count}, {"lists_shares", group.has_whole_bodies ? 1u : 0u}};
+  Parameters parameters = {
+      {"first_half", first_half}, {"damping_law", law_}, {"stage_count", stage_count_}, {"first_share", group.first_share}};
   const auto* splitting = std::get_if<Splitting>(&integrator_.method);
   if (splitting != nullptr) std::ranges::copy(first_kick_and_drift(*splitting), std::back_inserter(parameters));
   const KernelId kernel =

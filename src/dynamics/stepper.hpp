@@ -43,7 +43,7 @@ class Stepper {
   /// Returns the pass that makes quiet steps, the first of them from this half. Other passes have set bounds for it. `span` says
   /// which kind.
   [[nodiscard]] Pass quiet_pass(std::uint32_t first_half, ForceSpan span) const;
-  /// Returns how many work groups make quiet steps. They share all shares.
+  /// Returns how many work groups make quiet steps, at most. They take the shares of bodies that move.
   [[nodiscard]] std::uint32_t quiet_group_count() const;
 
   /// Whether the method keeps spring forces for the next step.

@@ -7,12 +7,22 @@
 namespace pliant {
 namespace {
 
+constexpr std::uint32_t any_number = ~0u;
+
 bool may_meet(const Collider& collider) { return collider.response() != nullptr && collider.searches(); }
+
+bool have_one_share_each(const DeviceBodies& bodies) { return bodies.force_groups[0].has_whole_bodies; }
+
+// If bodies have several shares, each work group has one at most. And of bodies that may meet each is compared with all.
+std::uint32_t most_moving_shares(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
+  return std::min(have_one_share_each(bodies) ? any_number : stepper.quiet_group_count(),
+                  may_meet(collider) ? physics::most_quiet_bodies : any_number);
+}
 
 // Where bodies can't meet, any number of them may move. A work group that serves many shares then makes fewer steps, so that a
 // dispatch takes no longer.
 std::uint32_t most_of_groups_that_wait(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
-  if (may_meet(collider)) return physics::most_quiet_steps;
+  if (may_meet(collider) || !have_one_share_each(bodies)) return physics::most_quiet_steps;
   const auto shares = static_cast<std::uint32_t>(bodies.shares.size());
   const std::uint32_t shares_of_a_group = (shares - 1) / stepper.quiet_group_count() + 1;
   return std::max(physics::most_quiet_steps / shares_of_a_group, physics::fewest_quiet_steps);
@@ -37,7 +47,7 @@ ForceSpan span_of(const Collider& collider) {
   return looks_at_ends(collider) ? ForceSpan::quiet_steps : ForceSpan::quiet_steps_of_impulses;
 }
 
-// Those that set bounds, after moving bodies have been listed. There are none if the response knows no quiet steps.
+// Those that set bounds, after shares of moving bodies have been listed. There are none if the response knows no quiet steps.
 std::vector<Pass> bounding_passes(std::uint32_t half, const DeviceBodies& bodies, const Collider& collider) {
   if (!looks_at_ends(collider)) return collider.response()->before_quiet_steps(half);
   std::vector<Pass> passes;
@@ -51,7 +61,7 @@ std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, co
   const std::vector<Pass> bounding = bounding_passes(half, bodies, collider);
   if (bounding.empty()) return {};
   std::vector<Pass> passes = {
-      beside_next(make_pass(bodies.arrays, "list_moving_bodies", {{"may_meet", may_meet(collider) ? 1u : 0u}},
+      beside_next(make_pass(bodies.arrays, "list_moving_shares", {{"most_shares", most_moving_shares(bodies, stepper, collider)}},
                             static_cast<std::uint32_t>(bodies.shares.size())))};
   std::ranges::copy(bounding, std::back_inserter(passes));
   passes.push_back(stepper.quiet_pass(half, span_of(collider)));
@@ -68,7 +78,7 @@ QuietSteps::QuietSteps(DeviceBodies& bodies, const Stepper& stepper, const Colli
   most_at_once_ = most_at_once(bodies, stepper, collider);
   if (most_at_once_ < physics::fewest_quiet_steps) return;
   steps_ = &bodies.arrays.make<physics::QuietSteps>("quiet_steps", 1);
-  bodies.arrays.make<physics::QuietBody>("quiet_body", bodies.body_count);
+  bodies.arrays.make<physics::QuietBody>("quiet_body", std::max(bodies.body_count, stepper.quiet_group_count()));
   bodies.arrays.make<double>("kept_before", stepper.keeps_force() ? std::size_t{3} * bodies.vertex_count : 1);
   for (std::uint32_t half = 0; half < 2; ++half) passes_[half] = passes_from(half, bodies, stepper, collider);
   if (!are_known()) return;
@@ -82,7 +92,7 @@ void QuietSteps::aim_at(std::uint64_t most) const {
                                   .undone = ~0u,
                                   .arrivals = 0,
                                   .begun = 0,
-                                  .moving_bodies = 0};
+                                  .moving_shares = 0};
   steps_->upload(std::span(&asked, 1));
 }
 

@@ -18,6 +18,7 @@ struct ForceGroup {
   std::uint32_t first_share, share_count;
   bool all_stages;        // whether one dispatch can run all stages of a step
   bool has_whole_bodies;  // whether each body is one share
+  bool quiet_steps;       // whether one dispatch can run quiet steps of the bodies that move from the start
 };
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.

@@ -17,7 +17,7 @@ constexpr Phases restoring = 1,  // restore_impacts
     kicking = 4,                 // take_up_impulses and solve_contacts
     at_stages = 8,               // the passes of forces before a stage, and the stage
     cutting = 16,                // from expect_cuts to pay_dues
-    at_quiet_steps = 32;         // from list_moving_bodies to end_quiet_steps
+    at_quiet_steps = 32;         // from list_moving_shares to end_quiet_steps
 
 struct Sharing {
   std::string_view array;

@@ -297,7 +297,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   const CollisionDescription impulses{.response = {"impulse"}};
   Bench cpu(make_cpu_device(2, 32), start, {"verlet", 0.01}, impulses),
       gpu(make_gpu_device(0), start, {"verlet", 0.01}, impulses);
-  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0, .begun = 1, .moving_bodies = 0};
+  const physics::QuietSteps asked{.end = 5, .undone = ~0u, .arrivals = 0, .begun = 1, .moving_shares = 0};
   for (Bench* bench : {&cpu, &gpu}) {
     bench->bodies.arrays.make("quiet_steps", std::vector{asked});
     bench->bodies.arrays.make<physics::QuietBody>("quiet_body", 2);
@@ -305,7 +305,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
     bench->device->run(bench->step(0));
   }
   const auto passes_of = [](const Bench& bench) {
-    std::vector<Pass> passes = {make_pass(bench.bodies.arrays, "list_moving_bodies", {{"may_meet", 1u}},
+    std::vector<Pass> passes = {make_pass(bench.bodies.arrays, "list_moving_shares", {{"most_shares", 2u}},
                                           static_cast<std::uint32_t>(bench.bodies.shares.size()))};
     std::ranges::copy(bench.collider.response()->before_quiet_steps(1), std::back_inserter(passes));
     passes.push_back(make_pass(bench.bodies.arrays, "end_quiet_steps", {{"pair_count", 1u}}, 2));
@@ -321,6 +321,14 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
     seen.insert(cpu_passes[k].name);
   }
   CHECK(cpu.bodies.control.download().front().step == 7);
+  for (Bench* bench : {&cpu, &gpu}) {
+    DeviceArray<physics::QuietSteps>& steps = bench->bodies.arrays.get<physics::QuietSteps>("quiet_steps");
+    steps.upload(std::span(&asked, 1));
+    const Pass lists = make_pass(bench->bodies.arrays, "list_moving_shares", {{"most_shares", 1u}}, 2);
+    bench->device->run({&lists, 1});
+    CHECK(steps.download().front().moving_shares == 2);
+    CHECK(steps.download().front().end == 0);
+  }
 }
 
 std::uint32_t frame_changes(const Bench& bench) {

@@ -204,6 +204,39 @@ TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
     }
 }
 
+// Of bodies that several work groups serve, some move among others at rest. While those that move have a group for each share,
+// steps are quiet. The first one flies at a row of others, so that ever more of them move.
+TEST_CASE("a large body that moves among many at rest makes quiet steps, until more move than there are groups for", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  const auto groups = static_cast<int>(device->shares_at_once());
+  if (groups < 65) return test::skip("too few groups of this device wait for each other");  // a body has as many
+  const int count = groups / 4;
+  for (const int moving : {1, count / 2}) {
+    std::vector<BodySetup> setups;
+    for (int k = 0; k < count; ++k) {
+      setups.push_back(ball_of("icosphere:3", {2.5 * (k % 8), 12.0 * (k / 8), 0}));
+      if (k * moving % count < moving) setups.back().description.velocity = {0.5, 0.1 * (k % 3), 0};
+    }
+    setups[0].description.position = {-2.5, 0.1, 0};
+    setups[0].description.velocity = {20, 0, 0};
+    setups[0].description.stretch = {1.1, 0.95, 1};
+    setups[0].description.spin = {0, 2, 1};
+    const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+    for (const char* response : {"impulse", "reflect"})
+      for (const Method& method : {Method{"verlet", 0.0005}, {"verlet", 0.0005, DampingLaw::constant}, {"cv8", 0.001}}) {
+        CAPTURE(moving, response, method.integrator);
+        Runs runs(*device, start, method, false, {.response = {response}, .elasticity = 0.5});
+        for (const std::uint64_t steps : {40, 260}) {
+          runs.advance(steps);
+          runs.check();
+        }
+        CHECK((runs.quiet.report().quiet_steps > 20) == (moving == 1));
+        CHECK(runs.busy.report().contact_steps > 0);
+      }
+  }
+}
+
 // Returns how many steps were quiet, and how many were made, of a ball that meets itself and begins with these velocities.
 std::pair<std::uint64_t, std::uint64_t> steps_of_star(Device& device, const Method& method,
                                                       const std::function<glm::dvec3(const glm::dvec3&)>& velocity) {
@@ -288,9 +321,9 @@ TEST_CASE("a body that moves among thousands at rest makes quiet steps, and thou
 }
 
 // The first of `count` bodies is deformed. Returns the variants that serve them.
-std::vector<std::size_t> variants_of(Device& device, int count, const glm::dvec3& acceleration) {
+std::vector<std::size_t> variants_of(Device& device, const char* mesh, int count, const glm::dvec3& acceleration) {
   std::vector<BodySetup> setups;
-  for (int k = 0; k < count; ++k) setups.push_back(ball_of("icosphere:1", {12.0 * k, 0, 0}));
+  for (int k = 0; k < count; ++k) setups.push_back(ball_of(mesh, {12.0 * k, 0, 0}));
   setups[0].description.stretch = {1.1, 1, 1};
   const ModelAndState start = build_model(setups, acceleration);
   const DeviceBodies bodies(device, start.model, start.state);
@@ -300,13 +333,14 @@ std::vector<std::size_t> variants_of(Device& device, int count, const glm::dvec3
 }
 
 TEST_CASE("bodies at rest do not change how the springs of one that moves are shared among threads", "[gl]") {
-  constexpr int many = 400;
   for (const TestDevice& test : all_devices()) {
-    CAPTURE(test.name);
-    const std::vector<std::size_t> alone = variants_of(*test.device, 1, glm::dvec3(0.0));
-    CHECK(variants_of(*test.device, many, glm::dvec3(0.0)) == alone);
-    // CPUs and software have one best way for all.
-    if (test.device->shares_at_once() > 0) CHECK(variants_of(*test.device, many, {0, -9.81, 0}) != alone);
+    const bool waits = test.device->shares_at_once() > 0;  // CPUs and software have one best way for all
+    for (const char* mesh : {"icosphere:1", "icosphere:3"}) {
+      CAPTURE(test.name, mesh);
+      const std::vector<std::size_t> alone = variants_of(*test.device, mesh, 1, glm::dvec3(0.0));
+      CHECK(variants_of(*test.device, mesh, 400, glm::dvec3(0.0)) == alone);
+      if (waits) CHECK(variants_of(*test.device, mesh, 400, {0, -9.81, 0}) != alone);
+    }
   }
 }
 

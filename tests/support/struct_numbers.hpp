@@ -151,7 +151,7 @@ inline std::vector<double> numbers_of(const physics::StepParts& parts) {
 }
 
 inline std::vector<double> numbers_of(const physics::QuietSteps& steps) {
-  return {double(steps.end), double(steps.undone), double(steps.arrivals), double(steps.begun), double(steps.moving_bodies)};
+  return {double(steps.end), double(steps.undone), double(steps.arrivals), double(steps.begun), double(steps.moving_shares)};
 }
 
 inline std::vector<double> numbers_of(const physics::QuietBody& body) {

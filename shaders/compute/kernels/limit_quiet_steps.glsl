@@ -78,8 +78,9 @@ void limit_quiet_steps(uint item) {
   uint b = item / threads_of_a_body, thread = item % threads_of_a_body;
   if (ATOMIC_LOAD(quiet_steps[0].end) == 0u) return;
   if (thread == 0u) look_at(b);
-  for (uint n = thread; n < quiet_steps[0].moving_bodies; n += threads_of_a_body) {
-    uint other = share[quiet_body[n].moving_share].body_index;
+  for (uint n = thread; n < quiet_steps[0].moving_shares; n += threads_of_a_body) {
+    uint k = quiet_body[n].moving_share, other = share[k].body_index;
+    if (share[k].first_vertex != share[k].body.first_vertex) continue;  // each body is compared once, by its first share
     // two that both move are both listed, and the later one compares them
     if (other < b || (other > b && !moves(b))) compare(other, b);
   }

@@ -24,7 +24,7 @@ ARRAY(slow_place, vec4, body, carried, "[body][16] where the vertices that stand
 ARRAY(slept, double, body, carried, "[body][4] energy that sleep has taken from the body's motion [J], then momentum that what bears it has taken for that [Ns]")
 ARRAY(meeting, uint, body, step, "arrivals of work groups that wait for each other within a step, 0 between steps")
 ARRAY(control, Control, run, carried, "the step's length, clock and counters")
-ARRAY(quiet_body, QuietBody, body, step, "bounds within which steps are quiet, and what work groups tell each other of the body in them")
+ARRAY(quiet_body, QuietBody, body, step, "bounds within which steps are quiet, and what work groups tell each other of the body in them; also a list of the shares of bodies that move, so there are as many as groups that make such steps, at least")
 ARRAY(kept_before, double, vertex, step, "[vertex][3] spring forces that a splitting method kept when a quiet step began [N]; one number where no step is quiet")
 ARRAY(quiet_steps, QuietSteps, run, step, "how many quiet steps are made at once")
 

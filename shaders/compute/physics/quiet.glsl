@@ -30,7 +30,7 @@ struct QuietBody {
   QuietBounds bounds;
   QuietStar star;
   uint frame_changes;          // in these steps
-  uint moving_share;           // not of this body: in the list of bodies that move, the first share of one
+  uint moving_share;           // entry n of the list of shares of bodies that move stands in quiet_body[n]
   FrameChange change;          // of the latest step whose frame has turned
   double reference[6];         // [half][3] as `pose` has it [m]
   double first_motion[12];     // [half][6] as `motion` has it of the first vertex
@@ -42,7 +42,7 @@ struct QuietSteps {
   uint undone;    // the first one that does not stand, because of where it moved a vertex, or ~0
   uint arrivals;  // of work groups that wait for each other, and bits: waited_in_vain, and whether others have to look again
   uint begun;     // 1: they have met, so that they run at once. Else no step is made
-  uint moving_bodies;  // so many stand in the list
+  uint moving_shares;  // so many stand in the list
 };
 
 FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.undone ? s.end : s.undone; }
@@ -50,7 +50,7 @@ FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.und
 // A dispatch makes so many steps at most. Bounds are tried for as many first, then for half as many, and so on.
 const uint most_quiet_steps = 256u;
 const uint fewest_quiet_steps = 2u;
-const uint most_quiet_bodies = 1024u;  // that move where bodies may meet: each is compared with all. With more that takes too long
+const uint most_quiet_bodies = 1024u;  // that move where bodies may meet, in shares: each is compared with all. More take too long
 const uint has_news = 1u << 30;  // in arrivals: `end` or `undone` has changed
 
 SHARED_END

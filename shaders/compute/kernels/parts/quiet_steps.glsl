@@ -1,7 +1,6 @@
-// Runs quiet steps. All groups make a step, each for its shares, and meet. Then they know whether it stands, and whether it was the last
-// one. If each body has one share, a group takes shares in turn, of bodies that move. Else it has one.
-PARAMETER(uint, share_count)
-PARAMETER(uint, lists_shares)  // 1: each body has one share
+// Runs quiet steps. All groups make a step, each for its shares of bodies that move, and meet. Then they know whether it stands, and
+// whether it was the last one. If each body has one share, a group takes shares in turn. Else it has one, because those of a body wait for
+// each other.
 PARAMETER(uint, first_half)
 void count_frame_change(uint b) { quiet_body[b].frame_changes += 1u; }
 #include "follow_rotation.glsl"
@@ -222,7 +221,7 @@ void set_step_length() {
 #define EACH_SHARE(k) for (uint k = group; k < count; k += groups)
 #define TAKE_UP(k) take_up(k, k == group ? own : quiet_body[k].moving_share)
 void make_quiet_steps(uint group) {
-  uint count = lists_shares != 0u ? quiet_steps[0].moving_bodies : share_count, groups = min(count, item_count);
+  uint count = quiet_steps[0].moving_shares, groups = min(count, item_count);
   if (count == 0u && group == 0u && gl_LocalInvocationID.x == 0u) quiet_steps[0].begun = 1u;  // with nobody to meet
   if (group >= groups) return;
   if (gl_LocalInvocationID.x == 0u) {
@@ -231,7 +230,7 @@ void make_quiet_steps(uint group) {
   }
   barrier();
   if (end_seen == 0u) return;
-  uint own = lists_shares != 0u ? quiet_body[group].moving_share : first_share + group;
+  uint own = quiet_body[group].moving_share;
   barrier();
   meet_all(groups);
   bool goes_on = end_seen > 0u;
@@ -276,5 +275,5 @@ void make_quiet_steps(uint group) {
     }
     from_half = other_half(from_half);
   }
-  if (was_stopped(share_count)) atomicOr(quiet_steps[0].arrivals, waited_in_vain);
+  if (was_stopped(item_count)) atomicOr(quiet_steps[0].arrivals, waited_in_vain);
 }
