@@ -160,6 +160,22 @@ TEST_CASE("each demo says what to try, and begins") {
   }
 }
 
+TEST_CASE("the piston presses the ball through the ring") {
+  const auto device = make_cpu_device(0, 32);
+  Session session(*device, load(source_dir() + "/scenes/demos/narrow_ring.toml"));
+  constexpr double piston_is_back = 4.2;  // [s]
+  while (session.time() < piston_is_back && !session.breakdown()) session.advance_toward(piston_is_back, 100);
+  const Model& model = session.model();
+  const std::vector<glm::vec4> positions = session.simulation().world_positions();
+  float highest = -1e9f, lowest_of_ring = 1e9f;
+  for (std::uint32_t i = 0; i < model.vertex_count(); ++i)
+    if (model.body_of(i).name == "ball")
+      highest = std::max(highest, positions[i].y);
+    else if (model.body_of(i).name == "ring")
+      lowest_of_ring = std::min(lowest_of_ring, positions[i].y);
+  CHECK(highest < lowest_of_ring);
+}
+
 TEST_CASE("a stack falls, and falls again from a restored start by the same bits, on every device", "[gl]") {
   const LoadedScene stack = load(source_dir() + "/scenes/demos/jelly_stack.toml");
   for (const TestDevice& test : all_devices()) {
