@@ -90,7 +90,7 @@ TEST_CASE("quiet steps leave all that other steps leave", "[gl]") {
     }
 }
 
-TEST_CASE("quiet steps of large bodies leave all that other steps leave, though one more rests", "[gl]") {
+TEST_CASE("quiet steps of a large body leave all that other steps leave, while others rest", "[gl]") {
   if (test::lacks_gl()) return;
   if (make_gpu_device(0)->shares_at_once() < 65) return test::skip("too few groups of this device wait for each other");
   std::vector<BodySetup> setups(24, ball_of("icosphere:3", {0, 0, 0}));
