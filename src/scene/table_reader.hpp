@@ -64,7 +64,7 @@ class TableReader {
   /// Makes a key known that others read.
   void know(const char* key) { known_.emplace_back(key); }
 
-  /// Does the same, and makes the key a known one.
+  /// Does what peek() does, and makes the key a known one.
   const toml::node* find(const char* key);
 
   /// Returns an origin from nowhere if the key is absent.
