@@ -91,7 +91,8 @@ void prepare_next_step(uint i, uint b) {
 void keep_surplus(uint i, uint b, dvec3 at_start, dvec3 mean, dvec3 at_end) {
   if (!tells_of_surplus(control[0].time_step, contact_list[0].last_part)) return;
   dvec3 of_start = rotate(pose[b], mean - at_start), of_end = rotate(pose[b], at_end - mean);
-  for (uint k = 0u; k < 3u; ++k) store_surplus(i, k, kept_surplus_after(i, k, of_start[int(k)], of_end[int(k)]));
+  for (uint k = 0u; k < 3u; ++k)
+    store_surplus(i, k, kept_surplus_after(kept_surplus(i, k), of_start[int(k)], of_end[int(k)], control[0].time_step));
 }
 
 // A scripted body goes whole, or it waits where it is. Its velocity is then still that of its path.

@@ -3,20 +3,39 @@
 
 shared Surplus found_surplus[3 * VERTICES * TEAMS];  // after this step, of the share's coordinates, along axes of the world
 
+// How a vertex went in this step, in the body's frame [m, m/s]. All of it is fetched at once: other groups may write it, so nothing that was
+// fetched before is at hand.
+struct Gone {
+  dvec3 way;
+  dvec3 at_start;
+  dvec3 at_end;
+};
+
+Gone gone_in_step(uint i) {
+  Gone g;
+  g.way = way_in_frame(i);
+  g.at_start = velocity_in(before_step(i));
+  g.at_end = velocity_in(after_step(i));
+  return g;
+}
+
+Surplus surplus_after_step(uint k, uint b, IN(Gone) g, IN(Surplus) before) {
+  dvec3 mean = g.way / step_length;
+  return kept_surplus_after(before, in_world(b, k, mean - g.at_start), in_world(b, k, g.at_end - mean), step_length);
+}
+
 void find_surplus(Share s) {
   EACH_KEPT(n) {
-    uint i = VERTEX_OF(n), k = AXIS_OF(n), b = s.body_index;
-    dvec3 mean = way_in_frame(i) / step_length;
-    found_surplus[n] = kept_surplus_after(i, k, in_world(b, k, mean - velocity_in(before_step(i))),
-                                          in_world(b, k, velocity_in(after_step(i)) - mean));
+    uint i = VERTEX_OF(n), k = AXIS_OF(n);
+    found_surplus[n] = surplus_after_step(k, s.body_index, gone_in_step(i), kept_surplus(i, k));
   }
 }
 
 // A step does not stand that might have moved a vertex out of its cage. It is the last one if the vertex may leave its bounds then.
-void look_at_vertex(uint i, uint k, uint b, double surplus_after) {
-  double along = in_world(b, k, way_in_frame(i)), room = double(bounds.room), h = step_length;
-  double expected = h * (in_world(b, k, velocity_in(before_step(i))) + h * kept_surplus(i, k).expected);
-  double speed = in_world(b, k, velocity_in(after_step(i))) + h * surplus_after;
+void look_at_vertex(uint k, uint b, IN(Gone) g, double expected_before, double expected_after) {
+  double along = in_world(b, k, g.way), room = double(bounds.room), h = step_length;
+  double expected = h * (in_world(b, k, g.at_start) + h * expected_before);
+  double speed = in_world(b, k, g.at_end) + h * expected_after;
   bool stays = along < max(expected, double(0)) + room && along > min(expected, double(0)) - room;
   stays = stays && abs(along - expected) <= double(bounds.surprise);
   bool goes_on = speed > double(bounds.least_velocity[k]) && speed < double(bounds.most_velocity[k]);
@@ -25,8 +44,13 @@ void look_at_vertex(uint i, uint k, uint b, double surplus_after) {
 }
 
 void look_at_vertices(Share s) {
-  find_surplus(s);
-  EACH_KEPT(n) look_at_vertex(VERTEX_OF(n), AXIS_OF(n), s.body_index, found_surplus[n].expected);
+  EACH_KEPT(n) {
+    uint i = VERTEX_OF(n), k = AXIS_OF(n), b = s.body_index;
+    Gone g = gone_in_step(i);
+    Surplus before = kept_surplus(i, k), after = surplus_after_step(k, b, g, before);
+    found_surplus[n] = after;
+    look_at_vertex(k, b, g, before.expected, after.expected);
+  }
 }
 
 void keep_surplus(Share s) {
