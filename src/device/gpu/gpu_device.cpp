@@ -54,7 +54,7 @@ constexpr Lanes lane_choices[] = {
     {8, 1, 48, 3, 6, 48, 6000, 48},
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
-    {1, 1, 64, 2, 2, 64, any_number, 64},
+    {1, 1, 64, 2, 2, 64, any_number, 256},
     {32, 2, 20, 4, 20, 640, 8000, any_number},
     {64, 4, 8, 3, 18, 0, any_number, any_number},
 };
