@@ -10,6 +10,10 @@
 // A group has 128 threads, because 64 took longer. Of a kernel that takes much memory a GPU runs fewer groups at once. In a rehearsal groups do
 // nothing but wait for each other, by which a device finds how many of them run at once.
 //
+// A kernel may define STAGES, of which most items need only the first. is_left_after(s, item, round) runs stage s of an item, and returns
+// whether the item needs the next one. Items that do wait until there is one for each thread of the group. A thread that has the next stage
+// to run would hold up those beside it that have not.
+//
 // A kernel may define NEAR_ROUNDS, and with it GROUP_SIZE and far_threads:
 // - One group serves up to near_items items. begin_near() then sets sums_are_near if threads share only the group's own memory, in all
 //   rounds but the last.
@@ -75,6 +79,47 @@ uint threads_of_a_group(uint count) {
   return clamp((for_one_item + 31u) / 32u * 32u, far_threads, GROUP_SIZE);
 }
 
+#ifdef STAGES
+const uint waiting_room = STAGES * GROUP_SIZE;  // for a stage: those that were too few, and those of up to two groups of threads
+shared uint waiting[(STAGES - 1u) * waiting_room];
+shared uint waiting_count[STAGES - 1u];
+
+void run_stage(uint stage, uint item, uint number) {
+  if (!is_left_after(stage, item, number) || stage + 1u == STAGES) return;
+  waiting[stage * waiting_room + atomicAdd(waiting_count[stage], 1u)] = item;
+}
+
+// Each thread has an item, but for those whose turn is past the end.
+void run_stages(uint turn, uint count, bool no_more_come, uint number) {
+  uint thread = gl_LocalInvocationID.x;
+  barrier();
+  if (turn < count) run_stage(0u, item_at(turn, count), number);
+  for (uint stage = 1u; stage < STAGES; ++stage) {
+    barrier();
+    uint left = waiting_count[stage - 1u];
+    barrier();
+    while (left >= GROUP_SIZE || (no_more_come && left > 0u)) {
+      uint taken = min(left, GROUP_SIZE);
+      left -= taken;
+      if (thread < taken) run_stage(stage, waiting[(stage - 1u) * waiting_room + left + thread], number);
+    }
+    if (thread == 0u) waiting_count[stage - 1u] = left;
+  }
+}
+
+void run_round(uint groups, uint threads, uint count, uint number) {
+  if (gl_LocalInvocationID.x < STAGES - 1u) waiting_count[gl_LocalInvocationID.x] = 0u;
+  for (uint first = gl_WorkGroupID.x * threads; first < count; first += groups * threads)
+    run_stages(first + gl_LocalInvocationID.x, count, first + groups * threads >= count, number);
+}
+#else
+void run_round(uint groups, uint threads, uint count, uint number) {
+  if (gl_LocalInvocationID.x >= threads) return;
+  for (uint turn = gl_WorkGroupID.x * threads + gl_LocalInvocationID.x; turn < count; turn += groups * threads)
+    KERNEL(item_at(turn, count), number);
+}
+#endif
+
 void main() {
   if (is_rehearsal != 0u) {
     wait_for_others(item_count, 1u);
@@ -95,11 +140,10 @@ void main() {
   if (count <= near_items) begin_near(count);
 #endif
   has_own_thread = count <= groups * threads;
-  uint first = gl_LocalInvocationID.x < threads ? gl_WorkGroupID.x * threads + gl_LocalInvocationID.x : count;
   uint number = 0u;
   bool more = true;
   while (more) {
-    for (uint turn = first; turn < count; turn += groups * threads) KERNEL(item_at(turn, count), number);
+    run_round(groups, threads, count, number);
     end_round(groups, number);
     more = goes_on(number) && number + 1u < rounds_at_most();
     ++number;

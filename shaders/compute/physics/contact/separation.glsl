@@ -161,11 +161,21 @@ FN real3 normal_of(IN(Motion) m, int first, IN(real3) between) {
   return dot(normal, between) < real(0) ? -normal : normal;
 }
 
-// Do the triangles stay apart? Most pairs are apart on a normal: 99 % of those near each other at 0.05 edges a step, and 82 % at 1 edge.
+// From the second triangle to the first, at the start.
+FN real3 way_between(IN(Motion) m) {
+  return ((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]);
+}
+
+// Whether a normal of one of the triangles proves it. Of most pairs it does: of 99 % of those near each other at 0.05 edges a step, and of
+// 82 % at 1 edge.
+FN bool a_normal_proves(IN(Motion) m) {
+  real3 between = way_between(m);
+  return stays_above(normal_of(m, 0, between), m) || stays_above(normal_of(m, 3, between), m);
+}
+
+// Do the triangles stay apart?
 FN bool stays_apart(IN(Motion) m, bool share_a_corner) {
-  real3 axis = ((m.start[0] + m.start[1]) + m.start[2]) - ((m.start[3] + m.start[4]) + m.start[5]);
-  if (!share_a_corner && (stays_above(normal_of(m, 0, axis), m) || stays_above(normal_of(m, 3, axis), m))) return true;
-  return has_axis(m, axis, share_a_corner);
+  return (!share_a_corner && a_normal_proves(m)) || has_axis(m, way_between(m), share_a_corner);
 }
 FN bool stays_apart(IN(Motion) m) { return stays_apart(m, false); }
 
