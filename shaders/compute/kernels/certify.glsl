@@ -1,5 +1,5 @@
-// A kernel in rounds and stages. One thread proves that two triangles of different bodies stay apart while their corners move, or cuts these
-// motions short. In a heap the ways of a third of the pairs overlap, and a normal proves all but a twelfth of these apart.
+// A kernel in rounds and stages. One thread proves that two triangles of different bodies stay apart while their corners move, or cuts
+// these motions short. In a heap the ways of a third of the pairs overlap, and a normal proves all but a twelfth of these apart.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"

@@ -19,8 +19,8 @@ void store_surplus(uint i, uint k, IN(Surplus) known) {
   if (share_of_lead != double(0)) surplus[surplus_lead_of(vertex_count, i) + k] = real(known.lead);
 }
 
-// Returns what is kept after a step in which velocities grew so from its start to its mean, and from that to its end [m/s]. `before` is what
-// was kept. The result is rounded as it is stored, since quiet steps and others have to go on from the same bits.
+// Returns what is kept after a step in which velocities grew so from its start to its mean, and from that to its end [m/s]. `before` is
+// what was kept. The result is rounded as it is stored, since quiet steps and others have to go on from the same bits.
 Surplus kept_surplus_after(IN(Surplus) before, double gained_at_start, double gained_at_end, double time_step) {
   Surplus known = surplus_after(gained_at_start, gained_at_end, before, time_step, share_of_end, share_of_lead);
   known.expected = double(real(known.expected));
