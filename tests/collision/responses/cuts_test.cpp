@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "bench/contact/apart.hpp"
 #include "bench/contact/meeting.hpp"
 #include "support/device_bench.hpp"
 #include "support/pocket.hpp"
@@ -43,6 +44,41 @@ TEST_CASE("motions that are cut short add no energy, and what does not move tell
       CHECK(seen.most < 1.001 * seen.first);
       CHECK(glm::length(seen.momentum) < (precision == 64 ? 1e-11 : 1e-4));
     }
+  }
+}
+
+// Two balls that meet where they have many triangles, so that proofs of pairs wait for each other in several turns of a work
+// group.
+ModelAndState balls_that_meet() {
+  std::vector<BodySetup> setups;
+  for (const double side : {-1.0, 1.0}) {
+    setups.push_back(soft(generate_mesh("icosphere:3"), side < 0 ? "left" : "right"));
+    setups.back().description.position = {1.01 * side, 0, 0};
+    setups.back().description.velocity = {-2 * side, 0, 0};
+    setups.back().description.stretch = {1, 1.1, 1.1};
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+TEST_CASE("proofs cut motions short that contacts do not answer, on every device", "[gl]") {
+  const ModelAndState start = balls_that_meet();
+  const bench::ApartOracle oracle(start.model);
+  for (TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Bench run(std::move(test.device), start, {"verlet", 0.01}, {.response = {"impulse"}});
+    run.begin();
+    std::uint32_t most_pairs = 0;
+    for (std::uint32_t step = 0; step < 12; ++step) {
+      for (const Pass& pass : run.step(step & 1)) {
+        if (pass.name != "find_contacts") run.device->run({&pass, 1});
+        if (pass.name == "certify")
+          most_pairs = std::max(
+              most_pairs, run.bodies.arrays.get<physics::ContactList>("contact_list").download().front().triangle_pair_count);
+      }
+      CHECK(oracle.pairs_not_apart(run.bodies.download(1 - (step & 1)).world_positions(start.model)) == 0);
+    }
+    CHECK(most_pairs > 1000);
+    CHECK(run.bodies.control.download().front().total_low[physics::reverted_vertices] > 20);
   }
 }
 
