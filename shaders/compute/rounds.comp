@@ -10,9 +10,9 @@
 // A group has 128 threads, because 64 took longer. Of a kernel that takes much memory a GPU runs fewer groups at once. In a rehearsal groups do
 // nothing but wait for each other, by which a device finds how many of them run at once.
 //
-// A kernel may define STAGES, of which most items need only the first. is_left_after(s, item, round) runs stage s of an item, and returns
-// whether the item needs the next one. Items that do wait until there is one for each thread of the group. A thread that has the next stage
-// to run would hold up those beside it that have not.
+// A kernel may define SIEVES. needs_more(k, item, round) has an item go through sieve k, and returns whether it needs the next one. Such
+// items wait in shared memory. When as many wait as the group has threads, each thread takes one. So no thread idles beside one that has
+// more to do. The kernel's function, with all sieves in turn, is then for the CPU alone, and nothing can count on has_own_thread.
 //
 // A kernel may define NEAR_ROUNDS, and with it GROUP_SIZE and far_threads:
 // - One group serves up to near_items items. begin_near() then sets sums_are_near if threads share only the group's own memory, in all
@@ -79,38 +79,42 @@ uint threads_of_a_group(uint count) {
   return clamp((for_one_item + 31u) / 32u * 32u, far_threads, GROUP_SIZE);
 }
 
-#ifdef STAGES
-const uint waiting_room = STAGES * GROUP_SIZE;  // for a stage: those that were too few, and those of up to two groups of threads
-shared uint waiting[(STAGES - 1u) * waiting_room];
-shared uint waiting_count[STAGES - 1u];
+#ifdef SIEVES
+#ifdef NEAR_ROUNDS
+#error an item of several sieves goes from thread to thread
+#endif
+// Fewer than GROUP_SIZE wait for sieve k + 1 when a group takes items anew. Until they are taken, (k + 1) GROUP_SIZE more may come.
+const uint waiting_room = SIEVES * GROUP_SIZE;
+shared uint waiting[(SIEVES - 1u) * waiting_room];
+shared uint waiting_count[SIEVES - 1u];
 
-void run_stage(uint stage, uint item, uint number) {
-  if (!is_left_after(stage, item, number) || stage + 1u == STAGES) return;
-  waiting[stage * waiting_room + atomicAdd(waiting_count[stage], 1u)] = item;
+void pass_through(uint sieve, uint item, uint number) {
+  if (!needs_more(sieve, item, number) || sieve + 1u == SIEVES) return;
+  waiting[sieve * waiting_room + atomicAdd(waiting_count[sieve], 1u)] = item;
 }
 
 // Each thread has an item, but for those whose turn is past the end.
-void run_stages(uint turn, uint count, bool no_more_come, uint number) {
+void pass_all_through(uint turn, uint count, bool no_more_come, uint number) {
   uint thread = gl_LocalInvocationID.x;
-  barrier();
-  if (turn < count) run_stage(0u, item_at(turn, count), number);
-  for (uint stage = 1u; stage < STAGES; ++stage) {
+  barrier();  // behind what emptied the lists, and what read the last one
+  if (turn < count) pass_through(0u, item_at(turn, count), number);
+  for (uint sieve = 1u; sieve < SIEVES; ++sieve) {
     barrier();
-    uint left = waiting_count[stage - 1u];
+    uint left = waiting_count[sieve - 1u];
     barrier();
     while (left >= GROUP_SIZE || (no_more_come && left > 0u)) {
       uint taken = min(left, GROUP_SIZE);
       left -= taken;
-      if (thread < taken) run_stage(stage, waiting[(stage - 1u) * waiting_room + left + thread], number);
+      if (thread < taken) pass_through(sieve, waiting[(sieve - 1u) * waiting_room + left + thread], number);
     }
-    if (thread == 0u) waiting_count[stage - 1u] = left;
+    if (thread == 0u) waiting_count[sieve - 1u] = left;
   }
 }
 
 void run_round(uint groups, uint threads, uint count, uint number) {
-  if (gl_LocalInvocationID.x < STAGES - 1u) waiting_count[gl_LocalInvocationID.x] = 0u;
+  if (gl_LocalInvocationID.x < SIEVES - 1u) waiting_count[gl_LocalInvocationID.x] = 0u;
   for (uint first = gl_WorkGroupID.x * threads; first < count; first += groups * threads)
-    run_stages(first + gl_LocalInvocationID.x, count, first + groups * threads >= count, number);
+    pass_all_through(first + gl_LocalInvocationID.x, count, first + groups * threads >= count, number);
 }
 #else
 void run_round(uint groups, uint threads, uint count, uint number) {

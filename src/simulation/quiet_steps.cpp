@@ -16,14 +16,13 @@ bool have_one_share_each(const DeviceBodies& bodies) { return bodies.force_group
 // If bodies have several shares, each work group has one at most. And of bodies that may meet each is compared with all.
 std::uint32_t most_moving_shares(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
   return std::min(have_one_share_each(bodies) ? any_number : stepper.quiet_group_count(),
-                  may_meet(collider) ? physics::most_quiet_bodies : any_number);
+                  may_meet(collider) ? physics::most_quiet_shares : any_number);
 }
 
-// Where bodies can't meet, any number of them may move. A work group that serves many shares then makes fewer steps, so that a
-// dispatch takes no longer.
+// A work group that may have to serve several shares makes fewer steps, so that a dispatch takes no longer.
 std::uint32_t most_of_groups_that_wait(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
-  if (may_meet(collider) || !have_one_share_each(bodies)) return physics::most_quiet_steps;
-  const auto shares = static_cast<std::uint32_t>(bodies.shares.size());
+  const std::uint32_t shares =
+      std::min(static_cast<std::uint32_t>(bodies.shares.size()), most_moving_shares(bodies, stepper, collider));
   const std::uint32_t shares_of_a_group = (shares - 1) / stepper.quiet_group_count() + 1;
   return std::max(physics::most_quiet_steps / shares_of_a_group, physics::fewest_quiet_steps);
 }

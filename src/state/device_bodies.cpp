@@ -96,6 +96,13 @@ std::uint32_t moving_vertices_of(const Model& model, const std::vector<bool>& mo
   return count;
 }
 
+std::uint32_t soft_vertices_of(const Model& model) {
+  std::uint32_t count = 0;
+  for (const ModelBody& body : model.bodies)
+    if (!body.is_rigid()) count += body.vertex_count;
+  return count;
+}
+
 std::uint32_t largest_soft_body_of(const Model& model) {
   std::uint32_t largest = 1;
   for (const ModelBody& body : model.bodies)
@@ -104,8 +111,8 @@ std::uint32_t largest_soft_body_of(const Model& model) {
 }
 
 // Running all stages at once saves more than the best lanes do, where dispatches take time. Then all bodies have one variant. The
-// same holds for quiet steps of the bodies that move, while others rest. Otherwise a stage starts work groups for all bodies, of
-// which those at rest end at once, so all vertices count.
+// same holds for quiet steps of the bodies that move, while others rest. Otherwise a stage starts work groups for all soft
+// bodies, of which those at rest end at once, so the vertices of all count.
 std::vector<std::size_t> best_force_variants(const Device& device, const Model& model, const std::vector<bool>& moving) {
   const std::uint32_t largest = largest_soft_body_of(model);
   const std::size_t fastest = device.best_force_variant(moving_vertices_of(model, moving), largest);
@@ -117,8 +124,8 @@ std::vector<std::size_t> best_force_variants(const Device& device, const Model& 
       if (groups.size() == 1 && groups[0].*in_one_dispatch) return same;
     }
   std::vector<std::size_t> variants;
-  for (const ModelBody& body : model.bodies)
-    variants.push_back(device.best_force_variant(model.vertex_count(), body.vertex_count));
+  const std::uint32_t soft_vertices = soft_vertices_of(model);
+  for (const ModelBody& body : model.bodies) variants.push_back(device.best_force_variant(soft_vertices, body.vertex_count));
   return variants;
 }
 

@@ -204,6 +204,18 @@ TEST_CASE("bodies that several work groups serve make quiet steps", "[gl]") {
     }
 }
 
+TEST_CASE("quiet steps go on in further dispatches, with the same bits", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  if (device->shares_at_once() == 0) return test::skip("groups of this device do not wait for each other");
+  BodySetup ball = ball_of("icosphere:1", {0, 0, 0});
+  ball.description.stretch = {1.1, 0.95, 1};
+  Runs runs(*device, build_model(std::vector{ball}, glm::dvec3(0.0)), {"verlet", 0.001}, false);
+  runs.advance(2 * physics::most_quiet_steps + 100);
+  runs.check();
+  CHECK(runs.quiet.report().quiet_steps > 2 * physics::most_quiet_steps);
+}
+
 // Of bodies that several work groups serve, some move among others at rest. While those that move have a group for each share,
 // steps are quiet. The first one flies at a row of others, so that ever more of them move.
 TEST_CASE("a large body that moves among many at rest makes quiet steps, until more move than there are groups for", "[gl]") {

@@ -1,5 +1,5 @@
-// A kernel in rounds and stages. One thread proves that two triangles of different bodies stay apart while their corners move, or cuts
-// these motions short. In a heap the ways of a third of the pairs overlap, and a normal proves all but a twelfth of these apart.
+// A kernel in rounds, and with sieves. It proves that two triangles of different bodies stay apart while their corners move, or cuts these
+// motions short. In a heap the ways of a third of the pairs overlap, and a normal proves all but a twelfth of these apart.
 #include "../physics/body.glsl"
 #include "../physics/control.glsl"
 #include "../physics/layout.glsl"
@@ -8,7 +8,7 @@
 #include "../physics/contact/separation.glsl"
 #include "../physics/contact/surface.glsl"
 #include "parts/certify_pairs.glsl"
-#define STAGES 3u
+#define SIEVES 3u
 
 // If the list of pairs is full, no body moves.
 uint items_in_a_round() {
@@ -16,24 +16,36 @@ uint items_in_a_round() {
   return count <= triangle_pair_capacity ? count : 0u;
 }
 
-bool is_left_after(uint stage, uint item, uint cut_round) {
+// Whether a pair that the first sieve left needs more than a normal. If nothing of it has changed since the round before, it does not.
+bool needs_an_axis(IN_ARRAY(uint, who, 6), uint cut_round) {
+  if (!any_has_changed(who, cut_round)) return false;
+  Case c = case_of(who, cut_round);
+  return !need_no_axis(c, cut_round) && !a_normal_proves(motion_to_prove(c, cut_round));
+}
+
+void look_for_axis(IN_ARRAY(uint, who, 6), uint cut_round) {
+  Case c = case_of(who, cut_round);
+  Motion m = motion_to_prove(c, cut_round);
+  if (!has_axis(m, way_to_first(m), false)) end_unproven(c, cut_round);
+}
+
+// Has a pair go through a sieve, and returns whether it needs the next one. No answer changes within a round, so that it does not matter
+// which pairs have gone through before.
+bool needs_more(uint sieve, uint item, uint cut_round) {
   uvec2 triangles = listed_triangles(item);
-  if (stage == 0u) return ways_overlap(triangles);
+  if (sieve == 0u) return ways_overlap(triangles);
   uint who[6];
   for (uint k = 0u; k < 3u; ++k) {
     who[k] = triangle[corner_of(triangles.x, k)];
     who[3u + k] = triangle[corner_of(triangles.y, k)];
   }
-  if (stage == 1u && !any_has_changed(who, cut_round)) return false;
-  Case c = case_of(who, cut_round);
-  Motion m = motion_to_prove(c, cut_round);
-  if (stage == 1u) return !need_no_axis(c, cut_round) && !a_normal_proves(m);
-  if (!has_axis(m, way_between(m), false)) end_unproven(c, cut_round);
+  if (sieve == 1u) return needs_an_axis(who, cut_round);
+  look_for_axis(who, cut_round);
   return false;
 }
 
-// All of an item's stages, where threads do not wait for each other.
+// For the CPU.
 void certify(uint item, uint cut_round) {
-  for (uint stage = 0u; stage < STAGES && is_left_after(stage, item, cut_round); ++stage) {
+  for (uint sieve = 0u; sieve < SIEVES && needs_more(sieve, item, cut_round); ++sieve) {
   }
 }

@@ -50,7 +50,7 @@ FN uint steps_made(IN(QuietSteps) s) { return s.begun == 0u ? 0u : s.end < s.und
 // A dispatch makes so many steps at most. Bounds are tried for as many first, then for half as many, and so on.
 const uint most_quiet_steps = 1024u;
 const uint fewest_quiet_steps = 2u;
-const uint most_quiet_bodies = 1024u;  // that move where bodies may meet, in shares: each is compared with all. More take too long
+const uint most_quiet_shares = 1024u;  // of bodies that move, where bodies may meet: each is compared with all
 const uint has_news = 1u << 30;  // in arrivals: `end` or `undone` has changed
 
 SHARED_END

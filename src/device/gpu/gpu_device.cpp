@@ -48,14 +48,16 @@ struct Lanes {
 // The second is for small bodies as long as each has a multiprocessor to itself, and waits for no other group.
 // The fourth is only for all stages at once, where every group has a multiprocessor to itself.
 // The fifth has a thread for each vertex of small bodies, where many lanes mostly idle.
+// The seventh has the same for larger ones, whose lanes would have a few springs each. It is only for many of them.
 constexpr std::uint32_t any_number = 0xffffffffu;
 constexpr Lanes lane_choices[] = {
     {1, 4, 64, 2, 2, 64, 0, 0},
     {8, 1, 48, 3, 6, 48, 6000, 48},
     {64, 1, 10, 4, 4, 768, 2600, any_number},
     {64, 2, 10, 4, 8, 512, 0, 0},
-    {1, 1, 64, 2, 2, 64, any_number, 256},
+    {1, 1, 64, 2, 2, 64, any_number, 64},
     {32, 2, 20, 4, 20, 640, 8000, any_number},
+    {1, 1, 64, 2, 2, 0, any_number, 256},
     {64, 4, 8, 3, 18, 0, any_number, any_number},
 };
 

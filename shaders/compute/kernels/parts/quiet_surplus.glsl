@@ -3,8 +3,7 @@
 
 shared Surplus found_surplus[3 * VERTICES * TEAMS];  // after this step, of the share's coordinates, along axes of the world
 
-// How a vertex went in this step, in the body's frame [m, m/s]. All of it is fetched at once: other groups may write it, so nothing that
-// was fetched before is at hand.
+// How a vertex went in this step, in the body's frame [m, m/s]. Other groups may write these arrays, so each look at them fetches anew.
 struct Gone {
   dvec3 way;
   dvec3 at_start;
