@@ -245,7 +245,7 @@ class BodyReader {
     const std::optional<glm::uvec3> found = place_in(key);
     if (!found || found->x >= count.x || found->y >= count.y || found->z >= count.z)
       fail(node, place, fmt::format("is none of the bodies, which go from [0,0,0] to {}", key_of_place(count - 1u)),
-           "write the place of one of them, as in \"[0,0,0]\"");
+           "write the place of one of them without spaces, as in \"[0,0,0]\"");
     if (!node.is_table())
       fail(node, place, fmt::format("is {}", type_name(node)), "write a table, as in { velocity = [1, 0, 0] }");
     for (const char* of_rows : {"name", "count", "spacing"})

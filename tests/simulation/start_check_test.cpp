@@ -98,6 +98,13 @@ TEST_CASE("bodies far from the origin that intersect by less than floats tell th
   }
 }
 
+TEST_CASE("bodies in rows that intersect are told to have a larger spacing, and others are not") {
+  const std::string rows = "[[body]]\nname = \"row\"\nmesh = \"icosphere:2\"\ncount = [2, 1, 1]\nspacing = [1.5, 0, 0]\n";
+  check_says(error_of([&] { Start(rows).check(); }), {"\"row[0,0,0]\" and \"row[1,0,0]\"", "give their rows a larger spacing"});
+  const Error of_others = error_of([&] { Start(ball + "[[body]]\nmesh = \"icosphere:2\"\nposition = [1.5, 0, 0]\n").check(); });
+  CHECK_THAT(std::string(of_others.what()), !Catch::Contains("spacing"));
+}
+
 // A second ball beside the first one, so many gaps from it. A corner of each is nearest to the other.
 std::string beside(double gaps) {
   return ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n",
