@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/triangle_mesh.hpp"
@@ -52,6 +53,8 @@ struct ModelBody {
   glm::dvec3 color{1.0};  // linear RGB
   std::optional<BodyPath> path = {};  // of a scripted body
 
+  /// Returns the name of the rows that the body is in, without its place in them. Of another body it is the body's own.
+  [[nodiscard]] std::string_view name_of_rows() const { return std::string_view(name).substr(0, name.rfind('[')); }
   /// Whether it keeps its shape and takes no impulses, as static and scripted bodies do. It has no springs.
   [[nodiscard]] bool is_rigid() const { return kind != BodyKind::soft; }
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are

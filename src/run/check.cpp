@@ -70,10 +70,9 @@ std::string time_of_steps(const Estimate& estimate) {
 
 // Bodies in rows that have equally many vertices and triangles share a line.
 void show_bodies(std::span<const ModelBody> bodies) {
-  const auto of_rows = [](const ModelBody& body) { return std::string_view(body.name).substr(0, body.name.rfind('[')); };
   for (auto first = bodies.begin(); first != bodies.end();) {
     const auto next = std::find_if(first, bodies.end(), [&](const ModelBody& body) {
-      return of_rows(body) != of_rows(*first) || body.vertex_count != first->vertex_count ||
+      return body.name_of_rows() != first->name_of_rows() || body.vertex_count != first->vertex_count ||
              body.triangle_count != first->triangle_count;
     });
     const auto count = next - first;

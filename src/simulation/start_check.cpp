@@ -102,12 +102,6 @@ std::string described(const Model& model, const Overlap& overlap, int precision)
                            : fmt::format("{} intersect, with no vertex of one inside the other", names);
 }
 
-// Bodies in rows have the rows' name and a place.
-bool are_of_one_row(const std::string& a, const std::string& b) {
-  const std::size_t place = a.find('[');
-  return place != std::string::npos && a.compare(0, place + 1, b, 0, place + 1) == 0;
-}
-
 std::string way_apart(const Model& model, const Overlap& overlap, int precision) {
   const bool moves_first = model.bodies[overlap.second].is_rigid();
   const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
@@ -116,7 +110,7 @@ std::string way_apart(const Model& model, const Overlap& overlap, int precision)
   const char* other_way = overlap.distance > 0 && precision == 32 ? "take --precision 64"
                           : may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
                                         : "give one of them a smaller scale";
-  const bool in_rows = are_of_one_row(model.bodies[overlap.first].name, model.bodies[overlap.second].name);
+  const bool in_rows = model.bodies[overlap.first].name_of_rows() == model.bodies[overlap.second].name_of_rows();
   return fmt::format("{}move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}",
                      in_rows ? "give their rows a larger spacing, " : "", body.name, way.x, way.y, way.z, other_way);
 }

@@ -89,18 +89,17 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
   return shares;
 }
 
-std::uint32_t moving_vertices_of(const Model& model, const std::vector<bool>& moving) {
+std::uint32_t vertices_of(const Model& model, const std::vector<bool>& counted) {
   std::uint32_t count = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (moving[b]) count += model.bodies[b].vertex_count;
+    if (counted[b]) count += model.bodies[b].vertex_count;
   return count;
 }
 
-std::uint32_t soft_vertices_of(const Model& model) {
-  std::uint32_t count = 0;
-  for (const ModelBody& body : model.bodies)
-    if (!body.is_rigid()) count += body.vertex_count;
-  return count;
+std::vector<bool> soft_bodies(const Model& model) {
+  std::vector<bool> soft;
+  for (const ModelBody& body : model.bodies) soft.push_back(!body.is_rigid());
+  return soft;
 }
 
 std::uint32_t largest_soft_body_of(const Model& model) {
@@ -115,7 +114,7 @@ std::uint32_t largest_soft_body_of(const Model& model) {
 // bodies, of which those at rest end at once, so the vertices of all count.
 std::vector<std::size_t> best_force_variants(const Device& device, const Model& model, const std::vector<bool>& moving) {
   const std::uint32_t largest = largest_soft_body_of(model);
-  const std::size_t fastest = device.best_force_variant(moving_vertices_of(model, moving), largest);
+  const std::size_t fastest = device.best_force_variant(vertices_of(model, moving), largest);
   for (bool ForceGroup::*in_one_dispatch : {&ForceGroup::all_stages, &ForceGroup::quiet_steps})
     for (std::size_t variant = fastest; variant < device.force_variants().size(); ++variant) {
       if (largest > device.force_variants()[variant].largest_body) continue;
@@ -124,7 +123,7 @@ std::vector<std::size_t> best_force_variants(const Device& device, const Model& 
       if (groups.size() == 1 && groups[0].*in_one_dispatch) return same;
     }
   std::vector<std::size_t> variants;
-  const std::uint32_t soft_vertices = soft_vertices_of(model);
+  const std::uint32_t soft_vertices = vertices_of(model, soft_bodies(model));
   for (const ModelBody& body : model.bodies) variants.push_back(device.best_force_variant(soft_vertices, body.vertex_count));
   return variants;
 }
