@@ -35,8 +35,8 @@ struct Lanes {
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
                           // memory has room for, in multiples that keep the order of additions
-  std::uint32_t most_vertices;          // of all that move, up to which this is the fastest
-  std::uint32_t most_vertices_of_body;  // beyond, another one is faster
+  std::uint32_t most_vertices;                                   // of all that move, up to which this is the fastest
+  std::uint32_t fewest_vertices_of_body, most_vertices_of_body;  // for others, another one is faster
 
   std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
   std::uint32_t threads() const { return lanes * teams + keepers(); }
@@ -47,18 +47,17 @@ struct Lanes {
 // - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
 // The second is for small bodies as long as each has a multiprocessor to itself, and waits for no other group.
 // The fourth is only for all stages at once, where every group has a multiprocessor to itself.
-// The fifth has a thread for each vertex of small bodies, where many lanes mostly idle.
-// The seventh has the same for larger ones, whose lanes would have a few springs each. It is only for many of them.
+// The sixth has a thread for each vertex of small bodies, where many lanes mostly idle. With many vertices larger bodies do best
+// by it, too, in one dispatch with smaller ones.
 constexpr std::uint32_t any_number = 0xffffffffu;
 constexpr Lanes lane_choices[] = {
-    {1, 4, 64, 2, 2, 64, 0, 0},
-    {8, 1, 48, 3, 6, 48, 6000, 48},
-    {64, 1, 10, 4, 4, 768, 2600, any_number},
-    {64, 2, 10, 4, 8, 512, 0, 0},
-    {1, 1, 64, 2, 2, 64, any_number, 64},
-    {32, 2, 20, 4, 20, 640, 8000, any_number},
-    {1, 1, 64, 2, 2, 0, any_number, 256},
-    {64, 4, 8, 3, 18, 0, any_number, any_number},
+    {1, 4, 64, 2, 2, 64, 0, 0, 0},
+    {8, 1, 48, 3, 6, 48, 6000, 1, 48},
+    {64, 1, 10, 4, 4, 768, 2600, 1, any_number},
+    {64, 2, 10, 4, 8, 512, 0, 0, 0},
+    {32, 2, 20, 4, 20, 640, 8000, 65, any_number},
+    {1, 1, 64, 2, 2, 64, any_number, 1, 256},
+    {64, 4, 8, 3, 18, 0, any_number, 1, any_number},
 };
 
 class GpuDevice final : public Device {
@@ -189,7 +188,8 @@ class GpuDevice final : public Device {
   std::size_t best_force_variant(std::uint32_t moving_vertices, std::uint32_t vertices_of_body) const override {
     if (context_.adapter().is_software) return 0;
     const auto fits = [&](const Lanes& lanes) {
-      return moving_vertices <= lanes.most_vertices && vertices_of_body <= lanes.most_vertices_of_body;
+      return moving_vertices <= lanes.most_vertices && vertices_of_body >= lanes.fewest_vertices_of_body &&
+             vertices_of_body <= lanes.most_vertices_of_body;
     };
     return static_cast<std::size_t>(std::ranges::find_if(lane_choices, fits) - std::begin(lane_choices));
   }
