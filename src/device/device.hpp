@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "device/force_variant.hpp"
+
 namespace pliant {
 
 using BufferId = std::uint32_t;  // 0: none
@@ -56,15 +58,6 @@ struct Pass {
   KernelCall call;
   std::uint32_t item_count = 0;
   bool beside_next = false;  // the next pass need not wait for this one: neither writes what the other uses, but by atomics
-};
-
-/// One way of summing springs that a device knows: its name says how.
-struct ForceVariant {
-  std::string name;
-  std::uint32_t share_size = 0;              // vertices that one item of a force kernel serves, at most
-  bool all_stages = false;                   // whether its kernels can run every stage of a step in one dispatch
-  std::uint32_t quiet_groups = 0;            // work groups that make quiet steps together, at most; 0: it makes none
-  std::uint32_t largest_body = 0xffffffffu;  // in vertices: beyond, others are always faster
 };
 
 /// What one dispatch of a force kernel makes.
@@ -131,8 +124,6 @@ class Device {
   /// known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
-  /// Returns the variant that is fastest for a body of so many vertices, if so many vertices move in all.
-  [[nodiscard]] virtual std::size_t best_force_variant(std::uint32_t moving_vertices, std::uint32_t vertices_of_body) const = 0;
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

@@ -23,8 +23,6 @@ std::vector<physics::Body> bodies_of(const Model& model, double strain_bias) {
   return bodies;
 }
 
-std::uint32_t share_count(std::uint32_t vertex_count, std::uint32_t share_size) { return (vertex_count - 1) / share_size + 1; }
-
 // Whether the body moves from the start, whatever touches it later. An undeformed one has one displacement.
 bool moves(const Model& model, const State& state, std::size_t b) {
   const ModelBody& body = model.bodies[b];
@@ -36,37 +34,14 @@ bool moves(const Model& model, const State& state, std::size_t b) {
   return false;
 }
 
-std::vector<bool> moving_bodies(const Model& model, const State& state) {
-  std::vector<bool> moving;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) moving.push_back(moves(model, state, b));
-  return moving;
+std::vector<BodyToShare> bodies_to_share(const Model& model, const State& state) {
+  std::vector<BodyToShare> bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    bodies.push_back({model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), moves(model, state, b)});
+  return bodies;
 }
 
-// Groups have the order of variants. Bodies of several shares wait for each other between stages, so that all shares have to run
-// at once, and nothing beside them. In quiet steps only those of bodies that move have to.
-std::vector<ForceGroup> groups_of(const Device& device, const Model& model, const std::vector<bool>& moving,
-                                  const std::vector<std::size_t>& variants) {
-  std::vector<ForceGroup> groups;
-  std::uint32_t first_share = 0;
-  for (std::size_t variant = 0; variant < device.force_variants().size(); ++variant) {
-    const ForceVariant& lanes = device.force_variants()[variant];
-    std::uint32_t count = 0, most_of_body = 0, of_moving_bodies = 0;
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      if (model.bodies[b].is_rigid() || variants[b] != variant) continue;
-      const std::uint32_t of_body = share_count(model.bodies[b].vertex_count, lanes.share_size);
-      count += of_body;
-      most_of_body = std::max(most_of_body, of_body);
-      if (moving[b]) of_moving_bodies += of_body;
-    }
-    const bool are_whole = most_of_body == 1;
-    const bool is_quiet = are_whole ? lanes.quiet_groups > 0 : std::max(most_of_body, of_moving_bodies) <= lanes.quiet_groups;
-    if (count > 0) groups.push_back({variant, first_share, count, lanes.all_stages && are_whole, are_whole, is_quiet});
-    first_share += count;
-  }
-  if (groups.size() == 1 && groups[0].share_count <= device.shares_at_once())
-    groups[0].all_stages = device.force_variants()[groups[0].variant].all_stages;
-  return groups;
-}
+ForceAbilities abilities_of(const Device& device) { return {device.force_variants(), device.shares_at_once()}; }
 
 void add_shares(const Model& model, std::uint32_t b, std::uint32_t share_size, double strain_bias,
                 std::vector<physics::Share>& shares) {
@@ -87,45 +62,6 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
       if (!model.bodies[b].is_rigid() && variants[b] == group.variant)
         add_shares(model, b, device.force_variants()[group.variant].share_size, device.strain_bias(), shares);
   return shares;
-}
-
-std::uint32_t vertices_of(const Model& model, const std::vector<bool>& counted) {
-  std::uint32_t count = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (counted[b]) count += model.bodies[b].vertex_count;
-  return count;
-}
-
-std::vector<bool> soft_bodies(const Model& model) {
-  std::vector<bool> soft;
-  for (const ModelBody& body : model.bodies) soft.push_back(!body.is_rigid());
-  return soft;
-}
-
-std::uint32_t largest_soft_body_of(const Model& model) {
-  std::uint32_t largest = 1;
-  for (const ModelBody& body : model.bodies)
-    if (!body.is_rigid()) largest = std::max(largest, body.vertex_count);
-  return largest;
-}
-
-// Running all stages at once saves more than the best lanes do, where dispatches take time. Then all bodies have one variant. The
-// same holds for quiet steps of the bodies that move, while others rest. Otherwise a stage starts work groups for all soft
-// bodies, of which those at rest end at once, so the vertices of all count.
-std::vector<std::size_t> best_force_variants(const Device& device, const Model& model, const std::vector<bool>& moving) {
-  const std::uint32_t largest = largest_soft_body_of(model);
-  const std::size_t fastest = device.best_force_variant(vertices_of(model, moving), largest);
-  for (bool ForceGroup::*in_one_dispatch : {&ForceGroup::all_stages, &ForceGroup::quiet_steps})
-    for (std::size_t variant = fastest; variant < device.force_variants().size(); ++variant) {
-      if (largest > device.force_variants()[variant].largest_body) continue;
-      std::vector<std::size_t> same(model.bodies.size(), variant);
-      const std::vector<ForceGroup> groups = groups_of(device, model, moving, same);
-      if (groups.size() == 1 && groups[0].*in_one_dispatch) return same;
-    }
-  std::vector<std::size_t> variants;
-  const std::uint32_t soft_vertices = vertices_of(model, soft_bodies(model));
-  for (const ModelBody& body : model.bodies) variants.push_back(device.best_force_variant(soft_vertices, body.vertex_count));
-  return variants;
 }
 
 std::vector<glm::vec4> rounded_world_positions(const Model& model, const State& state) {
@@ -179,7 +115,7 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, best_force_variants(device, model, moving_bodies(model, state))) {}
+    : DeviceBodies(device, model, state, best_force_variants(abilities_of(device), bodies_to_share(model, state))) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
     : DeviceBodies(device, model, state, std::vector(model.bodies.size(), force_variant)) {}
@@ -187,7 +123,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants)
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
-      force_groups(groups_of(device, model, moving_bodies(model, state), force_variants)),
+      force_groups(pliant::force_groups(abilities_of(device), bodies_to_share(model, state), force_variants)),
       arrays(device),
       shares(arrays.make("share", shares_of(device, model, force_variants, force_groups))),
       poses(arrays.make("pose", state.poses)),

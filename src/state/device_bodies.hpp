@@ -9,17 +9,9 @@
 #include "physics/control.glsl"
 #include "physics/layout.glsl"
 #include "state/arrays.hpp"
+#include "state/force_groups.hpp"
 
 namespace pliant {
-
-/// The shares of the bodies that one variant of the force kernels serves.
-struct ForceGroup {
-  std::size_t variant;
-  std::uint32_t first_share, share_count;
-  bool all_stages;        // whether one dispatch can run all stages of a step
-  bool has_whole_bodies;  // whether each body is one share
-  bool quiet_steps;       // whether one dispatch can run quiet steps of the bodies that move from the start
-};
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
 struct DeviceBodies {

@@ -85,6 +85,7 @@ class CpuDevice final : public Device {
       else
         sums_32_.emplace_back(isa);
     }
+    variants_.back().most_vertices = ForceVariant::any_number;
     for (const cpu::KernelEntry& entry : kernels_) signatures_.push_back(entry.signature());
     info_ = {.kind = DeviceKind::cpu, .name = cpu::device_name(), .threads = pool_.size()};
   }
@@ -138,7 +139,6 @@ class CpuDevice final : public Device {
   const KernelSignature& signature(KernelId kernel) const override { return signatures_[kernel % kernels_.size()]; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
   std::uint32_t shares_at_once() const override { return 0; }
-  std::size_t best_force_variant(std::uint32_t, std::uint32_t) const override { return variants_.size() - 1; }
 
   double strain_bias() override { return 0; }
 

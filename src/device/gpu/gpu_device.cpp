@@ -11,6 +11,7 @@
 #include "core/expect.hpp"
 #include "device/buffer_part.hpp"
 #include "device/gpu/kernel_source.hpp"
+#include "device/gpu/lanes.hpp"
 #include "device/gpu/strain_bias.hpp"
 #include "device/kernel_pack.hpp"
 #include "gl/objects.hpp"
@@ -29,37 +30,6 @@ struct Caller {
 constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/groups.comp", true},
                  force_caller = {"compute/force.comp", true}, round_caller = {"compute/rounds.comp", true};
 
-// How force.comp cuts its work.
-struct Lanes {
-  std::uint32_t lanes, vertices, teams, unroll;
-  std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
-  std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
-                          // memory has room for, in multiples that keep the order of additions
-  std::uint32_t most_vertices;                                   // of all that move, up to which this is the fastest
-  std::uint32_t fewest_vertices_of_body, most_vertices_of_body;  // for others, another one is faster
-
-  std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
-  std::uint32_t threads() const { return lanes * teams + keepers(); }
-};
-// The first is for processors that run shaders. The others were measured on an H200:
-// - Few vertices need many lanes each.
-// - With many vertices, a lane serves several of them with what it loads.
-// - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
-// The second is for small bodies as long as each has a multiprocessor to itself, and waits for no other group.
-// The fourth is only for all stages at once, where every group has a multiprocessor to itself.
-// The sixth has a thread for each vertex of small bodies, where many lanes mostly idle. With many vertices larger bodies do best
-// by it, too, in one dispatch with smaller ones.
-constexpr std::uint32_t any_number = 0xffffffffu;
-constexpr Lanes lane_choices[] = {
-    {1, 4, 64, 2, 2, 64, 0, 0, 0},
-    {8, 1, 48, 3, 6, 48, 6000, 1, 48},
-    {64, 1, 10, 4, 4, 768, 2600, 1, any_number},
-    {64, 2, 10, 4, 8, 512, 0, 0, 0},
-    {32, 2, 20, 4, 20, 640, 8000, 65, any_number},
-    {1, 1, 64, 2, 2, 64, any_number, 1, 256},
-    {64, 4, 8, 3, 18, 0, any_number, 1, any_number},
-};
-
 class GpuDevice final : public Device {
  public:
   GpuDevice(std::unique_ptr<gl::Context> context, ItemOrder order) : GpuDevice(*context, order) {
@@ -73,11 +43,7 @@ class GpuDevice final : public Device {
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
     info_ = {.kind = DeviceKind::gpu, .name = adapter.renderer + ", " + adapter.version, .threads = 1};
-    for (const Lanes& choice : lane_choices)
-      variants_.push_back({fmt::format("{} x {} lanes, {} {}", choice.teams, choice.lanes, choice.vertices,
-                                       choice.vertices == 1 ? "vertex" : "vertices"),
-                           choice.teams * choice.vertices, choice.tile != 0, quiet_groups(choice),
-                           choice.most_vertices_of_body == 0 ? any_number : choice.most_vertices_of_body});
+    variants_ = gpu::force_variants(adapter.is_software, adapter.multiprocessors);
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -163,7 +129,7 @@ class GpuDevice final : public Device {
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(variant < variants_.size());
-    const Lanes& lanes = lane_choices[variant];
+    const gpu::Lanes& lanes = gpu::lane_choices()[variant];
     PLIANT_EXPECT(span == ForceSpan::stage || lanes.tile != 0);
     std::vector<gl::Define> defines = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
                                        {"LANES", std::to_string(lanes.lanes)},
@@ -185,14 +151,6 @@ class GpuDevice final : public Device {
   // shared memory it takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
-  std::size_t best_force_variant(std::uint32_t moving_vertices, std::uint32_t vertices_of_body) const override {
-    if (context_.adapter().is_software) return 0;
-    const auto fits = [&](const Lanes& lanes) {
-      return moving_vertices <= lanes.most_vertices && vertices_of_body >= lanes.fewest_vertices_of_body &&
-             vertices_of_body <= lanes.most_vertices_of_body;
-    };
-    return static_cast<std::size_t>(std::ranges::find_if(lane_choices, fits) - std::begin(lane_choices));
-  }
 
   double strain_bias() override {
     if (!strain_bias_) strain_bias_ = gpu::measure_strain_bias();
@@ -232,13 +190,6 @@ class GpuDevice final : public Device {
   }
 
  private:
-  // A multiprocessor runs one large group. Of small ones an H100 runs four on each, and not eight.
-  std::uint32_t quiet_groups(const Lanes& lanes) const {
-    if (lanes.tile == 0) return 0;
-    if (context_.adapter().is_software) return 1;
-    return context_.adapter().multiprocessors * std::max(256u / lanes.threads(), 1u);
-  }
-
   struct Kernel {
     std::string name;
     const Caller* caller;

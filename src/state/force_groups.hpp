@@ -1,0 +1,41 @@
+// Which force kernels serve which bodies, and which of these share a dispatch.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "device/force_variant.hpp"
+
+namespace pliant {
+
+/// The shares of the bodies that one variant of the force kernels serves.
+struct ForceGroup {
+  std::size_t variant;
+  std::uint32_t first_share, share_count;
+  bool all_stages;        // whether one dispatch can run all stages of a step
+  bool has_whole_bodies;  // whether each body is one share
+  bool quiet_steps;       // whether one dispatch can run quiet steps of the bodies that move from the start
+};
+
+/// What the choice has to know of a body.
+struct BodyToShare {
+  std::uint32_t vertex_count;
+  bool is_soft;  // others have no shares
+  bool moves;    // from the start, whatever touches it later
+};
+
+/// What it has to know of a device.
+struct ForceAbilities {
+  std::span<const ForceVariant> variants;
+  std::uint32_t shares_at_once;  // Device::shares_at_once()
+};
+
+/// Returns the groups of bodies that have these variants, in the order of variants.
+[[nodiscard]] std::vector<ForceGroup> force_groups(const ForceAbilities& device, std::span<const BodyToShare> bodies,
+                                                   std::span<const std::size_t> variants_of_bodies);
+
+/// Returns the best variant for each body.
+[[nodiscard]] std::vector<std::size_t> best_force_variants(const ForceAbilities& device, std::span<const BodyToShare> bodies);
+
+}  // namespace pliant
