@@ -34,8 +34,8 @@ bool moves(const Model& model, const State& state, std::size_t b) {
   return false;
 }
 
-std::vector<BodyToShare> bodies_to_share(const Model& model, const State& state) {
-  std::vector<BodyToShare> bodies;
+std::vector<ForceBody> force_bodies_of(const Model& model, const State& state) {
+  std::vector<ForceBody> bodies;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     bodies.push_back({model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), moves(model, state, b)});
   return bodies;
@@ -115,7 +115,7 @@ physics::Control first_control() {
 }  // namespace
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state)
-    : DeviceBodies(device, model, state, best_force_variants(abilities_of(device), bodies_to_share(model, state))) {}
+    : DeviceBodies(device, model, state, choose_force_variants(abilities_of(device), force_bodies_of(model, state))) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
     : DeviceBodies(device, model, state, std::vector(model.bodies.size(), force_variant)) {}
@@ -123,7 +123,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants)
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
-      force_groups(pliant::force_groups(abilities_of(device), bodies_to_share(model, state), force_variants)),
+      force_groups(group_shares(abilities_of(device), force_bodies_of(model, state), force_variants)),
       arrays(device),
       shares(arrays.make("share", shares_of(device, model, force_variants, force_groups))),
       poses(arrays.make("pose", state.poses)),

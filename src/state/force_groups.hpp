@@ -19,23 +19,27 @@ struct ForceGroup {
 };
 
 /// What the choice has to know of a body.
-struct BodyToShare {
+struct ForceBody {
   std::uint32_t vertex_count;
   bool is_soft;  // others have no shares
   bool moves;    // from the start, whatever touches it later
 };
 
-/// What it has to know of a device.
+/// What the choice has to know of a device.
 struct ForceAbilities {
   std::span<const ForceVariant> variants;
   std::uint32_t shares_at_once;  // Device::shares_at_once()
 };
 
 /// Returns the groups of bodies that have these variants, in the order of variants.
-[[nodiscard]] std::vector<ForceGroup> force_groups(const ForceAbilities& device, std::span<const BodyToShare> bodies,
+[[nodiscard]] std::vector<ForceGroup> group_shares(const ForceAbilities& device, std::span<const ForceBody> bodies,
                                                    std::span<const std::size_t> variants_of_bodies);
 
-/// Returns the best variant for each body.
-[[nodiscard]] std::vector<std::size_t> best_force_variants(const ForceAbilities& device, std::span<const BodyToShare> bodies);
+/// Chooses a variant for each body. It takes the first of these that there is:
+/// 1. one for all bodies by which all stages of a step are one dispatch;
+/// 2. one for all bodies by which steps can be quiet while those move that move from the start;
+/// 3. the fastest for each body.
+/// Of several in 1 or 2 it takes the fastest for what moves, and else the next in their list.
+[[nodiscard]] std::vector<std::size_t> choose_force_variants(const ForceAbilities& device, std::span<const ForceBody> bodies);
 
 }  // namespace pliant

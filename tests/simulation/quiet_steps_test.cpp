@@ -249,6 +249,68 @@ TEST_CASE("a large body that moves among many at rest makes quiet steps, until m
   }
 }
 
+TEST_CASE("a body beside a larger one at rest makes quiet steps, until it wakes one that has too many shares", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  std::vector<BodySetup> setups = {ball_of("icosphere:1", {-3, 0.1, 0}),
+                                   ball_of(device->shares_at_once() == 0 ? "icosphere:3" : "icosphere:5", {2.5, 0, 0})};
+  setups[0].description.velocity = {30, 0, 0};  // 3.5 m of way take 120 steps
+  setups[0].description.stretch = {1.1, 0.95, 1};
+  setups[0].description.spin = {0, 2, 1};
+  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+  for (const char* response : {"impulse", "reflect"}) {
+    CAPTURE(response);
+    Runs runs(*device, start, {"verlet", 0.001}, false, {.response = {response}, .elasticity = 0.5});
+    for (const std::uint64_t steps : {60, 80}) {
+      runs.advance(steps);
+      runs.check();
+    }
+    const std::uint64_t before_contact = runs.quiet.report().quiet_steps;
+    CHECK(before_contact > 20);
+    CHECK(runs.busy.report().contact_steps > 0);
+    runs.advance(40);
+    runs.check();
+    CHECK(runs.quiet.report().quiet_steps == before_contact);
+  }
+}
+
+// So many that each has a thread a vertex, and three shares.
+TEST_CASE("bodies whose few shares have a thread a vertex make quiet steps together", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  if (device->shares_at_once() < 64) return test::skip("too few groups of this device wait for each other");
+  struct Kind {
+    int of_one_share;
+    bool self_contact;
+    const char* response;
+  };
+  for (const Kind& kind :
+       {Kind{0, false, "impulse"}, {0, false, "reflect"}, {30, false, "impulse"}, {30, false, "reflect"}, {0, true, "impulse"}})
+    for (const Method& method : {Method{"verlet", 0.001}, {"cv8", 0.002}}) {
+      CAPTURE(kind.of_one_share, kind.self_contact, kind.response, method.integrator);
+      std::vector<BodySetup> setups;
+      for (int k = 0; k < 60 + kind.of_one_share; ++k) {
+        setups.push_back(ball_of(k % 3 == 0 && k / 3 < kind.of_one_share ? "icosphere:1" : "icosphere:2",
+                                 {12.0 * (k % 8), 12.0 * (k / 8), 0}));
+        setups.back().description.stretch = {1.1, 0.95, 1};
+        setups.back().description.spin = {0, 2, 1};
+        setups.back().description.self_contact = kind.self_contact;
+      }
+      const ModelAndState start = build_model(setups, glm::dvec3(0.0));
+      const DeviceBodies bodies(*device, start.model, start.state);
+      REQUIRE(bodies.force_groups.size() == 1);
+      CHECK(device->force_variants()[bodies.force_groups[0].variant].lanes == 1);
+      CHECK_FALSE(bodies.force_groups[0].has_whole_bodies);
+      Runs runs(*device, start, method, false, {.response = {kind.response}, .elasticity = 0.5});
+      for (const std::uint64_t steps : {20, 200}) {
+        runs.advance(steps);
+        runs.check();
+      }
+      CHECK(runs.quiet.report().quiet_steps > 100);
+      CHECK(runs.quiet.report().frame_changes > 0);
+    }
+}
+
 // Returns how many steps were quiet, and how many were made, of a ball that meets itself and begins with these velocities.
 std::pair<std::uint64_t, std::uint64_t> steps_of_star(Device& device, const Method& method,
                                                       const std::function<glm::dvec3(const glm::dvec3&)>& velocity) {
@@ -332,10 +394,10 @@ TEST_CASE("a body that moves among thousands at rest makes quiet steps, and thou
   }
 }
 
-// The first of `count` bodies is deformed. Returns the variants that serve them.
-std::vector<std::size_t> variants_of(Device& device, const char* mesh, int count, const glm::dvec3& acceleration) {
+// The first of 400 bodies is deformed. Returns the variants that serve them.
+std::vector<std::size_t> variants_of(Device& device, const glm::dvec3& acceleration) {
   std::vector<BodySetup> setups;
-  for (int k = 0; k < count; ++k) setups.push_back(ball_of(mesh, {12.0 * k, 0, 0}));
+  for (int k = 0; k < 400; ++k) setups.push_back(ball_of("icosphere:3", {12.0 * k, 0, 0}));
   setups[0].description.stretch = {1.1, 1, 1};
   const ModelAndState start = build_model(setups, acceleration);
   const DeviceBodies bodies(device, start.model, start.state);
@@ -344,16 +406,12 @@ std::vector<std::size_t> variants_of(Device& device, const char* mesh, int count
   return variants;
 }
 
-TEST_CASE("bodies at rest do not change how the springs of one that moves are shared among threads", "[gl]") {
-  for (const TestDevice& test : all_devices()) {
-    const bool waits = test.device->shares_at_once() > 0;  // CPUs and software have one best way for all
-    for (const char* mesh : {"icosphere:1", "icosphere:3"}) {
-      CAPTURE(test.name, mesh);
-      const std::vector<std::size_t> alone = variants_of(*test.device, mesh, 1, glm::dvec3(0.0));
-      CHECK(variants_of(*test.device, mesh, 400, glm::dvec3(0.0)) == alone);
-      if (waits) CHECK(variants_of(*test.device, mesh, 400, {0, -9.81, 0}) != alone);
-    }
-  }
+// tests/state/force_groups_test.cpp has what follows from that.
+TEST_CASE("whether bodies move from the start, or gravity will move them, decides how threads share springs", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  if (device->shares_at_once() == 0) return test::skip("software has one way for all");
+  CHECK(variants_of(*device, glm::dvec3(0.0)) != variants_of(*device, {0, -9.81, 0}));
 }
 
 TEST_CASE("bodies that sleep or never move are left alone in quiet steps", "[gl]") {

@@ -116,7 +116,7 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const auto signature = [&](Device& device) {
       if (goes_in_groups) return device.signature(device.group_kernel(name, physics::group_size));
       if (goes_in_rounds) return device.signature(device.round_kernel(name));
-      return device.signature(sums_springs ? device.force_kernel(name, best_force_variant(device.force_variants(), 1000, 1000))
+      return device.signature(sums_springs ? device.force_kernel(name, fastest_force_variant(device.force_variants(), 1000, 1000))
                                            : device.kernel(name));
     };
     const KernelSignature on_cpu = signature(*cpu), on_gpu = signature(*gpu);

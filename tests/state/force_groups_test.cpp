@@ -4,24 +4,35 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
+#include <set>
 
 #include "device/gpu/lanes.hpp"
 
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t multiprocessors = 132;  // of an H200
+gl::Adapter hardware_with(std::uint32_t multiprocessors) {
+  gl::Adapter adapter;
+  adapter.multiprocessors = multiprocessors;
+  return adapter;
+}
 
-std::vector<ForceVariant> variants_of_h200() { return gpu::force_variants(false, multiprocessors); }
+gl::Adapter software() {
+  gl::Adapter adapter;
+  adapter.is_software = true;
+  return adapter;
+}
+
+const gl::Adapter h200 = hardware_with(132);
 
 // `count` bodies of so many vertices each, of which the first ones move.
-std::vector<BodyToShare> bodies_of(std::uint32_t vertices, std::size_t count, std::size_t moving) {
-  std::vector<BodyToShare> bodies(count, {vertices, true, false});
+std::vector<ForceBody> bodies_of(std::uint32_t vertices, std::size_t count, std::size_t moving) {
+  std::vector<ForceBody> bodies(count, {vertices, true, false});
   for (std::size_t b = 0; b < moving; ++b) bodies[b].moves = true;
   return bodies;
 }
 
-std::vector<BodyToShare> operator+(std::vector<BodyToShare> some, const std::vector<BodyToShare>& others) {
+std::vector<ForceBody> operator+(std::vector<ForceBody> some, const std::vector<ForceBody>& others) {
   some.insert(some.end(), others.begin(), others.end());
   return some;
 }
@@ -32,30 +43,65 @@ struct Choice {
   std::vector<ForceGroup> groups;
 
   [[nodiscard]] std::uint32_t lanes(std::size_t body) const { return variants[of_bodies[body]].lanes; }
+  [[nodiscard]] std::uint32_t shares_of(const ForceBody& body, std::size_t b) const {
+    const std::uint32_t size = variants[of_bodies[b]].share_size;
+    return body.is_soft ? (body.vertex_count + size - 1) / size : 0;
+  }
 };
 
-Choice choice_for(std::span<const BodyToShare> bodies) {
-  Choice choice{variants_of_h200(), {}, {}};
-  const ForceAbilities device{choice.variants, multiprocessors};
-  choice.of_bodies = best_force_variants(device, bodies);
-  choice.groups = force_groups(device, bodies, choice.of_bodies);
+Choice choice_for(std::span<const ForceBody> bodies, const gl::Adapter& adapter = h200) {
+  Choice choice{gpu::force_variants(adapter), {}, {}};
+  const ForceAbilities device{choice.variants, adapter.multiprocessors};
+  choice.of_bodies = choose_force_variants(device, bodies);
+  choice.groups = group_shares(device, bodies, choice.of_bodies);
   return choice;
 }
 
-TEST_CASE("many bodies at rest do not change how threads share the springs of one that moves") {
-  for (const std::uint32_t vertices : {42u, 64u, 162u, 256u, 642u, 2562u}) {
+TEST_CASE("each variant of the force kernels has a name of its own, and one for quiet steps can run all stages") {
+  for (const gl::Adapter& adapter : {h200, software()}) {
+    const std::vector<ForceVariant> variants = gpu::force_variants(adapter);
+    std::set<std::string> names;
+    for (const ForceVariant& variant : variants) {
+      CHECK(names.insert(variant.name).second);
+      CHECK((variant.quiet_groups == 0 || variant.all_stages));
+    }
+    for (std::uint32_t vertices = 1; vertices < 1000; ++vertices)
+      for (const std::uint32_t in_all : {0u, vertices, 10 * vertices, 1000 * vertices})
+        CHECK(variants[fastest_force_variant(variants, in_all, vertices)].suits(vertices));
+  }
+}
+
+TEST_CASE("many bodies at rest do not change which variant serves one that moves") {
+  for (const std::uint32_t vertices : {42u, 162u, 256u, 642u, 2562u}) {
     const Choice alone = choice_for(bodies_of(vertices, 1, 1));
     for (const std::size_t count : {67u, 100u, 400u, 10'000u}) {
       CAPTURE(vertices, count);
       const Choice among_many = choice_for(bodies_of(vertices, count, 1));
-      CHECK(among_many.variants[among_many.of_bodies[0]].lanes == alone.lanes(0));
+      CHECK(among_many.of_bodies[0] == alone.of_bodies[0]);
       REQUIRE(among_many.groups.size() == 1);
       CHECK(among_many.groups[0].quiet_steps);
     }
   }
 }
 
-TEST_CASE("a body of several shares has many lanes in quiet steps where a few others rest") {
+TEST_CASE("bodies that cannot move of themselves change nothing") {
+  const std::vector<ForceBody> rigid(5, {100'000, false, false});
+  for (const std::size_t moving : {0u, 1u, 30u})
+    for (const std::uint32_t vertices : {42u, 162u, 642u}) {
+      CAPTURE(vertices, moving);
+      const std::vector<ForceBody> soft = bodies_of(vertices, 30, moving);
+      std::vector<std::size_t> of_soft = choice_for(soft + rigid).of_bodies;
+      of_soft.resize(soft.size());
+      CHECK(of_soft == choice_for(soft).of_bodies);
+    }
+}
+
+TEST_CASE("where nothing moves yet, what will has as many lanes as one that moves") {
+  for (const std::uint32_t vertices : {42u, 162u, 642u})
+    CHECK(choice_for(bodies_of(vertices, 20, 0)).of_bodies == choice_for(bodies_of(vertices, 20, 1)).of_bodies);
+}
+
+TEST_CASE("a body of several shares has many lanes in quiet steps where others rest") {
   for (const std::size_t count : {2u, 10u, 20u, 27u, 30u, 44u, 45u}) {
     CAPTURE(count);
     const Choice choice = choice_for(bodies_of(162, count, 1));
@@ -65,15 +111,56 @@ TEST_CASE("a body of several shares has many lanes in quiet steps where a few ot
 }
 
 TEST_CASE("small bodies are whole while others would have to wait for each other") {
-  for (std::size_t count = 34; count <= 40; ++count) {
-    const Choice choice = choice_for(bodies_of(64, count, count));
-    CHECK(choice.groups[0].has_whole_bodies);
+  for (const std::size_t moving : {1u, 18u, 40u})
+    for (const std::size_t count : {40u, 100u, 1000u}) {
+      CAPTURE(count, moving);
+      const Choice choice = choice_for(bodies_of(64, count, moving));
+      CHECK(choice.groups[0].has_whole_bodies);
+      CHECK(choice.groups[0].all_stages);
+    }
+  for (std::size_t count = 34; count < 40; ++count) CHECK(choice_for(bodies_of(64, count, count)).groups[0].has_whole_bodies);
+}
+
+TEST_CASE("a step of a few bodies is one dispatch, though they have several shares") {
+  for (const std::uint32_t vertices : {162u, 642u, 1280u}) {
+    CAPTURE(vertices);
+    const Choice choice = choice_for(bodies_of(vertices, 1, 1));
+    CHECK(choice.lanes(0) == 64);
     CHECK(choice.groups[0].all_stages);
+    CHECK_FALSE(choice.groups[0].has_whole_bodies);
   }
 }
 
-// docs/benchmarks/2026-11-27-quiet-steps.md has the times.
-TEST_CASE("bodies of 162 vertices have what was the fastest for so many") {
+// With more lanes steps would be quiet, but all shares of both would not run at once.
+TEST_CASE("that a step is one dispatch counts for more than that steps are quiet") {
+  const Choice choice = choice_for(bodies_of(2562, 2, 1));
+  CHECK(choice.groups[0].all_stages);
+  CHECK(choice.groups[0].quiet_steps);
+}
+
+TEST_CASE("a body beside a larger one at rest makes quiet steps, as long as that rests") {
+  CHECK(choice_for(bodies_of(42, 1, 1) + bodies_of(6000, 1, 0)).groups[0].quiet_steps);
+  const Choice choice = choice_for(bodies_of(42, 1, 1) + bodies_of(6000, 1, 1));
+  CHECK((choice.groups.size() > 1 || !choice.groups[0].quiet_steps));
+}
+
+TEST_CASE("where so many move that no step is quiet, those at rest count like those that move") {
+  const Choice choice = choice_for(bodies_of(642, 1000, 10));
+  CHECK_FALSE(choice.groups[0].quiet_steps);
+  CHECK(choice.of_bodies == choice_for(bodies_of(642, 1000, 1000)).of_bodies);
+}
+
+// The next two have what was the fastest for so many. docs/benchmarks/2026-11-27-quiet-steps.md has the times.
+TEST_CASE("bodies of 42 vertices have eight lanes a vertex, and a thread where there are many") {
+  for (const std::size_t count : {1u, 10u, 100u, 1000u, 10'000u}) {
+    CAPTURE(count);
+    const Choice choice = choice_for(bodies_of(42, count, count));
+    CHECK(choice.lanes(0) == (count <= 100 ? 8 : 1));
+    CHECK(choice.groups[0].quiet_steps);
+  }
+}
+
+TEST_CASE("bodies of 162 vertices have 32 lanes a vertex, and a thread where there are many") {
   const Choice few = choice_for(bodies_of(162, 20, 20));
   CHECK(few.lanes(0) == 32);
   CHECK(few.groups[0].quiet_steps);
@@ -89,42 +176,56 @@ TEST_CASE("bodies of 162 vertices have what was the fastest for so many") {
   CHECK(large.groups.size() == 2);
 }
 
+// An adapter without a number of multiprocessors stands for drivers that do not tell it.
 TEST_CASE("every soft body is served, and none waits for shares that may not run beside its own") {
   std::mt19937 random(5);
   const auto at_most = [&](std::uint32_t most) { return 1 + static_cast<std::uint32_t>(random() % most); };
-  for (int scene = 0; scene < 300; ++scene) {
-    std::vector<BodyToShare> bodies;
-    const std::uint32_t count = at_most(scene % 3 == 0 ? 400 : 20), largest = at_most(scene % 2 == 0 ? 300 : 20'000);
-    for (std::uint32_t b = 0; b < count; ++b) bodies.push_back({at_most(largest), random() % 8 != 0, false});
-    for (BodyToShare& body : bodies) body.moves = body.is_soft && random() % 2 == 0;
-    const Choice choice = choice_for(bodies);
-    std::uint32_t shares = 0;
-    for (const ForceGroup& group : choice.groups) {
-      CHECK(group.first_share == shares);
-      shares += group.share_count;
-      if (group.has_whole_bodies) continue;
-      CHECK((!group.all_stages || (choice.groups.size() == 1 && group.share_count <= multiprocessors)));
+  for (const gl::Adapter& adapter : {h200, hardware_with(20), hardware_with(0), software()})
+    for (int scene = 0; scene < 200; ++scene) {
+      std::vector<ForceBody> bodies;
+      const std::uint32_t count = at_most(scene % 3 == 0 ? 400 : 20), largest = at_most(scene % 2 == 0 ? 300 : 20'000);
+      for (std::uint32_t b = 0; b < count; ++b) bodies.push_back({at_most(largest), random() % 8 != 0, false});
+      for (ForceBody& body : bodies) body.moves = body.is_soft && random() % 2 == 0;
+      const Choice choice = choice_for(bodies, adapter);
+      std::uint32_t shares = 0;
+      for (const ForceGroup& group : choice.groups) {
+        std::uint32_t of_group = 0, moving = 0;
+        bool are_whole = true;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+          if (choice.of_bodies[b] != group.variant) continue;
+          const std::uint32_t of_body = choice.shares_of(bodies[b], b);
+          of_group += of_body;
+          moving += bodies[b].moves ? of_body : 0;
+          are_whole = are_whole && of_body <= 1;
+        }
+        CHECK(group.first_share == shares);
+        CHECK(group.share_count == of_group);
+        CHECK(group.has_whole_bodies == are_whole);
+        shares += of_group;
+        const ForceVariant& variant = choice.variants[group.variant];
+        if (group.all_stages) {
+          CHECK(variant.all_stages);
+          CHECK((are_whole || (choice.groups.size() == 1 && of_group <= adapter.multiprocessors)));
+        }
+        if (group.quiet_steps) {
+          CHECK(variant.quiet_groups > 0);
+          CHECK((are_whole || moving <= variant.quiet_groups));
+        }
+      }
+      std::uint32_t of_bodies = 0;
+      for (std::size_t b = 0; b < bodies.size(); ++b) of_bodies += choice.shares_of(bodies[b], b);
+      CHECK(shares == of_bodies);
     }
-    std::uint32_t expected = 0;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (!bodies[b].is_soft) continue;
-      const std::uint32_t share_size = choice.variants[choice.of_bodies[b]].share_size;
-      expected += (bodies[b].vertex_count + share_size - 1) / share_size;
-      CHECK(std::ranges::count(choice.groups, choice.of_bodies[b], &ForceGroup::variant) == 1);
-    }
-    CHECK(shares == expected);
-  }
 }
 
 TEST_CASE("software that runs shaders has one way for all bodies, and waits for no other group") {
-  const std::vector<ForceVariant> variants = gpu::force_variants(true, 0);
+  const std::vector<ForceVariant> variants = gpu::force_variants(software());
+  CHECK(std::ranges::all_of(variants, [](const ForceVariant& variant) { return variant.quiet_groups <= 1; }));
   for (const std::uint32_t vertices : {1u, 42u, 162u, 642u, 100'000u})
     for (const std::size_t count : {1u, 20u}) {
-      const std::vector<BodyToShare> bodies = bodies_of(vertices, count, count);
-      const std::vector<std::size_t> chosen = best_force_variants({variants, 0}, bodies);
-      CHECK(chosen == std::vector<std::size_t>(count, 0));
-      const std::vector<ForceGroup> groups = force_groups({variants, 0}, bodies, chosen);
-      CHECK(groups[0].all_stages == groups[0].has_whole_bodies);
+      const Choice choice = choice_for(bodies_of(vertices, count, count), software());
+      CHECK(choice.of_bodies == std::vector<std::size_t>(count, 0));
+      CHECK(choice.groups[0].all_stages == choice.groups[0].has_whole_bodies);
     }
 }
 

@@ -49,7 +49,7 @@ class ForcesAt {
 
   // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
   std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
-    if (!on_cpu() && !all_variants_) return {best_force_variant(device_->force_variants(), vertices, vertices)};
+    if (!on_cpu() && !all_variants_) return {fastest_force_variant(device_->force_variants(), vertices, vertices)};
     std::vector<std::size_t> chosen;
     for (std::size_t v = 0; v < device_->force_variants().size(); ++v)
       if (all_variants_ || sums_in_tiles(v)) chosen.push_back(v);

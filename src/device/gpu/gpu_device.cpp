@@ -43,7 +43,7 @@ class GpuDevice final : public Device {
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
     info_ = {.kind = DeviceKind::gpu, .name = adapter.renderer + ", " + adapter.version, .threads = 1};
-    variants_ = gpu::force_variants(adapter.is_software, adapter.multiprocessors);
+    variants_ = gpu::force_variants(adapter);
   }
 
   const DeviceInfo& info() const override { return info_; }
@@ -129,7 +129,7 @@ class GpuDevice final : public Device {
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
     PLIANT_EXPECT(variant < variants_.size());
-    const gpu::Lanes& lanes = gpu::lane_choices()[variant];
+    const gpu::Lanes& lanes = gpu::lanes_of(variant);
     PLIANT_EXPECT(span == ForceSpan::stage || lanes.tile != 0);
     std::vector<gl::Define> defines = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
                                        {"LANES", std::to_string(lanes.lanes)},
