@@ -42,12 +42,8 @@ void end_flight_beside_rigid(uint s, uint t, uint near) {
 // Lists pairs of s with those of up to 32 triangles from t on that are set in `near`.
 void list_pairs(uint s, uint t, uint near, uint meeting) {
   if (ATOMIC_LOAD(contact_list[0].triangle_pair_count) > triangle_pair_capacity) return;  // the count could pass 2^32
-  uint at = atomicAdd(contact_list[0].triangle_pair_count, uint(bitCount(near)));
-  for (; near != 0u; near &= near - 1u) {
-    uint k = uint(findLSB(near));
-    if (at < triangle_pair_capacity) triangle_pair[at] = uvec2(s, (t + k) | ((meeting >> k & 1u) != 0u ? ways_meet : 0u));
-    ++at;
-  }
+  APPEND_EACH(k, near, triangle_pair, contact_list[0].triangle_pair_count, triangle_pair_capacity,
+              uvec2(s, (t + k) | ((meeting >> k & 1u) != 0u ? ways_meet : 0u)))
 }
 
 // Returns those triangles from t on that are set in `among` and whose cages, or expected ways, overlap a box.

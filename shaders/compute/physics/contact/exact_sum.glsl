@@ -73,7 +73,8 @@ uvec2 halves_of_sum(uvec2 sum) { return sum; }
     ADD_HIGH_HALF(sum, halves_of_it, before_it)       \
   }
 
-// The same where all threads that come here together add to one sum. On a GPU one of them does it for all of its subgroup.
+// The same where all threads that come here together add to one sum. On a GPU one of them does it for all of its subgroup. On the CPU each
+// adds once for the items that it takes together.
 #ifdef HAS_SUBGROUPS
 uvec2 sum_of_subgroup(uvec2 halves) {
   uint first = subgroupAdd(halves.x & 0xffffu), second = subgroupAdd(halves.x >> 16u) + (first >> 16u);
@@ -87,6 +88,8 @@ uvec2 sum_of_subgroup(uvec2 halves) {
       ADD_HIGH_HALF(sum, halves_of_all, before_all)          \
     }                                                        \
   }
+#elif defined(__cplusplus)
+#define ADD_EXACTLY_TOGETHER(sum, whole) exact_tallies.add(sum, halves_of(whole));
 #else
 #define ADD_EXACTLY_TOGETHER(sum, whole)                     \
   {                                                          \
