@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// One way of summing springs: its name says how, and is its own.
+/// One way of summing springs. Its name says how. No two have the same.
 struct ForceVariant {
   static constexpr std::uint32_t any_number = 0xffffffffu;
 

@@ -21,8 +21,8 @@ std::uint32_t largest_soft_body_of(std::span<const ForceBody> bodies) {
   return largest;
 }
 
-// Where a thread adds up all springs of a vertex, and the shares of a body wait for each other, each stage takes long. More lanes
-// are faster then, in quiet steps even more so.
+// Where a thread adds up all springs of a vertex, and the shares of a body wait for each other, more lanes are faster, in quiet
+// steps even more so. docs/benchmarks/2026-11-27-quiet-steps.md has the times.
 bool has_slow_stages(const ForceVariant& variant, const ForceGroup& group) {
   return variant.lanes == 1 && !group.has_whole_bodies;
 }
@@ -30,7 +30,8 @@ bool has_slow_stages(const ForceVariant& variant, const ForceGroup& group) {
 }  // namespace
 
 // Bodies of several shares wait for each other between stages, so that all shares have to run at once, and nothing beside them.
-// In quiet steps only those of bodies that move have to.
+// In quiet steps only those of bodies that move have to. A body with more shares than that could never be quiet once it wakes. It
+// would keep a variant that suits what moves before, which takes longer for large bodies.
 std::vector<ForceGroup> group_shares(const ForceAbilities& device, std::span<const ForceBody> bodies,
                                      std::span<const std::size_t> variants_of_bodies) {
   std::vector<ForceGroup> groups;
@@ -47,7 +48,8 @@ std::vector<ForceGroup> group_shares(const ForceAbilities& device, std::span<con
     }
     if (count == 0) continue;
     const bool are_whole = most_of_body == 1;
-    const bool is_quiet = variant.quiet_groups > 0 && (are_whole || of_moving_bodies <= variant.quiet_groups);
+    const bool is_quiet =
+        variant.quiet_groups > 0 && (are_whole || std::max(most_of_body, of_moving_bodies) <= variant.quiet_groups);
     groups.push_back({v, first_share, count, variant.all_stages && are_whole, are_whole, is_quiet});
     first_share += count;
   }

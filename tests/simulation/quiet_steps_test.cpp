@@ -249,36 +249,11 @@ TEST_CASE("a large body that moves among many at rest makes quiet steps, until m
   }
 }
 
-TEST_CASE("a body beside a larger one at rest makes quiet steps, until it wakes one that has too many shares", "[gl]") {
-  if (test::lacks_gl()) return;
-  const auto device = make_gpu_device(0);
-  std::vector<BodySetup> setups = {ball_of("icosphere:1", {-3, 0.1, 0}),
-                                   ball_of(device->shares_at_once() == 0 ? "icosphere:3" : "icosphere:5", {2.5, 0, 0})};
-  setups[0].description.velocity = {30, 0, 0};  // 3.5 m of way take 120 steps
-  setups[0].description.stretch = {1.1, 0.95, 1};
-  setups[0].description.spin = {0, 2, 1};
-  const ModelAndState start = build_model(setups, glm::dvec3(0.0));
-  for (const char* response : {"impulse", "reflect"}) {
-    CAPTURE(response);
-    Runs runs(*device, start, {"verlet", 0.001}, false, {.response = {response}, .elasticity = 0.5});
-    for (const std::uint64_t steps : {60, 80}) {
-      runs.advance(steps);
-      runs.check();
-    }
-    const std::uint64_t before_contact = runs.quiet.report().quiet_steps;
-    CHECK(before_contact > 20);
-    CHECK(runs.busy.report().contact_steps > 0);
-    runs.advance(40);
-    runs.check();
-    CHECK(runs.quiet.report().quiet_steps == before_contact);
-  }
-}
-
-// So many that each has a thread a vertex, and three shares.
+// So many that each has a thread a vertex. Those of 162 vertices have three shares: 180 of them need 45 multiprocessors.
 TEST_CASE("bodies whose few shares have a thread a vertex make quiet steps together", "[gl]") {
   if (test::lacks_gl()) return;
   const auto device = make_gpu_device(0);
-  if (device->shares_at_once() < 64) return test::skip("too few groups of this device wait for each other");
+  if (device->shares_at_once() < 60) return test::skip("too few groups of this device wait for each other");
   struct Kind {
     int of_one_share;
     bool self_contact;

@@ -58,10 +58,12 @@
   #define ATOMIC_LOAD(target) std::atomic_ref(target).load(std::memory_order_relaxed)
   #define TALLY_UP(tally, count) tallies.add(tally, count);
   #define APPEND(list, count, capacity, value) appended.add(list, count, capacity, value);
-  #define APPEND_EACH(k, set, list, count, capacity, value)               \
-    for (uint left = (set); left != 0u; left &= left - 1u) {              \
-      const uint k = uint(findLSB(left));                                 \
-      appended.add(list, count, capacity, value);                         \
+  #define APPEND_EACH(k, set, list, count, capacity, value)                       \
+    {                                                                             \
+      for (uint bits_left = (set); bits_left != 0u; bits_left &= bits_left - 1u) { \
+        const uint k = uint(findLSB(bits_left));                                  \
+        appended.add(list, count, capacity, value);                               \
+      }                                                                           \
     }
 #else
   #define real float
@@ -89,7 +91,7 @@
   #define NEAR_ADD(before, target, value) uint before = atomicAdd(target, value);
   #define EXACT precise                 // every operation rounds by itself, in the order written
   #define FUSED(a, b, c) fma(a, b, c)   // a b + c rounded once, where the hardware can
-  #define ATOMIC_STORE(target, value) (target) = (value)  // threads that store here all store the same value
+  #define ATOMIC_STORE(target, value) (target) = (value)  // in a round nothing else stores another value there
   #define ATOMIC_LOAD(target) (target)
 #endif
 
@@ -98,25 +100,28 @@
 #define LOWER_TO(target, value) if ((value) < ATOMIC_LOAD(target)) atomicMin(target, value);
 #define RAISE_TO(target, value) if ((value) > ATOMIC_LOAD(target)) atomicMax(target, value);
 
-// TALLY_UP counts what nothing in this dispatch reads. Additions to one number come one after the other, each some 0.5 ns on an H100, so on
-// a GPU one thread adds for its subgroup. Each thread takes places in a list by itself: threads come for them from loops of their own, and
-// GLSL doesn't say which of a subgroup are together there. APPEND adds a value to a list of which nothing in this dispatch reads a value or
-// the count. It counts values beyond the list's capacity, too. APPEND_EACH adds one for each k that is set in 32 bits. On the CPU a thread
-// tallies and appends at the end of the items that it takes together: 16 threads wait 50 ns and more for an addition to one number.
+// Additions of many threads to one number come one after the other: each takes some 0.5 ns on an H100, and 50 ns between 16 threads of a
+// Xeon. So on the CPU a thread does what follows at the end of the items that it takes together.
+// - TALLY_UP counts what nothing in this dispatch reads. On a GPU one thread adds for its subgroup.
+// - APPEND adds a value to a list, and counts values beyond its capacity, too. Nothing in this dispatch may read the values, or rely on the
+//   count: on the CPU it lacks up to 64 for each thread. On a GPU each thread takes places by itself: threads come for them from loops of
+//   their own, and GLSL doesn't say which of a subgroup are together there.
+// - APPEND_EACH does the same with a value for each k that is set in 32 bits.
 #ifndef __cplusplus
   #define APPEND(list, count, capacity, value)               \
     {                                                        \
       uint list_place = atomicAdd(count, 1u);                \
       if (list_place < (capacity)) list[list_place] = value; \
     }
-  #define APPEND_EACH(k, set, list, count, capacity, value)                  \
-    {                                                                        \
-      uint list_place = atomicAdd(count, uint(bitCount(set)));               \
-      for (uint left = (set); left != 0u; left &= left - 1u) {               \
-        uint k = uint(findLSB(left));                                        \
-        if (list_place < (capacity)) list[list_place] = value;               \
-        ++list_place;                                                        \
-      }                                                                      \
+  #define APPEND_EACH(k, set, list, count, capacity, value)         \
+    {                                                               \
+      uint bits_left = (set);                                       \
+      uint list_place = atomicAdd(count, uint(bitCount(bits_left))); \
+      for (; bits_left != 0u; bits_left &= bits_left - 1u) {        \
+        uint k = uint(findLSB(bits_left));                          \
+        if (list_place < (capacity)) list[list_place] = value;      \
+        ++list_place;                                               \
+      }                                                             \
     }
   #ifdef HAS_SUBGROUPS
     #define TALLY_UP(tally, count)                                         \
@@ -180,7 +185,8 @@ FN float largest_of(IN(vec4) v) {
   return _mm_cvtss_f32(_mm_max_ps(two, pairs_swapped(two)));
 }
 #endif
-// Threads that store here all store the same value. Only the first makes the others' caches fetch it anew.
+// Of threads that store the same value only the first makes the others' caches fetch it anew. In a round nothing else may store another
+// value there, atomically or not: that store could be lost, or this one.
 template <class T>
 FN void store_unless_there(T& target, std::type_identity_t<T> value) {
   const std::atomic_ref shared(target);

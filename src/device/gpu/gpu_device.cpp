@@ -43,7 +43,7 @@ class GpuDevice final : public Device {
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
     info_ = {.kind = DeviceKind::gpu, .name = adapter.renderer + ", " + adapter.version, .threads = 1};
-    variants_ = gpu::force_variants(adapter);
+    variants_ = gpu::force_variants({.are_software = adapter.is_software, .multiprocessors = adapter.multiprocessors});
   }
 
   const DeviceInfo& info() const override { return info_; }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t any_number = ForceVariant::any_number;
 
-// What ForceVariant says of them, too.
+// A way to share springs, and the scenes for which it is the fastest, as ForceVariant has them.
 struct Choice {
-  Lanes cut;
+  Lanes lanes;
   std::uint32_t most_vertices = 0, smallest_body = 1, largest_body = any_number;
 };
 
@@ -24,54 +24,54 @@ struct Choice {
 // - Small groups do worse. The compiler then takes so many registers per thread that few threads fit.
 constexpr Choice choices[] = {
     // For processors that run shaders.
-    {.cut = {.lanes = 1, .vertices = 4, .teams = 64, .unroll = 2, .plainly = 2, .tile = 64}},
+    {.lanes = {.lanes = 1, .vertices = 4, .teams = 64, .unroll = 2, .plainly = 2, .tile = 64}},
     // For small bodies as long as each has a multiprocessor to itself. None has to wait for another group.
-    {.cut = {.lanes = 8, .vertices = 1, .teams = 48, .unroll = 3, .plainly = 6, .tile = 48},
+    {.lanes = {.lanes = 8, .vertices = 1, .teams = 48, .unroll = 3, .plainly = 6, .tile = 48},
      .most_vertices = 6000,
      .largest_body = 48},
-    {.cut = {.lanes = 64, .vertices = 1, .teams = 10, .unroll = 4, .plainly = 4, .tile = 768}, .most_vertices = 2600},
+    {.lanes = {.lanes = 64, .vertices = 1, .teams = 10, .unroll = 4, .plainly = 4, .tile = 768}, .most_vertices = 2600},
     // Only for all stages or quiet steps in one dispatch, where every group has a multiprocessor to itself.
-    {.cut = {.lanes = 64, .vertices = 2, .teams = 10, .unroll = 4, .plainly = 8, .tile = 512}, .most_vertices = 0},
+    {.lanes = {.lanes = 64, .vertices = 2, .teams = 10, .unroll = 4, .plainly = 8, .tile = 512}, .most_vertices = 0},
     // For bodies that have several shares by the next one.
-    {.cut = {.lanes = 32, .vertices = 2, .teams = 20, .unroll = 4, .plainly = 20, .tile = 640},
+    {.lanes = {.lanes = 32, .vertices = 2, .teams = 20, .unroll = 4, .plainly = 20, .tile = 640},
      .most_vertices = 8000,
      .smallest_body = 65},
     // In small bodies many lanes mostly idle. With many vertices this serves larger bodies best, too, in one dispatch with small
     // ones.
-    {.cut = {.lanes = 1, .vertices = 1, .teams = 64, .unroll = 2, .plainly = 2, .tile = 64},
+    {.lanes = {.lanes = 1, .vertices = 1, .teams = 64, .unroll = 2, .plainly = 2, .tile = 64},
      .most_vertices = any_number,
      .largest_body = 256},
-    {.cut = {.lanes = 64, .vertices = 4, .teams = 8, .unroll = 3, .plainly = 18, .tile = 0}, .most_vertices = any_number},
+    {.lanes = {.lanes = 64, .vertices = 4, .teams = 8, .unroll = 3, .plainly = 18, .tile = 0}, .most_vertices = any_number},
 };
 
 // A multiprocessor runs one large group. Of small ones an H100 runs four on each, and not eight.
-std::uint32_t quiet_groups(const Lanes& lanes, const gl::Adapter& adapter) {
+std::uint32_t quiet_groups(const Lanes& lanes, const Processors& gpu) {
   if (lanes.tile == 0) return 0;
-  if (adapter.is_software) return 1;
-  return adapter.multiprocessors * std::max(256u / lanes.threads(), 1u);
+  if (gpu.are_software) return 1;
+  return gpu.multiprocessors * std::max(256u / lanes.threads(), 1u);
 }
 
 }  // namespace
 
-std::vector<ForceVariant> force_variants(const gl::Adapter& adapter) {
+std::vector<ForceVariant> force_variants(const Processors& gpu) {
   std::vector<ForceVariant> variants;
   for (const Choice& choice : choices)
-    variants.push_back({.name = fmt::format("{} x {} lanes, {} {}", choice.cut.teams, choice.cut.lanes, choice.cut.vertices,
-                                            choice.cut.vertices == 1 ? "vertex" : "vertices"),
-                        .share_size = choice.cut.teams * choice.cut.vertices,
-                        .all_stages = choice.cut.tile != 0,
-                        .quiet_groups = quiet_groups(choice.cut, adapter),
-                        .lanes = choice.cut.lanes,
+    variants.push_back({.name = fmt::format("{} x {} lanes, {} {}", choice.lanes.teams, choice.lanes.lanes, choice.lanes.vertices,
+                                            choice.lanes.vertices == 1 ? "vertex" : "vertices"),
+                        .share_size = choice.lanes.teams * choice.lanes.vertices,
+                        .all_stages = choice.lanes.tile != 0,
+                        .quiet_groups = quiet_groups(choice.lanes, gpu),
+                        .lanes = choice.lanes.lanes,
                         .most_vertices = choice.most_vertices,
                         .smallest_body = choice.smallest_body,
                         .largest_body = choice.largest_body});
-  if (adapter.is_software) variants[0].most_vertices = any_number;
+  if (gpu.are_software) variants[0].most_vertices = any_number;
   return variants;
 }
 
 const Lanes& lanes_of(std::size_t variant) {
   PLIANT_EXPECT(variant < std::size(choices));
-  return choices[variant].cut;
+  return choices[variant].lanes;
 }
 
 }  // namespace pliant::gpu

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "device/force_variant.hpp"
-#include "gl/context.hpp"
 
 namespace pliant::gpu {
 
-/// How force.comp cuts its work.
+/// How force.comp divides its work.
 struct Lanes {
   std::uint32_t lanes, vertices, teams, unroll;
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
@@ -20,10 +19,15 @@ struct Lanes {
   [[nodiscard]] std::uint32_t threads() const { return lanes * teams + keepers(); }
 };
 
-/// Returns the variants that an adapter knows. Of its traits, being software and the number of multiprocessors count.
-[[nodiscard]] std::vector<ForceVariant> force_variants(const gl::Adapter& adapter);
+/// What the variants of a GPU depend on.
+struct Processors {
+  bool are_software = false;
+  std::uint32_t multiprocessors = 0;  // 0 if the driver does not tell
+};
 
-/// Returns how one of these variants cuts its work. That is the same on every adapter.
+[[nodiscard]] std::vector<ForceVariant> force_variants(const Processors& gpu);
+
+/// Returns how one of these variants divides its work. That is the same on every GPU.
 [[nodiscard]] const Lanes& lanes_of(std::size_t variant);
 
 }  // namespace pliant::gpu
