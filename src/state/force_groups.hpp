@@ -39,8 +39,8 @@ struct ForceAbilities {
 /// 1. one for all bodies by which all stages of a step are one dispatch;
 /// 2. one for all bodies by which steps can be quiet while those move that move from the start;
 /// 3. the fastest for each body.
-/// In 1 and 2 the fastest for what moves comes first, and then those after it in the list. Those before it have more shares.
-/// Variants with one thread a vertex are left out of 1 for bodies of several shares. In 2 even the largest body has to fit.
+/// In 1 and 2 the fastest for what moves comes first, and then those after it in the list. Variants with one thread a vertex are
+/// left out of 1 for bodies of several shares. In 2 even the largest body has to fit.
 [[nodiscard]] std::vector<std::size_t> choose_force_variants(const ForceAbilities& device, std::span<const ForceBody> bodies);
 
 }  // namespace pliant

@@ -47,7 +47,7 @@ class ForcesAt {
     warm_up();
   }
 
-  // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's best one.
+  // Returns the variants to measure for a size: all, or the CPU's instruction sets, or the GPU's fastest one.
   std::vector<std::size_t> variants_for(std::uint32_t vertices) const {
     if (!on_cpu() && !all_variants_) return {fastest_force_variant(device_->force_variants(), vertices, vertices)};
     std::vector<std::size_t> chosen;
