@@ -145,6 +145,13 @@ class Balance {
   double known_, put_in_, scripts_ = 0, gained_ = 0, most_gained_ = 0, rise_ = 0, highest_rise_ = 0;
 };
 
+// What scripted bodies waited since bodies came or went, all together [s].
+double waited_by_scripts(Session& session) {
+  double waited = 0;
+  for (const ScriptReport& script : session.simulation().report().response.scripts) waited += script.waited;
+  return waited;
+}
+
 TEST_CASE("each demo says what to try, and begins") {
   const std::vector<Demo> demos = shipped_demos();
   CHECK(demos.size() >= 7);
@@ -239,17 +246,20 @@ TEST_CASE("in each demo bodies stay apart and finite and gain no energy while so
     Player player(session, 7);
     Balance balance(session);
     Stopwatch simulating, looking;
-    double played_at = 0, told_at = 10;
+    double played_at = 0, told_at = 10, waited = 0, known_wait = 0;
     while (session.time() < seconds && !session.breakdown()) {
       if (session.time() >= played_at) {
         player.play();
         balance.begin_anew();
+        known_wait = waited_by_scripts(session);
         played_at += std::min(0.25, seconds / 4);
       }
       const double before = session.time();
       simulating.time([&] { session.advance_toward(before + 10 * session.plan().time_step, 10); });
       looking.time([&] {
         balance.look();
+        const double wait_before = std::exchange(known_wait, waited_by_scripts(session));
+        waited += known_wait - wait_before;
         if (player.holds()) balance.pull(*player.holds(), session.time() - before);
         const std::vector<glm::dvec3> positions = session.simulation().state().world_positions(session.model());
         CHECK(count_touching_pairs(session.model(), positions) == 0);
@@ -258,9 +268,9 @@ TEST_CASE("in each demo bodies stay apart and finite and gain no energy while so
       told_at += 10;
       std::printf(
           "%-20s %6.1f s played in %.1f s and %.1f s of looks, %d balls thrown, %d pulls, %.3g J put in, "
-          "of which %.1g gained in all and %.1g in a while\n",
+          "of which %.1g gained in all and %.1g in a while, scripts waited %.3g s\n",
           demo.scene.stem().c_str(), session.time(), simulating.seconds(), looking.seconds(), player.thrown(), player.pulled(),
-          balance.put_in(), balance.most_gained(), balance.highest_rise());
+          balance.put_in(), balance.most_gained(), balance.highest_rise(), waited);
       std::fflush(stdout);
     }
     CHECK_FALSE(session.breakdown());
