@@ -86,14 +86,14 @@ void ThreadPool::stop() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body) {
+void ThreadPool::share(std::uint32_t count, std::uint32_t grain, const Part& part) {
   PLIANT_EXPECT(count < closed);
   if (workers_.empty() || count <= grain) {
-    for (std::uint32_t first = 0; first < count; first += std::min(grain, count - first))
-      body(first, first + std::min(grain, count - first));
+    Ranges all(count, grain);
+    part(all);
     return;
   }
-  body_ = &body;
+  part_ = &part;
   count_ = count;
   grain_ = grain;
   done_ = 0;
@@ -101,15 +101,21 @@ void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body
   next_ = place(loop, 0);
   loop_ = loop;
   loop_.notify_all();
-  take_ranges();
+  take_part();
   for (std::uint32_t done = done_; done != count; done = done_) await_change(done_, done);
   next_ = place(loop, closed);
+}
+
+void ThreadPool::for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body) {
+  share(count, grain, [&](Ranges& ranges) {
+    for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) body(first, end);
+  });
 }
 
 void ThreadPool::work() {
   std::uint32_t seen = 0;
   while (!stopping_) {
-    take_ranges();
+    take_part();
     await_change(loop_, seen);
     seen = loop_;
   }
@@ -128,20 +134,29 @@ void ThreadPool::await_change(const std::atomic<std::uint32_t>& value, std::uint
   value.wait(from);
 }
 
-void ThreadPool::take_ranges() {
-  std::uint64_t next = next_;
-  std::uint32_t loop_count = 0, own_done = 0;
+// Who has taken items may rely on the loop, because it does not end before they are done.
+void ThreadPool::take_part() {
+  Ranges ranges(*this);
+  if (!ranges.take_more()) return;
+  (*part_)(ranges);
+  if ((done_ += ranges.taken_) == ranges.count_) done_.notify_one();
+}
+
+bool ThreadPool::Ranges::take_more() {
+  if (pool_ == nullptr) return false;
+  std::uint64_t next = pool_->next_;
   while (true) {
-    const std::uint32_t count = count_, first = item_of(next);
-    if (first >= count) break;
-    const std::uint32_t size = std::min<std::uint32_t>(grain_, count - first);
-    if (!next_.compare_exchange_weak(next, next + size)) continue;
-    (*body_)(first, first + size);
-    loop_count = count;
-    own_done += size;
-    next = next_;
+    const std::uint32_t count = pool_->count_, first = item_of(next);
+    if (first >= count) return false;
+    const std::uint32_t size = std::min<std::uint32_t>(pool_->grain_, count - first);
+    if (!pool_->next_.compare_exchange_weak(next, next + size)) continue;
+    first_ = first;
+    end_ = first + size;
+    grain_ = size;
+    taken_ += size;
+    count_ = count;
+    return true;
   }
-  if (own_done > 0 && (done_ += own_done) == loop_count) done_.notify_one();
 }
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 // - If there is a processor for each thread, threads look for the next loop for some 50 us before they sleep.
 // - If there are exactly as many processors as threads, each worker stays on its own processor (Linux).
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -16,6 +17,10 @@ namespace pliant {
 
 class ThreadPool {
  public:
+  /// The ranges of a loop that one thread takes, one after another.
+  class Ranges;
+  /// Is called once on each thread that takes part in a loop. It has to take ranges until there are no more.
+  using Part = std::function<void(Ranges&)>;
   /// Is called with the first item of a range and one past its last.
   using Body = std::function<void(std::uint32_t, std::uint32_t)>;
 
@@ -27,25 +32,50 @@ class ThreadPool {
 
   [[nodiscard]] unsigned size() const { return static_cast<unsigned>(workers_.size()) + 1; }
 
-  /// Calls body for ranges of at most `grain` items that cover 0 to count - 1, in any order on any thread. Returns when all are
-  /// done. The body must not throw. One thread at a time may call this. Expects count < 2^32 - 1.
+  /// Shares ranges of at most `grain` items that cover 0 to count - 1 among threads, in any order. Returns when all are done. The
+  /// part must not throw. One thread at a time may call this. Expects count < 2^32 - 1.
+  void share(std::uint32_t count, std::uint32_t grain, const Part& part);
+  /// The same, with a body that is called for each range.
   void for_ranges(std::uint32_t count, std::uint32_t grain, const Body& body);
 
  private:
   void stop();
   void work();
-  void take_ranges();
+  void take_part();
   void await_change(const std::atomic<std::uint32_t>& value, std::uint32_t from) const;
 
   std::vector<std::thread> workers_;
   // What threads write while others read stands on cache lines of its own.
-  std::atomic<const Body*> body_{nullptr};
+  std::atomic<const Part*> part_{nullptr};
   std::atomic<std::uint32_t> count_{0}, grain_{1};
   alignas(64) std::atomic<std::uint64_t> next_;  // high half: the loop's number, low half: its first item that nobody has taken
   alignas(64) std::atomic<std::uint32_t> done_{0};  // items finished by threads that found no more to take
   alignas(64) std::atomic<std::uint32_t> loop_{0};  // number of the latest loop, whose change wakes the workers
   std::atomic<bool> stopping_{false};
   bool own_processors_ = false;  // whether there is a processor for each thread
+};
+
+class ThreadPool::Ranges {
+ public:
+  /// Says in `first` and `end` which items come next. Returns false if there are no more.
+  bool take(std::uint32_t& first, std::uint32_t& end) {
+    if (first_ == end_ && !take_more()) return false;
+    first = first_;
+    first_ += std::min(grain_, end_ - first_);
+    end = first_;
+    return true;
+  }
+
+ private:
+  friend ThreadPool;
+  explicit Ranges(ThreadPool& pool) : pool_(&pool) {}
+  // All items, for a thread that has nobody to share them with.
+  Ranges(std::uint32_t count, std::uint32_t grain) : end_(count), grain_(grain) {}
+  bool take_more();
+
+  ThreadPool* pool_ = nullptr;                     // that shares the loop, if any does
+  std::uint32_t first_ = 0, end_ = 0, grain_ = 1;  // of what was taken from it and not yet handed on
+  std::uint32_t taken_ = 0, count_ = 0;            // items taken from it by this thread, and of the loop
 };
 
 }  // namespace pliant

@@ -36,6 +36,44 @@ TEST_CASE("thousands of short loops follow each other, each with the body and it
   CHECK(wrong == 0);
 }
 
+TEST_CASE("a thread takes part in a loop once, and its ranges have as many items as asked for or fewer") {
+  constexpr std::uint32_t count = 1000, grain = 16;
+  for (const unsigned threads : {1u, 2u, 7u}) {
+    ThreadPool pool(threads);
+    for (int loop = 0; loop < 50; ++loop) {
+      std::vector<int> visits(count, 0);
+      std::atomic<unsigned> parts = 0;
+      std::atomic<std::uint32_t> longest = 0, empty = 0;
+      pool.share(count, grain, [&](ThreadPool::Ranges& ranges) {
+        ++parts;
+        for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) {
+          if (end - first > longest) longest = end - first;
+          empty += first == end ? 1 : 0;
+          for (; first < end; ++first) ++visits[first];
+        }
+      });
+      CHECK((parts >= 1 && parts <= threads));
+      CHECK(longest == grain);
+      CHECK(empty == 0);
+      CHECK(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
+    }
+  }
+}
+
+TEST_CASE("what a part does after its last range is done when the loop ends") {
+  ThreadPool pool(4);
+  for (std::uint32_t loop = 0; loop < 500; ++loop) {
+    std::atomic<std::uint32_t> added = 0;
+    pool.share(100, 1, [&](ThreadPool::Ranges& ranges) {
+      std::uint32_t sum = 0;
+      for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) sum += end - first;
+      for (int k = 0; k < 100; ++k) added += 0;  // takes its time
+      added += sum;
+    });
+    CHECK(added == 100);
+  }
+}
+
 TEST_CASE("pools stand beside each other, and wake up after others have worked for long") {
   ThreadPool first(2), second(2), many(64);
   std::atomic<std::uint64_t> items = 0;

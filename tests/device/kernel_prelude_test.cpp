@@ -1,4 +1,4 @@
-// What a CPU thread adds and appends in the items that it takes together.
+// What a CPU thread adds and appends in its items of a loop.
 #define REAL_BITS 32
 #include "device/cpu/kernel_prelude.inc"
 

@@ -101,7 +101,7 @@
 #define RAISE_TO(target, value) if ((value) > ATOMIC_LOAD(target)) atomicMax(target, value);
 
 // Additions of many threads to one number come one after the other: each takes some 0.5 ns on an H100, and 50 ns between 16 threads of a
-// Xeon. So on the CPU a thread does what follows at the end of the items that it takes together.
+// Xeon. So on the CPU a thread does what follows at the end of its items of a loop.
 // - TALLY_UP counts what nothing in this dispatch reads. On a GPU one thread adds for its subgroup.
 // - APPEND adds a value to a list, and counts values beyond its capacity, too. Nothing in this dispatch may read the values, or rely on the
 //   count: on the CPU it lacks up to 64 for each thread. On a GPU each thread takes places by itself: threads come for them from loops of

@@ -160,8 +160,7 @@ class CpuDevice final : public Device {
       run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
       return;
     }
-    pool_.for_ranges(item_count, grain_of(entry),
-                     [&](std::uint32_t first, std::uint32_t end) { entry.function(arguments, first, end); });
+    pool_.share(item_count, grain_of(entry), [&](ThreadPool::Ranges& items) { entry.function(arguments, items); });
   }
   std::uint32_t parallel_items(std::uint32_t) const override { return 256; }
   std::uint32_t items_of_lists(std::uint32_t) const override { return 256; }
@@ -186,8 +185,7 @@ class CpuDevice final : public Device {
     const std::uint32_t items = entry.rounds.items(arguments), most = entry.rounds.most(arguments);
     if (items == 0) return;
     for (std::uint32_t round = 0; round < most; ++round) {
-      pool_.for_ranges(items, grain_of(entry),
-                       [&](std::uint32_t first, std::uint32_t end) { entry.rounds.run(arguments, round, first, end); });
+      pool_.share(items, grain_of(entry), [&](ThreadPool::Ranges& part) { entry.rounds.run(arguments, round, part); });
       if (!entry.rounds.goes_on(arguments, round)) return;
     }
   }

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "core/thread_pool.hpp"
 #include "device/device.hpp"
 
 namespace pliant::cpu {
@@ -56,8 +57,8 @@ class ArgumentReader {
   std::size_t buffer_ = 0, parameter_ = 0;
 };
 
-/// Runs items first to end - 1.
-using KernelFunction = void (*)(const KernelArguments& arguments, std::uint32_t first, std::uint32_t end);
+/// Runs a thread's items.
+using KernelFunction = void (*)(const KernelArguments& arguments, ThreadPool::Ranges& items);
 
 /// What a force kernel asks to be summed for one of its shares.
 struct ShareTask {
@@ -83,7 +84,7 @@ struct RoundFunctions {
   std::uint32_t (*items)(const KernelArguments& arguments) = nullptr;
   std::uint32_t (*most)(const KernelArguments& arguments) = nullptr;
   bool (*goes_on)(const KernelArguments& arguments, std::uint32_t round) = nullptr;
-  void (*run)(const KernelArguments& arguments, std::uint32_t round, std::uint32_t first, std::uint32_t end) = nullptr;
+  void (*run)(const KernelArguments& arguments, std::uint32_t round, ThreadPool::Ranges& items) = nullptr;
 };
 
 struct KernelEntry {

@@ -74,7 +74,7 @@ uvec2 halves_of_sum(uvec2 sum) { return sum; }
   }
 
 // The same where all threads that come here together add to one sum. On a GPU one of them does it for all of its subgroup. On the CPU each
-// adds once for the items that it takes together, so no other item of a round or dispatch may read the sum.
+// adds once for its items of a loop, so no other item of a round or dispatch may read the sum.
 #ifdef HAS_SUBGROUPS
 uvec2 sum_of_subgroup(uvec2 halves) {
   uint first = subgroupAdd(halves.x & 0xffffu), second = subgroupAdd(halves.x >> 16u) + (first >> 16u);
