@@ -37,11 +37,13 @@ CollisionDescription description_of(const Search& search) {
 
 class Pliant final : public Engine {
  public:
-  Pliant(Device& device, const ModelAndState& start, const Search& search)
-      : device_(device), bodies_(device, start.model, start.state), collider_(bodies_, start.model, description_of(search), {}) {
+  Pliant(Device& device, const ModelAndState& start, const TwoMeshes& meshes, const Search& search)
+      : device_(device),
+        meshes_(meshes),
+        bodies_(device, start.model, start.state),
+        collider_(bodies_, start.model, description_of(search), {}) {
     if (search.method == ContactSearch::tree)
       building_.time([&] { (void)build_forest(start.model, start.model.rest_positions, search.tree); });
-    device.run(std::array{collider_.bounding_pass(0)});
     pairing_ = collider_.pairing_passes(0);
     refitting_ = collider_.refitting_passes(0);
     querying_ = collider_.finding_passes();
@@ -49,6 +51,12 @@ class Pliant final : public Engine {
   }
 
   double build_seconds() const override { return building_.seconds(); }
+
+  void take_places() override {
+    bodies_.world_positions.upload(meshes_.positions);
+    bodies_.prepare_search();
+    device_.run(std::array{collider_.bounding_pass(0)});
+  }
 
   Found find() override {
     search();
@@ -84,6 +92,7 @@ class Pliant final : public Engine {
   void end() { device_.run(std::array{end_}); }
 
   Device& device_;
+  const TwoMeshes& meshes_;
   DeviceBodies bodies_;
   Collider collider_;
   Stopwatch building_;
@@ -98,6 +107,7 @@ class Library final : public Engine {
   }
 
   double build_seconds() const override { return building_.seconds(); }
+  void take_places() override { peer_->take_places(); }
 
   Found find() override {
     make_rounds();
@@ -140,8 +150,8 @@ std::span<const Search> searches() {
   return all;
 }
 
-std::unique_ptr<Engine> make_engine(Device& device, const ModelAndState& start, const Search& search) {
-  return std::make_unique<Pliant>(device, start, search);
+std::unique_ptr<Engine> make_engine(Device& device, const ModelAndState& start, const TwoMeshes& meshes, const Search& search) {
+  return std::make_unique<Pliant>(device, start, meshes, search);
 }
 
 std::unique_ptr<Engine> make_engine(const TreeLibrary& library, const TwoMeshes& meshes) {

@@ -26,6 +26,8 @@ class Engine {
  public:
   virtual ~Engine() = default;
   [[nodiscard]] virtual double build_seconds() const = 0;  // 0 without trees
+  /// Takes the places of vertices, which have changed. This is no part of a round.
+  virtual void take_places() = 0;
   /// Makes a round and returns what it found.
   [[nodiscard]] virtual Found find() = 0;
   /// Makes as many rounds as are timed well together.
@@ -41,8 +43,9 @@ struct Search {
 /// The first has what is best on a device. The last is brute force.
 [[nodiscard]] std::span<const Search> searches();
 
-/// The device and the start must outlive the engine.
-[[nodiscard]] std::unique_ptr<Engine> make_engine(Device& device, const ModelAndState& start, const Search& search);
+/// The device, the start and its meshes must outlive the engine.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(Device& device, const ModelAndState& start, const TwoMeshes& meshes,
+                                                  const Search& search);
 /// The meshes and the library must outlive the engine.
 [[nodiscard]] std::unique_ptr<Engine> make_engine(const TreeLibrary& library, const TwoMeshes& meshes);
 

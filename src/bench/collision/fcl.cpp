@@ -4,6 +4,7 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #endif
 
@@ -15,12 +16,16 @@ namespace {
 
 class Fcl final : public TreePeer {
  public:
-  explicit Fcl(const TwoMeshes& meshes) : first_count_(meshes.first_count) {
-    for (const glm::vec4& at : meshes.positions) vertices_.emplace_back(at.x, at.y, at.z);
+  explicit Fcl(const TwoMeshes& meshes) : meshes_(meshes), vertices_(meshes.positions.size()) {
+    take_places();
     make(*first_, meshes.first());
     make(*second_, meshes.second());
   }
 
+  void take_places() override {
+    std::ranges::transform(meshes_.positions, vertices_.begin(),
+                           [](const glm::vec4& at) { return fcl::Vector3<double>(at.x, at.y, at.z); });
+  }
   void refit() override {
     for (Tree* tree : {first_.get(), second_.get()}) {
       tree->beginReplaceModel();
@@ -38,7 +43,7 @@ class Fcl final : public TreePeer {
     fcl::detail::collide(&traversal);
     for (std::size_t k = 0; k < result.numContacts(); ++k) {
       const fcl::Contact<double>& contact = result.getContact(k);
-      found.emplace_back(contact.b1, first_count_ + static_cast<std::uint32_t>(contact.b2));
+      found.emplace_back(contact.b1, meshes_.first_count + static_cast<std::uint32_t>(contact.b2));
     }
   }
 
@@ -55,7 +60,7 @@ class Fcl final : public TreePeer {
     tree.endModel();
   }
 
-  std::uint32_t first_count_;
+  const TwoMeshes& meshes_;
   std::vector<fcl::Vector3<double>> vertices_;
   std::unique_ptr<Tree> first_ = std::make_unique<Tree>(), second_ = std::make_unique<Tree>();
 };
