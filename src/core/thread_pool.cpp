@@ -148,11 +148,11 @@ bool ThreadPool::Ranges::take_more() {
   while (true) {
     const std::uint32_t count = pool_->count_, first = item_of(next);
     if (first >= count) return false;
-    const std::uint32_t size = std::min<std::uint32_t>(pool_->grain_, count - first);
+    grain_ = pool_->grain_;
+    const std::uint32_t size = std::min(grain_, count - first);
     if (!pool_->next_.compare_exchange_weak(next, next + size)) continue;
     first_ = first;
     end_ = first + size;
-    grain_ = size;
     taken_ += size;
     count_ = count;
     return true;

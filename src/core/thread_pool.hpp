@@ -19,7 +19,8 @@ class ThreadPool {
  public:
   /// The ranges of a loop that one thread takes, one after another.
   class Ranges;
-  /// Is called once on each thread that takes part in a loop. It has to take ranges until there are no more.
+  /// Is called once on each thread that takes part in a loop. It has to take ranges until there are no more, or the loop would
+  /// not end. The calling thread may find none.
   using Part = std::function<void(Ranges&)>;
   /// Is called with the first item of a range and one past its last.
   using Body = std::function<void(std::uint32_t, std::uint32_t)>;
@@ -73,9 +74,10 @@ class ThreadPool::Ranges {
   Ranges(std::uint32_t count, std::uint32_t grain) : end_(count), grain_(grain) {}
   bool take_more();
 
-  ThreadPool* pool_ = nullptr;                     // that shares the loop, if any does
-  std::uint32_t first_ = 0, end_ = 0, grain_ = 1;  // of what was taken from it and not yet handed on
-  std::uint32_t taken_ = 0, count_ = 0;            // items taken from it by this thread, and of the loop
+  ThreadPool* pool_ = nullptr;           // null if this thread has all items from the start
+  std::uint32_t first_ = 0, end_ = 0;    // of items that this thread has and take() has not returned yet
+  std::uint32_t grain_ = 1;              // most items of a range
+  std::uint32_t taken_ = 0, count_ = 0;  // with a pool: items that this thread took from it so far, and all of the loop
 };
 
 }  // namespace pliant

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 namespace pliant {
@@ -36,27 +38,34 @@ TEST_CASE("thousands of short loops follow each other, each with the body and it
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a thread takes part in a loop once, and its ranges have as many items as asked for or fewer") {
-  constexpr std::uint32_t count = 1000, grain = 16;
+TEST_CASE("a thread takes part in a loop once at most, and its ranges have as many items as asked for or fewer") {
+  constexpr std::uint32_t grain = 16;
   for (const unsigned threads : {1u, 2u, 7u}) {
     ThreadPool pool(threads);
-    for (int loop = 0; loop < 50; ++loop) {
-      std::vector<int> visits(count, 0);
-      std::atomic<unsigned> parts = 0;
-      std::atomic<std::uint32_t> longest = 0, empty = 0;
-      pool.share(count, grain, [&](ThreadPool::Ranges& ranges) {
-        ++parts;
-        for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) {
-          if (end - first > longest) longest = end - first;
-          empty += first == end ? 1 : 0;
-          for (; first < end; ++first) ++visits[first];
-        }
-      });
-      CHECK((parts >= 1 && parts <= threads));
-      CHECK(longest == grain);
-      CHECK(empty == 0);
-      CHECK(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
-    }
+    for (const std::uint32_t count : {0u, 1u, grain, grain + 1, 1000u})
+      for (int loop = 0; loop < 20; ++loop) {
+        CAPTURE(threads, count);
+        std::vector<int> visits(count, 0);
+        std::mutex mutex;
+        std::vector<std::thread::id> takers;
+        std::vector<std::uint32_t> lengths;
+        pool.share(count, grain, [&](ThreadPool::Ranges& ranges) {
+          std::vector<std::uint32_t> own;
+          for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) {
+            own.push_back(end - first);
+            for (; first < end; ++first) ++visits[first];
+          }
+          const std::lock_guard lock(mutex);
+          takers.push_back(std::this_thread::get_id());
+          lengths.insert(lengths.end(), own.begin(), own.end());
+        });
+        CHECK(takers.size() <= threads);
+        std::ranges::sort(takers);
+        CHECK(std::ranges::adjacent_find(takers) == takers.end());
+        CHECK(lengths.size() == (count + grain - 1) / grain);
+        CHECK(std::ranges::all_of(lengths, [](std::uint32_t length) { return length >= 1 && length <= grain; }));
+        CHECK(std::ranges::all_of(visits, [](int n) { return n == 1; }));
+      }
   }
 }
 
@@ -67,7 +76,7 @@ TEST_CASE("what a part does after its last range is done when the loop ends") {
     pool.share(100, 1, [&](ThreadPool::Ranges& ranges) {
       std::uint32_t sum = 0;
       for (std::uint32_t first = 0, end = 0; ranges.take(first, end);) sum += end - first;
-      for (int k = 0; k < 100; ++k) added += 0;  // takes its time
+      for (int k = 0; k < 100; ++k) std::this_thread::yield();  // takes its time
       added += sum;
     });
     CHECK(added == 100);

@@ -167,6 +167,29 @@ TEST_CASE("each demo says what to try, and begins") {
   }
 }
 
+// Otherwise a ball is clamped when they come together, and both wait for ever.
+TEST_CASE("the ball pit's balls fit between its paddle and its walls, also while these are shaken") {
+  const auto device = make_cpu_device(0, 32);
+  Session session(*device, load(source_dir() + "/scenes/demos/ball_pit.toml"));
+  session.shake();
+  const Model& model = session.model();
+  double ball = 0, reach = 0, wall = 0, far = 0;  // [m]
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    if (!body.is_rigid()) ball = std::max(ball, 2 * body.radius);
+    for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) {
+      const glm::dvec3 place(model.rest_positions[i]);
+      if (body.name == "paddle") reach = std::max(reach, std::hypot(place.x, place.z));
+      if (body.is_container) wall = std::max(wall, std::abs(place.x));
+    }
+    if (body.is_container)
+      for (const PathKeyDescription& key : session.scene().bodies[b].path) far = std::max(far, std::abs(key.position.x));
+  }
+  CHECK(ball > 0.3);
+  CHECK((reach > 0.5 && far > 0.2));
+  CHECK(wall - far - reach > ball);
+}
+
 TEST_CASE("the piston presses the ball through the ring") {
   const auto device = make_cpu_device(0, 32);
   Session session(*device, load(source_dir() + "/scenes/demos/narrow_ring.toml"));

@@ -48,7 +48,8 @@
   #define PARAMETER(T, name) const T name = arguments.parameter<T>(#name);
   #define PRIVATE(T, name) T name{};
   // A group kernel (groups.comp) serves an item by THREADS threads, of which each is a THREAD. They MEET, and have NEAR memory in common.
-  // On the CPU that is one thread.
+  // On the CPU that is one thread. PRIVATE and NEAR are members there, which all items that a thread takes of a loop have in common. So an
+  // item sets them before it reads them.
   #define THREAD 0u
   #define THREADS 1u
   #define MEET

@@ -52,10 +52,14 @@ class Pliant final : public Engine {
 
   double build_seconds() const override { return building_.seconds(); }
 
-  void take_places() override {
+  // Threads of a processor have fallen asleep meanwhile. Within a step they are awake, so they bound bodies until they are.
+  void read_places() override {
+    constexpr double waking_seconds = 1e-4;
     bodies_.world_positions.upload(meshes_.positions);
     bodies_.prepare_search();
-    device_.run(std::array{collider_.bounding_pass(0)});
+    Stopwatch waking;
+    do waking.time([&] { device_.run(std::array{collider_.bounding_pass(0)}); });
+    while (device_.info().kind == DeviceKind::cpu && waking.seconds() < waking_seconds);
   }
 
   Found find() override {
@@ -107,7 +111,7 @@ class Library final : public Engine {
   }
 
   double build_seconds() const override { return building_.seconds(); }
-  void take_places() override { peer_->take_places(); }
+  void read_places() override { peer_->read_places(); }
 
   Found find() override {
     make_rounds();

@@ -26,8 +26,8 @@ class Engine {
  public:
   virtual ~Engine() = default;
   [[nodiscard]] virtual double build_seconds() const = 0;  // 0 without trees
-  /// Takes the places of vertices, which have changed. This is no part of a round.
-  virtual void take_places() = 0;
+  /// Reads where vertices stand now. This is no part of a round.
+  virtual void read_places() = 0;
   /// Makes a round and returns what it found.
   [[nodiscard]] virtual Found find() = 0;
   /// Makes as many rounds as are timed well together.

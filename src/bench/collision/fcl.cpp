@@ -17,12 +17,12 @@ namespace {
 class Fcl final : public TreePeer {
  public:
   explicit Fcl(const TwoMeshes& meshes) : meshes_(meshes), vertices_(meshes.positions.size()) {
-    take_places();
+    read_places();
     make(*first_, meshes.first());
     make(*second_, meshes.second());
   }
 
-  void take_places() override {
+  void read_places() override {
     std::ranges::transform(meshes_.positions, vertices_.begin(),
                            [](const glm::vec4& at) { return fcl::Vector3<double>(at.x, at.y, at.z); });
   }

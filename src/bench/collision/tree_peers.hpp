@@ -12,8 +12,8 @@ namespace pliant::bench {
 class TreePeer {
  public:
   virtual ~TreePeer() = default;
-  /// Takes the places of vertices in the form that the library needs. One that reads the meshes themselves has nothing to do.
-  virtual void take_places() {}
+  /// Reads where vertices stand, for a library that needs that in a form of its own.
+  virtual void read_places() {}
   /// Fits both trees to where the vertices stand.
   virtual void refit() = 0;
   /// Adds all pairs that may touch to `found`, or just those that touch if TreeLibrary::tests_triangles.

@@ -4,7 +4,8 @@
 #include "box_of_triangle.glsl"
 #include "mark_contact.glsl"
 
-// Returns those of up to 32 triangles whose boxes overlap a box, from t on and every `width`-th, as bits.
+// Looks at triangles t, t + width, and so on, up to 32 of them before `end`. Bit k of the result says whether the box of number k overlaps
+// the given one. Processors can't foresee that, so there is no branch for it.
 uint overlapping(IN(PaddedBox) box, uint t, uint end, uint width) {
   uint near = 0u;
   for (uint k = 0u; t < end && k < 32u; t += width, ++k) near |= (overlaps(box, box_of_triangle(t)) ? 1u : 0u) << k;
