@@ -161,7 +161,7 @@ TEST_CASE("marked vertices are those of the triangles that brute force finds", "
     setup.description.position.x *= 0.75;
   }
   const ModelAndState start = build_model(setups, {0, 0, 0});
-  // One thread looks at 32 triangles of a leaf at a time, and four of a GPU at 128. The last of these takes a body as one leaf.
+  // Sixteen threads of a GPU share a pair of leaves. The last of these sizes makes a body one leaf.
   for (const unsigned leaf_size : {4u, 1u, 33u, 129u, 1000u}) {
     CollisionDescription collision = reflected;
     collision.tree.leaf_size = leaf_size;
