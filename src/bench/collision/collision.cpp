@@ -41,15 +41,16 @@ const std::array<Overlap, 3> overlaps = {Overlap{"apart", {1.2, 1.2, 1.2}}, Over
 
 TwoMeshes meshes_of(const ModelAndState& start) {
   TwoMeshes meshes;
-  meshes.positions.resize(start.model.vertex_count());
+  for (const glm::dvec3& place : start.state.world_positions(start.model)) meshes.positions.emplace_back(glm::vec3(place), 1.0f);
   meshes.triangles = start.model.triangles;
   meshes.first_count = start.model.bodies[0].triangle_count;
   return meshes;
 }
 
 // One size and overlap. Its engines take turns, because a processor's clock changes while they are measured. For a processor
-// bodies turn about their centres before each round. If it made the same search again, it would foresee each branch: two spheres
-// of 5,120 triangles took one thread two thirds of the time that way. A GPU foresees none, and should not wait for that.
+// bodies turn about their centres before each round. If it makes the same search again, it learns which way branches go: two
+// spheres of 5,120 triangles took one thread two thirds of the time that way. A GPU does not, and should not wait for turned
+// bodies.
 class Case {
  public:
   Case(std::size_t bodies, const Overlap& overlap, int level, bool quick)
@@ -63,7 +64,6 @@ class Case {
       centres_.push_back(std::reduce(of_body.begin(), of_body.end(), glm::dvec3(0)) / double(body.vertex_count));
       for (const glm::dvec3& place : of_body) arms_.push_back(place - centres_.back());
     }
-    turn_bodies(0);
   }
 
   [[nodiscard]] std::uint32_t triangles() const { return meshes_.first_count; }
@@ -108,7 +108,7 @@ class Case {
     std::vector<double> refits = {}, queries = {};
   };
 
-  // Trees were built for other places.
+  // Compares what engines find at places for which their trees were not built.
   void add(std::string name, const Place& place, std::unique_ptr<Engine> engine) {
     std::vector<Found> found;
     for (const int turned : {1, 2}) {
@@ -116,6 +116,7 @@ class Case {
       engine->read_places();
       found.push_back(engine->find());
     }
+    turn_bodies(0);
     entries_.push_back({std::move(name), place, std::move(engine), std::move(found)});
   }
 

@@ -26,7 +26,7 @@ class Engine {
  public:
   virtual ~Engine() = default;
   [[nodiscard]] virtual double build_seconds() const = 0;  // 0 without trees
-  /// Reads where vertices stand now. This is no part of a round.
+  /// Reads where vertices stand now. Has to come before the first round, and is no part of one.
   virtual void read_places() = 0;
   /// Makes a round and returns what it found.
   [[nodiscard]] virtual Found find() = 0;

@@ -93,7 +93,7 @@ struct KernelEntry {
   KernelFunction function;  // null for a force kernel and for one in rounds
   ForceFunctions force;     // what a force kernel has instead
   RoundFunctions rounds;    // what a kernel in rounds has instead
-  std::uint32_t grain;      // items that one of several threads takes at a time: a microsecond or more, if not few have all work
+  std::uint32_t grain;  // items that one of several threads takes at a time: a microsecond's or more, or 1 where few have work
 };
 
 /// Sums the springs of the share's vertices first to end - 1, one by one. Faster ways are compared with it.
