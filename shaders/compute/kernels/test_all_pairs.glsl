@@ -16,7 +16,7 @@ PARAMETER(uint, triangle_test)
 PARAMETER(uint, threads_per_pair)
 PARAMETER(uint, pairs_at_once)
 #include "parts/box_of_triangle.glsl"
-#include "parts/mark_contact.glsl"
+#include "parts/test_triangles.glsl"
 
 void test_all_pairs(uint item) {
   for (uint k = item / threads_per_pair; k < control[0].near_pair_count; k += pairs_at_once) {
@@ -24,14 +24,9 @@ void test_all_pairs(uint item) {
     uint s = first.z + item % threads_per_pair;
     if (s >= first.w) continue;
     PaddedBox box = box_of_triangle(s);
-    uint tests = 0u, touching = 0u;
-    for (uint t = second.z; t < second.w; ++t) {
-      if (!overlaps(box, box_of_triangle(t))) continue;
-      touching += mark_contact(s, t);
-      ++tests;
-    }
+    uvec2 counts = uvec2(0u);
+    for (uint t = second.z; t < second.w; ++t) counts += test_if(overlaps(box, box_of_triangle(t)), s, t);
     TALLY_UP(control[0].count[node_tests], second.w - second.z)
-    TALLY_UP(control[0].count[triangle_tests], tests)
-    TALLY_UP(control[0].count[contact_pairs], touching)
+    count_tests(counts);
   }
 }

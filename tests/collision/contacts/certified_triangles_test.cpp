@@ -1,5 +1,6 @@
 #include "physics/collision/certified_triangles.glsl"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cfenv>
 #include <cmath>
@@ -7,14 +8,36 @@
 
 #include "collision/contacts/degenerate_cases.hpp"
 #include "collision/contacts/exact_triangles.hpp"
+#include "device/cpu/waiting_pairs.hpp"
 
 namespace pliant::testing {
 namespace {
 
-/// This is not inlined, so that the arithmetic sees the rounding direction in force.
+/// The latest pairs, so that each comes beside others and in another lane than the one before.
+struct Lanes {
+  cpu::TriangleLanes pairs{};
+  unsigned next = 0;
+
+  unsigned add(const Triangle& a, const Triangle& b) {
+    const unsigned lane = next++ % cpu::most_lanes;
+    cpu::set_lane(pairs, lane, [&](unsigned triangle, unsigned k) { return glm::vec4((triangle == 0 ? a : b)[k], 1); });
+    return lane;
+  }
+};
+
+/// Also checks that vectors give the same answer, or none. This is not inlined, so that the arithmetic sees the rounding
+/// direction in force.
 [[gnu::noinline]] bool may_touch(const Triangle& a, const Triangle& b) {
+  static Lanes lanes;
   const glm::vec3 p[3] = {a[0], a[1], a[2]}, q[3] = {b[0], b[1], b[2]};
-  return physics::triangles_may_touch(p, q);
+  const bool answer = physics::triangles_may_touch(p, q);
+  const unsigned lane = lanes.add(a, b);
+  for (const cpu::Isa isa : cpu::available_isas()) {
+    const cpu::LaneAnswers answers = cpu::lane_test(isa)(lanes.pairs, lane + 1);
+    const bool touching = (answers.touching >> lane & 1u) != 0, unknown = (answers.unknown >> lane & 1u) != 0;
+    if (touching != (answer && !unknown)) FAIL("not so in vectors, lane " << lane << ", " << cpu::name_of(isa));
+  }
+  return answer;
 }
 
 /// A gap, relative to the size of the pair, at which triangles have to be told apart.
@@ -184,6 +207,29 @@ TEST_CASE("the certified test misses no contact however the processor rounds") {
     CHECK(near.missed == 0);
     CHECK(in_plane.missed == 0);
     CHECK(small.missed == 0);
+  }
+}
+
+TEST_CASE("vectors answer for nearly all pairs of triangles in no common plane") {
+  for (const cpu::Isa isa : cpu::available_isas()) {
+    INFO(cpu::name_of(isa));
+    Random random;
+    Lanes lanes;
+    int pairs = 0, expected = 0, touching = 0, unknown = 0;
+    for (; pairs < 16000; pairs += cpu::most_lanes) {
+      for (unsigned k = 0; k < cpu::most_lanes; ++k) {
+        const Triangle a = place(random.triangle(1 << 19), -19, 0), b = place(random.triangle(1 << 19), -19, 0);
+        expected += may_touch(a, b);
+        lanes.add(a, b);
+      }
+      const cpu::LaneAnswers answers = cpu::lane_test(isa)(lanes.pairs, cpu::most_lanes);
+      touching += std::popcount(answers.touching);
+      unknown += std::popcount(answers.unknown);
+    }
+    CHECK(unknown < pairs / 1000);
+    CHECK(touching <= expected);
+    CHECK(touching + unknown >= expected);
+    CHECK(expected > pairs / 100);
   }
 }
 
