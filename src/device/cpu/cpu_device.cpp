@@ -160,7 +160,7 @@ class CpuDevice final : public Device {
       run_forces(entry.force, call.kernel / kernels_.size(), arguments, item_count);
       return;
     }
-    pool_.share(item_count, grain_of(entry), [&](ThreadPool::Ranges& items) { entry.function(arguments, items); });
+    pool_.share(item_count, grain_of(entry, item_count), [&](ThreadPool::Ranges& items) { entry.function(arguments, items); });
   }
   std::uint32_t parallel_items(std::uint32_t) const override { return 256; }
   std::uint32_t items_of_lists(std::uint32_t) const override { return 256; }
@@ -176,16 +176,23 @@ class CpuDevice final : public Device {
     std::uint32_t share, first, end;
   };
 
+  // Threads wait for each other's takes, and so take more at a time where there are many items.
+  std::uint32_t grain_between(std::uint32_t least, std::uint32_t most, std::uint32_t items) const {
+    constexpr std::uint32_t ranges_of_a_thread = 8;  // so many at least, so that all end at about the same time
+    return std::clamp(items / (ranges_of_a_thread * pool_.size()), least, most);
+  }
+
   // One thread takes all items at once.
-  std::uint32_t grain_of(const cpu::KernelEntry& entry) const {
-    return pool_.size() == 1 ? std::numeric_limits<std::uint32_t>::max() : entry.grain;
+  std::uint32_t grain_of(const cpu::KernelEntry& entry, std::uint32_t items) const {
+    if (pool_.size() == 1) return std::numeric_limits<std::uint32_t>::max();
+    return entry.grain == 1 ? 1 : grain_between(entry.grain, 8 * entry.grain, items);
   }
 
   void run_rounds(const cpu::KernelEntry& entry, const cpu::KernelArguments& arguments) {
     const std::uint32_t items = entry.rounds.items(arguments), most = entry.rounds.most(arguments);
     if (items == 0) return;
     for (std::uint32_t round = 0; round < most; ++round) {
-      pool_.share(items, grain_of(entry), [&](ThreadPool::Ranges& part) { entry.rounds.run(arguments, round, part); });
+      pool_.share(items, grain_of(entry, items), [&](ThreadPool::Ranges& part) { entry.rounds.run(arguments, round, part); });
       if (!entry.rounds.goes_on(arguments, round)) return;
     }
   }
@@ -214,8 +221,7 @@ class CpuDevice final : public Device {
   void serve_small_shares(const cpu::ForceFunctions& force, std::size_t variant, const cpu::KernelArguments& arguments,
                           std::uint32_t share_count) {
     tasks_.resize(share_count);
-    const std::uint32_t grain = std::clamp(share_count / (8 * pool_.size()), 1u, 16u);
-    pool_.for_ranges(share_count, grain, [&](std::uint32_t first, std::uint32_t end) {
+    pool_.for_ranges(share_count, grain_between(1, 16, share_count), [&](std::uint32_t first, std::uint32_t end) {
       for (std::uint32_t share = first; share < end; ++share) {
         const cpu::ShareTask task = force.task(arguments, share);
         const bool is_small = has_own_thread(share_count, task.vertex_count);
