@@ -43,8 +43,12 @@ uint open_nodes(uvec2 pair) {
   uint first = opens_a ? a.x : max(b.x, is_child(pair.x, b) ? pair.x : 0u), end = opens_a ? a.y : b.y;
   PaddedBox stays = box_a;
   if (opens_a) stays = box_b;
-  for (uint n = first; n < end; ++n)
-    if (overlaps(box_of_node(n), stays)) meet_nodes(opens_a ? uvec2(n, pair.y) : uvec2(pair.x, n), stays_leaf && node[n].x == 0u);
+  uint near = 0u;  // bits of children: a processor foresees how many there are better than which
+  for (uint n = first; n < end; ++n) near |= (overlaps(box_of_node(n), stays) ? 1u : 0u) << (n - first);
+  for (; near != 0u; near &= near - 1u) {
+    uint n = first + uint(findLSB(near));
+    meet_nodes(opens_a ? uvec2(n, pair.y) : uvec2(pair.x, n), stays_leaf && node[n].x == 0u);
+  }
   return end - first;
 }
 
