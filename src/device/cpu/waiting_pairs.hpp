@@ -29,11 +29,8 @@ void set_lane(TriangleLanes& pairs, unsigned lane, const CornerOf& corner_of) {
 /// (kernels/parts/test_triangles.glsl).
 class WaitingPairs {
  public:
-  /// Expects that not all places are taken. It has no branch, because processors could not foresee it.
-  void add_if(bool adds, glm::uvec2 pair) {
-    pair_[count_] = pair;
-    count_ += adds ? 1u : 0u;
-  }
+  /// Expects that not all places are taken.
+  void add(glm::uvec2 pair) { pair_[count_++] = pair; }
   [[nodiscard]] unsigned count() const { return count_; }
   [[nodiscard]] bool is_full() const { return count_ == most_lanes; }
 

@@ -38,7 +38,7 @@ void end_items() { count_tests(test_waiting()); }
 // Tests a pair if it is near. On a processor it waits until 16 do. Returns how many pairs were tested now, and how many of them touch.
 uvec2 test_if(bool near, uint first, uint second) {
 #ifdef __cplusplus
-  waiting.add_if(near, uvec2(first, second));
+  if (near) waiting.add(uvec2(first, second));
   return waiting.is_full() ? test_waiting() : uvec2(0u);
 #else
   if (!near) return uvec2(0u);
