@@ -47,7 +47,8 @@ def explain(axes):
 def draw_search(axes, data):
     """Draws pliant as it comes, without its other trees, and everything else."""
     dress_axes(axes, f"Two spheres, {OVERLAP} overlap: all pairs that touch", hardware_of(data), "milliseconds to refit and query")
-    rows = [row for row in data["rows"] if row["overlap"] == OVERLAP and not row["engine"].startswith("pliant, ")]
+    rows = [row for row in data["rows"]
+            if row["overlap"] == OVERLAP and row["bodies"] == 2 and not row["engine"].startswith("pliant, ")]
     for label in dict.fromkeys(label_of(row) for row in rows):
         own = [row for row in rows if label_of(row) == label]
         draw_line(axes, own, "refit_and_query_seconds", label=label, color=COLORS[own[0]["engine"].split()[0]],

@@ -64,13 +64,14 @@ std::string to_table(const CollisionResult& result) {
   std::string table = fmt::format("{:>6} {:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10} {:>10} {:>10} {:>11} {:>9}\n", "bodies",
                                   "triangles", "overlap", "engine", width, "device", "threads", "build ms", "refit ms",
                                   "query ms", "both ms", "refit M/s", "pairs");
-  for (const CollisionRow& row : result.rows)
-    table +=
-        fmt::format("{:>6} {:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10.4g} {:>10.4g} {:>10.4g} {:>11.4g} {:>9}{}\n", row.bodies,
-                    row.triangles, row.overlap, row.engine, width, name_of(row.device), threads_text(row.device, row.threads),
-                    row.build_seconds > 0 ? fmt::format("{:.4g}", 1e3 * row.build_seconds) : "-", 1e3 * row.refit_seconds,
-                    1e3 * row.query_seconds, 1e3 * row.refit_and_query_seconds(), 1e-6 * row.refitted_per_second(), row.pairs,
-                    row.agrees ? "" : " differ");
+  for (const CollisionRow& row : result.rows) {
+    const auto of_tree = [&](double value) { return row.build_seconds > 0 ? fmt::format("{:.4g}", value) : "-"; };
+    table += fmt::format("{:>6} {:>9} {:>7}  {:<{}} {:<6} {:>7} {:>10} {:>10} {:>10.4g} {:>10.4g} {:>11} {:>9}{}\n", row.bodies,
+                         row.triangles, row.overlap, row.engine, width, name_of(row.device),
+                         threads_text(row.device, row.threads), of_tree(1e3 * row.build_seconds),
+                         of_tree(1e3 * row.refit_seconds), 1e3 * row.query_seconds, 1e3 * row.refit_and_query_seconds(),
+                         of_tree(1e-6 * row.refitted_per_second()), row.pairs, row.agrees ? "" : " differ");
+  }
   table += table_of(result.contact_steps);
   for (const std::string& note : result.notes) table += note + '\n';
   return table;
