@@ -117,7 +117,7 @@ TEST_CASE("bodies that begin too near each other for proofs are an error, and hi
     Start start(ball +
                 fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.16g}, 0, 0]\n", 2 + distance));
     check_says(start.error(), {"bodies \"ball\" and \"other\" begin ", "too near to prove in fp32",
-                               "move them apart, such as \"other\" by [", "or take --precision 64"});
+                               "move them further apart, or take --precision 64"});
     CHECK_NOTHROW(start.check(64));
   }
   CHECK_NOTHROW(Start(beside(0.01)).check());
