@@ -93,8 +93,9 @@ struct KernelEntry {
   KernelFunction function;  // null for a force kernel and for one in rounds
   ForceFunctions force;     // what a force kernel has instead
   RoundFunctions rounds;    // what a kernel in rounds has instead
-  std::uint32_t grain;  // items that one of several threads takes at a time: a microsecond's, or 1 where few have work. It takes
-                        // up to 8 times as many where there are many, but for 1
+  /// Items that one of several threads takes at a time: a microsecond's, or 1 where few have work. Where there are many it takes
+  /// up to 8 times as many, but stays at 1.
+  std::uint32_t grain;
 };
 
 /// Sums the springs of the share's vertices first to end - 1, one by one. Faster ways are compared with it.

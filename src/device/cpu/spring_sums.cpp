@@ -2,13 +2,9 @@
 // order of additions depends on no thread.
 #include "device/cpu/spring_sums.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
-#include "core/error.hpp"
 #include "core/expect.hpp"
 
 namespace pliant::cpu {

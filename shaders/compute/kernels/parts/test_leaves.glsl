@@ -4,31 +4,36 @@
 #include "test_triangles.glsl"
 
 #ifdef __cplusplus
-// Returns a bit for each two triangles whose boxes overlap: of up to four from s on with up to four from t on. They are all compared before
-// anything depends on one of them, because no processor foresees which overlap.
-uint near_of_four(uint s, uint end_s, uint t, uint end_t) {
-  PaddedBox of_s[4], of_t[4];
-  for (uint k = 0; k < 4; ++k) {
-    of_s[k] = box_of_triangle(min(s + k, end_s - 1));
-    of_t[k] = box_of_triangle(min(t + k, end_t - 1));
-  }
-  uint near = 0;
-#pragma GCC unroll 16
-  for (uint k = 0; k < 16; ++k) near |= (overlaps(of_s[k / 4], of_t[k % 4]) ? 1u : 0u) << k;
-  const uint rows = 0xffffu >> (16 - 4 * min(end_s - s, 4u)), columns = 0x1111u * (0xfu >> (4 - min(end_t - t, 4u)));
-  return near & rows & columns;
+// The boxes of up to four triangles from one on. Behind the end the last one comes again.
+struct FourBoxes { PaddedBox box[4]; };
+
+FourBoxes boxes_of_four(uint first, uint end) {
+  FourBoxes four;
+  for (uint k = 0; k < 4; ++k) four.box[k] = box_of_triangle(min(first + k, end - 1));
+  return four;
 }
 
-// One thread has all pairs.
+// One thread has all pairs. It compares four boxes with four before anything depends on one of them, because no processor foresees which
+// overlap.
 void test_leaves(uvec2 leaves, uint, uint) {
   const uvec4 a = node[leaves.x], b = node[leaves.y];
+  const PaddedBox of_second = box_of_node(leaves.y);
   uvec2 counts = uvec2(0u);
-  for (uint s = a.z; s < a.w; s += 4)
-    for (uint t = b.z; t < b.w; t += 4)
-      for (uint near = near_of_four(s, a.w, t, b.w); near != 0; near &= near - 1) {
+  for (uint s = a.z; s < a.w; s += 4) {
+    const FourBoxes of_s = boxes_of_four(s, a.w);
+    if (b.w - b.z > 4 && !overlaps(joined(joined(of_s.box[0], of_s.box[1]), joined(of_s.box[2], of_s.box[3])), of_second)) continue;
+    for (uint t = b.z; t < b.w; t += 4) {
+      const FourBoxes of_t = boxes_of_four(t, b.w);
+      uint near = 0;
+#pragma GCC unroll 16
+      for (uint k = 0; k < 16; ++k) near |= (overlaps(of_s.box[k / 4], of_t.box[k % 4]) ? 1u : 0u) << k;
+      near &= 0xffffu >> (16 - 4 * min(a.w - s, 4u)) & 0x1111u * (0xfu >> (4 - min(b.w - t, 4u)));  // none behind an end
+      for (; near != 0; near &= near - 1) {
         const uint k = uint(findLSB(near));
         counts += test_if(true, s + k / 4, t + k % 4);
       }
+    }
+  }
   count_tests(counts);
 }
 #else
