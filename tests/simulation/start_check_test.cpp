@@ -121,6 +121,9 @@ TEST_CASE("bodies that begin too near each other for proofs are an error, and hi
     CHECK_NOTHROW(start.check(64));
   }
   CHECK_NOTHROW(Start(beside(0.01)).check());
+  const std::string rows = "[[body]]\nname = \"row\"\nmesh = \"icosphere:2\"\ncount = [2, 1, 1]\nspacing = [2.0000001, 0, 0]\n";
+  check_says(Start(rows).error(),
+             {"\"row[0,0,0]\" and \"row[1,0,0]\" begin ", "give their rows a larger spacing, or take --precision 64"});
 }
 
 TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl][long]") {
