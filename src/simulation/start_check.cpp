@@ -104,7 +104,6 @@ std::string described(const Model& model, const Overlap& overlap, int precision)
 
 std::string way_apart(const Model& model, const Overlap& overlap, int precision) {
   const bool in_rows = model.bodies[overlap.first].name_of_rows() == model.bodies[overlap.second].name_of_rows();
-  const char* spacing = in_rows ? "give their rows a larger spacing, " : "";
   if (overlap.distance > 0)  // how far proofs need them apart is not known
     return fmt::format("{}{}", in_rows ? "give their rows a larger spacing" : "move them further apart",
                        precision == 32 ? ", or take --precision 64" : "");
@@ -114,8 +113,8 @@ std::string way_apart(const Model& model, const Overlap& overlap, int precision)
   const bool may_reflect = model.grounds.empty() && std::ranges::none_of(model.bodies, &ModelBody::is_rigid);
   const char* other_way = may_reflect ? "write response = \"reflect\" in [collision], which lets bodies begin tangled"
                                       : "give one of them a smaller scale";
-  return fmt::format("{}move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}", spacing, body.name, way.x, way.y,
-                     way.z, other_way);
+  return fmt::format("{}move them apart, such as \"{}\" by [{:.4g}, {:.4g}, {:.4g}], or {}",
+                     in_rows ? "give their rows a larger spacing, " : "", body.name, way.x, way.y, way.z, other_way);
 }
 
 void expect_no_nearer(Nearness allowed, Simulation& simulation, const Model& model, const CollisionDescription& collision,
