@@ -235,7 +235,7 @@ std::optional<Overlap> find_overlap(const Model& model, std::span<const glm::dve
     if (!found || found->distance > 0 || depth > found->depth) found = {.first = first, .second = second, .depth = depth};
     return measured < most_measured;
   });
-  if (!found) return {};
+  if (!found || found->distance > 0) return found;
   const ModelBody &first = model.bodies[found->first], &second = model.bodies[found->second];
   found->way_out =
       way_out(vertices_of(first, positions), vertices_of(second, positions), gap_between(model, first, second, collision));

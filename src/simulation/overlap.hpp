@@ -16,7 +16,7 @@ struct Overlap {
   std::uint32_t first = 0, second = 0;
   double depth = 0;         // from a vertex of one to the surface of the other that it is inside, at least [m]; 0: none is inside
   double distance = 0;      // of bodies that do not intersect [m]
-  glm::dvec3 way_out{0.0};  // moving the second body this way parts them, by their gap [m]
+  glm::dvec3 way_out{0.0};  // of bodies that do: moving the second this way parts them, by their gap [m]
 };
 
 /// Returns the distance that contacts by impulses keep between two bodies [m].
