@@ -14,6 +14,7 @@
 #include "model/body_path.hpp"
 #include "physics/body.glsl"
 #include "physics/layout.glsl"
+#include "scene/place_in_rows.hpp"
 #include "scene/scene_description.hpp"
 
 namespace pliant {
@@ -54,7 +55,7 @@ struct ModelBody {
   std::optional<BodyPath> path = {};  // of a scripted body
 
   /// Returns the name of the rows that the body is in, without its place in them. Of another body it is the body's own.
-  [[nodiscard]] std::string_view name_of_rows() const { return std::string_view(name).substr(0, name.rfind('[')); }
+  [[nodiscard]] std::string_view name_of_rows() const { return std::string_view(name).substr(0, begin_of_place(name)); }
   /// Whether it keeps its shape and takes no impulses, as static and scripted bodies do. It has no springs.
   [[nodiscard]] bool is_rigid() const { return kind != BodyKind::soft; }
   /// Returns the unit of length in which springs are summed [m]. It is a power of two near the radius, so changes to it are

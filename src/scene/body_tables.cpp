@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "scene/place_in_rows.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/values.hpp"
 #include "scene/words.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "scene/place_in_rows.hpp"
 
 namespace pliant {
 namespace {
@@ -66,8 +67,7 @@ toml::table* table_of_body(toml::table& root, std::string_view name, std::vector
 toml::table& find_body(toml::table& root, const std::string& name, const std::string& place) {
   std::vector<std::string> names;
   if (toml::table* table = table_of_body(root, name, names)) return *table;
-  const std::size_t bracket = std::min(name.rfind('['), name.size());
-  if (place_in(std::string_view(name).substr(bracket)))
+  if (const std::size_t bracket = begin_of_place(name); bracket < name.size())
     if (toml::table* rows = table_of_body(root, name.substr(0, bracket), names); rows != nullptr && rows->contains("count"))
       return table_below(*rows, name.substr(bracket), place);
   fail_override(place, fmt::format("there is no body \"{}\"", name), suggest(name, names));

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "core/extension.hpp"
@@ -108,21 +106,6 @@ std::string name_of(const toml::node& body, std::size_t index) {
   const toml::table* table = body.as_table();
   const toml::node* name = table != nullptr ? table->get("name") : nullptr;
   return name != nullptr && name->is_string() ? name->as_string()->get() : fmt::format("body{}", index);
-}
-
-std::string key_of_place(const glm::uvec3& place) { return fmt::format("[{},{},{}]", place.x, place.y, place.z); }
-
-std::optional<glm::uvec3> place_in(std::string_view key) {
-  glm::uvec3 place(0);
-  const char* at = key.data();
-  for (int i = 0; i < 3; ++i) {
-    if (at == key.data() + key.size()) return {};
-    const auto [end, error] = std::from_chars(at + 1, key.data() + key.size(), place[i]);
-    if (error != std::errc()) return {};
-    at = end;
-  }
-  if (key_of_place(place) != key) return {};
-  return place;
 }
 
 }  // namespace pliant

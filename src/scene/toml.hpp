@@ -1,8 +1,6 @@
 // TOML as scenes are read from it. Only files of this folder see toml++.
 #pragma once
 #include <filesystem>
-#include <glm/vec3.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +39,6 @@ inline constexpr std::string_view override_prefix = "--set ";
 [[nodiscard]] std::string type_name(const toml::node& node);
 /// Returns the name of the `index`-th body, or its default.
 [[nodiscard]] std::string name_of(const toml::node& body, std::size_t index);
-
-/// Bodies of one table with a count are told apart by their places in the rows, such as "[0,3,1]". Return the text of a place,
-/// and the place in a text, or nothing if it is none.
-[[nodiscard]] std::string key_of_place(const glm::uvec3& place);
-[[nodiscard]] std::optional<glm::uvec3> place_in(std::string_view key);
 
 /// Returns the names, with commas between them.
 [[nodiscard]] std::string list(const std::vector<std::string>& names);

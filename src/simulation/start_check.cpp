@@ -103,10 +103,9 @@ std::string described(const Model& model, const Overlap& overlap, int precision)
 }
 
 std::string way_apart(const Model& model, const Overlap& overlap, int precision) {
-  const bool in_rows = model.bodies[overlap.first].name_of_rows() == model.bodies[overlap.second].name_of_rows();
   if (overlap.distance > 0)  // how far proofs need them apart is not known
-    return fmt::format("{}{}", in_rows ? "give their rows a larger spacing" : "move them further apart",
-                       precision == 32 ? ", or take --precision 64" : "");
+    return precision == 32 ? "move them further apart, or take --precision 64" : "move them further apart";
+  const bool in_rows = model.bodies[overlap.first].name_of_rows() == model.bodies[overlap.second].name_of_rows();
   const bool moves_first = model.bodies[overlap.second].is_rigid();
   const ModelBody& body = model.bodies[moves_first ? overlap.first : overlap.second];
   const glm::dvec3 way = without_signs_of_zeros((moves_first ? -1.0 : 1.0) * overlap.way_out);

@@ -101,29 +101,34 @@ TEST_CASE("bodies far from the origin that intersect by less than floats tell th
 TEST_CASE("bodies in rows that intersect are told to have a larger spacing, and others are not") {
   const std::string rows = "[[body]]\nname = \"row\"\nmesh = \"icosphere:2\"\ncount = [2, 1, 1]\nspacing = [1.5, 0, 0]\n";
   check_says(error_of([&] { Start(rows).check(); }), {"\"row[0,0,0]\" and \"row[1,0,0]\"", "give their rows a larger spacing"});
-  const Error of_others = error_of([&] { Start(ball + "[[body]]\nmesh = \"icosphere:2\"\nposition = [1.5, 0, 0]\n").check(); });
-  CHECK_THAT(std::string(of_others.what()), !Catch::Contains("spacing"));
+  for (const char* name : {"other", "ball[left]", "ball[0,0,0"}) {
+    const Error of_others = error_of([&] {
+      Start(fmt::format("{}[[body]]\nname = \"{}\"\nmesh = \"icosphere:2\"\nposition = [1.5, 0, 0]\n", ball, name)).check();
+    });
+    CHECK_THAT(std::string(of_others.what()), !Catch::Contains("spacing"));
+  }
 }
 
-// A second ball beside the first one, so many gaps from it. A corner of each is nearest to the other.
-std::string beside(double gaps) {
-  return ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.9f}, 0, 0]\n",
-                            2 + gaps * Start(ball).gap());
+// A second ball beside the first one, with its centre at this place. A corner of each is nearest to the other.
+std::string two_balls(double place) {
+  return ball + fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.16g}, 0, 0]\n", place);
 }
+
+// A second ball so many gaps from the first one.
+std::string beside(double gaps) { return two_balls(2 + gaps * Start(ball).gap()); }
 
 TEST_CASE("bodies that begin too near each other for proofs are an error, and higher precision is its remedy") {
   for (const double distance : {1e-12, 1e-9, 2e-7}) {
     CAPTURE(distance);
-    Start start(ball +
-                fmt::format("[[body]]\nname = \"other\"\nmesh = \"icosphere:2\"\nposition = [{:.16g}, 0, 0]\n", 2 + distance));
+    Start start(two_balls(2 + distance));
     check_says(start.error(), {"bodies \"ball\" and \"other\" begin ", "too near to prove in fp32",
                                "move them further apart, or take --precision 64"});
     CHECK_NOTHROW(start.check(64));
   }
   CHECK_NOTHROW(Start(beside(0.01)).check());
-  const std::string rows = "[[body]]\nname = \"row\"\nmesh = \"icosphere:2\"\ncount = [2, 1, 1]\nspacing = [2.0000001, 0, 0]\n";
-  check_says(Start(rows).error(),
-             {"\"row[0,0,0]\" and \"row[1,0,0]\" begin ", "give their rows a larger spacing, or take --precision 64"});
+  const Error in_fp64 = error_of([] { Start(two_balls(2.000000000000001)).check(64); });
+  check_says(in_fp64, {"too near to prove in fp64", "move them further apart"});
+  CHECK_THAT(std::string(in_fp64.what()), !Catch::Contains("--precision"));
 }
 
 TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl][long]") {

@@ -178,7 +178,7 @@ class CpuDevice final : public Device {
 
   // Threads wait for each other's takes, and so take more at a time where there are many items.
   std::uint32_t grain_between(std::uint32_t least, std::uint32_t most, std::uint32_t items) const {
-    constexpr std::uint32_t ranges_of_a_thread = 8;  // or more, so that all end at about the same time
+    constexpr std::uint32_t ranges_of_a_thread = 8;  // where there are enough, so that all end at about the same time
     return std::clamp(items / (ranges_of_a_thread * pool_.size()), least, most);
   }
 

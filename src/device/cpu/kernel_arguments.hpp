@@ -93,8 +93,8 @@ struct KernelEntry {
   KernelFunction function;  // null for a force kernel and for one in rounds
   ForceFunctions force;     // what a force kernel has instead
   RoundFunctions rounds;    // what a kernel in rounds has instead
-  /// Items that one of several threads takes at a time: a microsecond's, or 1 where few have work. Where there are many it takes
-  /// up to 8 times as many, but stays at 1.
+  /// Items that one of several threads takes at a time: a microsecond's, or 1 where few have work. Where there are many items,
+  /// ranges are up to 8 times as long, but a length of 1 stays 1.
   std::uint32_t grain;
 };
 

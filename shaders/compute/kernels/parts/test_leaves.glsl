@@ -13,21 +13,26 @@ FourBoxes boxes_of_four(uint first, uint end) {
   return four;
 }
 
-// One thread has all pairs. It compares four boxes with four before anything depends on one of them, because no processor foresees which
-// overlap.
+PaddedBox box_of_four(IN(FourBoxes) four) {
+  return joined(joined(four.box[0], four.box[1]), joined(four.box[2], four.box[3]));
+}
+
+// One thread has all pairs. It compares four boxes with four before it looks at one result, because no processor foresees which overlap.
+// First it leaves out four that miss all of the other leaf, unless that is to be compared at once.
 void test_leaves(uvec2 leaves, uint, uint) {
   const uvec4 a = node[leaves.x], b = node[leaves.y];
   const PaddedBox of_second = box_of_node(leaves.y);
   uvec2 counts = uvec2(0u);
   for (uint s = a.z; s < a.w; s += 4) {
     const FourBoxes of_s = boxes_of_four(s, a.w);
-    if (b.w - b.z > 4 && !overlaps(joined(joined(of_s.box[0], of_s.box[1]), joined(of_s.box[2], of_s.box[3])), of_second)) continue;
+    if (b.w - b.z > 4 && !overlaps(box_of_four(of_s), of_second)) continue;
     for (uint t = b.z; t < b.w; t += 4) {
       const FourBoxes of_t = boxes_of_four(t, b.w);
       uint near = 0;
 #pragma GCC unroll 16
       for (uint k = 0; k < 16; ++k) near |= (overlaps(of_s.box[k / 4], of_t.box[k % 4]) ? 1u : 0u) << k;
-      near &= 0xffffu >> (16 - 4 * min(a.w - s, 4u)) & 0x1111u * (0xfu >> (4 - min(b.w - t, 4u)));  // none behind an end
+      const uint of_s_there = 0xffffu >> (16 - 4 * min(a.w - s, 4u)), of_t_there = 0x1111u * (0xfu >> (4 - min(b.w - t, 4u)));
+      near &= of_s_there & of_t_there;  // none behind an end
       for (; near != 0; near &= near - 1) {
         const uint k = uint(findLSB(near));
         counts += test_if(true, s + k / 4, t + k % 4);

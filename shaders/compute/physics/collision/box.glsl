@@ -29,7 +29,8 @@ FN PaddedBox joined(IN(PaddedBox) a, IN(PaddedBox) b) {
   return both;
 }
 
-// One comparison, because processors can't foresee the results of six. On a processor boxes with NaN overlap all others.
+// One comparison, because processors can't foresee the results of six. On a processor boxes with NaN overlap all
+// others, but where boxes are joined it may be lost.
 FN bool overlaps(IN(PaddedBox) a, IN(PaddedBox) b) {
   return !any_above(a.lower, b.upper, b.lower, a.upper);
 }

@@ -1,7 +1,7 @@
 // Do two triangles touch? "No" is a proof: on some axis their shadows are further apart than rounding can account for.
 // A pair too close to tell (about 1e-6 of its size) counts as touching. Axes may be rounded freely. Only the shadows' error has to be
 // bounded. The separating axis test is from S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree", SIGGRAPH 1996.
-// device/cpu/triangle_lanes.inc makes the same operations in vectors: change both.
+// device/cpu/triangle_lanes.inc makes the operations up to all_certain() in vectors: change both.
 #ifndef CERTIFIED_TRIANGLES_GLSL
 #define CERTIFIED_TRIANGLES_GLSL
 #include "../language.glsl"
