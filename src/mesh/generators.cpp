@@ -9,28 +9,14 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
+#include "mesh/subdivide.hpp"
 
 namespace pliant {
 namespace {
-
-// Adds the midpoints of edges, each once, pushed out to the unit sphere.
-class MidpointTable {
- public:
-  explicit MidpointTable(std::vector<glm::dvec3>& positions) : positions_(positions) {}
-
-  std::uint32_t midpoint(std::uint32_t a, std::uint32_t b) {
-    const auto [entry, is_new] = midpoints_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(positions_.size()));
-    if (is_new) positions_.push_back(glm::normalize(positions_[a] + positions_[b]));
-    return entry->second;
-  }
-
- private:
-  std::vector<glm::dvec3>& positions_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> midpoints_;
-};
 
 TriangleMesh icosahedron() {
   TriangleMesh mesh;
@@ -48,17 +34,7 @@ TriangleMesh icosahedron() {
   return mesh;
 }
 
-TriangleMesh subdivide(const TriangleMesh& coarse) {
-  TriangleMesh fine{coarse.positions, {}};
-  MidpointTable midpoints(fine.positions);
-  for (const auto& [a, b, c] : coarse.triangles) {
-    const std::uint32_t ab = midpoints.midpoint(a, b), bc = midpoints.midpoint(b, c), ca = midpoints.midpoint(c, a);
-    fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-  }
-  return fine;
-}
-
-constexpr unsigned max_subdivisions = 7;
+constexpr unsigned max_subdivisions = 9;
 
 TriangleMesh icosphere(std::string_view description, std::string_view argument) {
   unsigned subdivisions = 0;
@@ -70,7 +46,11 @@ TriangleMesh icosphere(std::string_view description, std::string_view argument) 
                       : fmt::format("\"{}\" is no number of subdivisions", argument),
                 fmt::format("write icosphere:n with a whole number n from 0 to {}", max_subdivisions));
   TriangleMesh mesh = icosahedron();
-  for (unsigned i = 0; i < subdivisions; ++i) mesh = subdivide(mesh);
+  for (unsigned i = 0; i < subdivisions; ++i) {
+    const std::size_t vertices_before = mesh.positions.size();
+    mesh = subdivide(mesh, 1);
+    for (glm::dvec3& p : std::span(mesh.positions).subspan(vertices_before)) p = glm::normalize(p);
+  }
   return mesh;
 }
 

@@ -17,7 +17,7 @@ namespace pliant {
 ///
 /// | description | mesh |
 /// |---|---|
-/// | icosphere:n | a unit sphere of 10 * 4^n + 2 vertices, n from 0 to 7 |
+/// | icosphere:n | a unit sphere of 10 * 4^n + 2 vertices, n from 0 to 9 |
 /// | cube:n | a cube of side 1 about the origin, with n * n cells a face and 6 n^2 + 2 vertices, n from 1 to 100 |
 /// | box:x,y,z,n | a box of these sizes about the origin, with n nearly square cells along its longest side |
 /// | crate:x,y,z,n | the same without its top |

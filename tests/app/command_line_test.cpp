@@ -160,8 +160,8 @@ TEST_CASE("a bad command line exits with 2") {
   std::ofstream(folder.path / "plain") << "text";
   for (const std::string place : {"plain", "plain/deeper"})
     check_fails("run " + small_scene(folder).string() + " --out " + (folder.path / place).string(), 2, {"plain: is no folder"});
-  check_fails("run " + scene + " --set body.left.mesh=icosphere:8", 2,
-              {"pliant: --set body.left.mesh=icosphere:8: body.left.mesh", "8 subdivisions are beyond 7"});
+  check_fails("run " + scene + " --set body.left.mesh=icosphere:10", 2,
+              {"pliant: --set body.left.mesh=icosphere:10: body.left.mesh", "10 subdivisions are beyond 9"});
   check_fails("run " + scene + " --tolerance -1e-6", 2, {"--tolerance"});
   check_fails("run " + scene + " --tolerance nan", 2, {"--tolerance"});
   check_fails("run " + scene + " --tolerance 0.2", 2, {"--tolerance"});
@@ -273,7 +273,7 @@ TEST_CASE("bad input exits with 3") {
   check_fails("run --device cpu --integrator rk4 " + write("long.toml", long_scene), 3, {"long.toml:2", "3e8 steps"});
   check_fails("mesh nowhere.obj", 3, {"nowhere.obj"});
   check_fails("mesh /dev/zero", 3, {"/dev/zero", "plain file"});
-  check_fails("mesh icosphere:9", 3, {"icosphere"});
+  check_fails("mesh icosphere:10", 3, {"icosphere"});
   check_fails("mesh " + write("empty.obj", ""), 3, {"empty.obj"});
   check_fails("mesh " + write("binary.obj", std::string("v 0 0 0\n\0\1\2", 11)), 3, {"binary.obj"});
   check_fails("mesh " + write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"), 3, {"nan.obj:2"});

@@ -24,6 +24,11 @@ TEST_CASE("an icosphere has 10 * 4^n + 2 vertices on the unit sphere and no defe
   }
 }
 
+TEST_CASE("an icosphere may be dense") {
+  const TriangleMesh mesh = generate_mesh("icosphere:8");
+  CHECK((mesh.positions.size() == 655362 && mesh.triangles.size() == 1310720));
+}
+
 TEST_CASE("an icosphere's triangles wind counter-clockwise seen from outside") {
   const TriangleMesh mesh = generate_mesh("icosphere:3");
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -52,7 +57,7 @@ TEST_CASE("the icosahedron's corners are the cyclic permutations of (0, +-1, +-g
 }
 
 TEST_CASE("an unknown generator or a bad argument is an input error that lists what exists") {
-  for (const char* description : {"cube:0", "cube:101", "cube:", "tub:3", "icosphere:", "icosphere:8", "icosphere:-1",
+  for (const char* description : {"cube:0", "cube:101", "cube:", "tub:3", "icosphere:", "icosphere:10", "icosphere:-1",
                                   "icosphere:2.5", "icosphere:two", "icosphere:3 ", "icosphere:99999999999", "icosphere"}) {
     CAPTURE(description);
     const Error error = error_of([&] { return generate_mesh(description); });

@@ -60,7 +60,7 @@ TEST_CASE("what is wrong with a mesh of several bodies is told once") {
 }
 
 TEST_CASE("a mesh that can't be had is an input error that names the body's place in the scene") {
-  for (const char* mesh : {"no/such.obj", "box:3", "icosphere:9"}) {
+  for (const char* mesh : {"no/such.obj", "box:3", "icosphere:10"}) {
     CAPTURE(mesh);
     const Error error = error_of([&] { return load_bodies(scene_with(mesh)); });
     CHECK(error.kind() == ErrorKind::input);
@@ -69,11 +69,11 @@ TEST_CASE("a mesh that can't be had is an input error that names the body's plac
 }
 
 TEST_CASE("a mesh that an option names is that option's fault") {
-  SceneDescription scene = scene_with("icosphere:8");
-  scene.bodies[0].mesh_where = {Origin::From::override, "--set body.pot.mesh=icosphere:8: body.pot.mesh"};
+  SceneDescription scene = scene_with("icosphere:10");
+  scene.bodies[0].mesh_where = {Origin::From::override, "--set body.pot.mesh=icosphere:10: body.pot.mesh"};
   const Error error = error_of([&] { return load_bodies(scene); });
   CHECK(error.kind() == ErrorKind::command_line);
-  check_says(error, {"--set body.pot.mesh=icosphere:8", "8 subdivisions are beyond 7"});
+  check_says(error, {"--set body.pot.mesh=icosphere:10", "10 subdivisions are beyond 9"});
 }
 
 TEST_CASE("a mesh that is no file is told what else a mesh can be") {
