@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
+#include "mesh/subdivide.hpp"
 #include "mesh/weld.hpp"
 
 namespace pliant {
@@ -26,7 +28,17 @@ void weld_as_described(const BodyDescription& body, LoadedMesh& loaded) {
   loaded.mesh = std::move(welded.mesh);
 }
 
-LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder) {
+/// Subdivides after welding, so that triangles share vertices along seams, too.
+void subdivide_as_described(const BodyDescription& body, TriangleMesh& mesh) {
+  if (body.subdivide == 0) return;
+  try {
+    mesh = subdivide(mesh, body.subdivide, body.subdivision);
+  } catch (const Error& error) {
+    throw Error(body.subdivide_where, error.what(), "");
+  }
+}
+
+LoadedMesh load_welded(const BodyDescription& body, const std::filesystem::path& folder) {
   try {
     LoadedMesh loaded = load_mesh(body.mesh, folder);
     weld_as_described(body, loaded);
@@ -36,13 +48,20 @@ LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& fo
   }
 }
 
+LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder) {
+  LoadedMesh loaded = load_welded(body, folder);
+  subdivide_as_described(body, loaded.mesh);
+  return loaded;
+}
+
 }  // namespace
 
 std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings) {
   std::vector<BodySetup> setups;
-  std::map<std::pair<std::string, double>, TriangleMesh> meshes;  // by what they are called, and how they are welded
+  std::map<std::tuple<std::string, double, unsigned, Subdivision>, TriangleMesh> meshes;  // by what makes them what they are
   for (const BodyDescription& body : scene.bodies) {
-    const auto [found, is_new] = meshes.try_emplace({body.mesh, body.weld.value_or(0) / body.scale});
+    const auto [found, is_new] =
+        meshes.try_emplace({body.mesh, body.weld.value_or(0) / body.scale, body.subdivide, body.subdivision});
     if (is_new) {
       LoadedMesh loaded = load_one(body, scene.file.parent_path());
       found->second = std::move(loaded.mesh);

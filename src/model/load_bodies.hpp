@@ -1,4 +1,4 @@
-// Loads and welds the meshes that a scene names.
+// Loads, welds and subdivides the meshes that a scene names.
 #pragma once
 #include <string>
 #include <vector>

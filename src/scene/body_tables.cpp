@@ -45,11 +45,12 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
     expect_none_of(table, {"velocity", "spin"}, "what has a path moves along it alone", "path");
 }
 
-constexpr const char* keys_of_some_bodies[] = {"stiffness",  "total_stiffness", "vertex_mass",
-                                               "total_mass", "damping",         "pressure_law"};
+constexpr const char* keys_of_some_bodies[] = {"stiffness", "total_stiffness", "vertex_mass", "total_mass",
+                                               "damping",   "pressure_law",    "subdivision"};
 
 // Returns why such a key changes nothing for the body, or nothing if it does.
 std::string_view why_idle(const BodyDescription& body, std::string_view key) {
+  if (key == "subdivision") return body.subdivide == 0 ? "without subdivide" : "";
   if (body.kind == BodyKind::immovable) return "on a static body";
   if (body.kind == BodyKind::scripted) return "on a scripted body";
   return key == "pressure_law" && body.pressure == 0 ? "without pressure" : "";
@@ -125,6 +126,9 @@ void read_body(TableReader& table, BodyDescription& body) {
   table.read("mesh", body.mesh);
   body.mesh_where = table.where("mesh");
   table.read("weld", body.weld, not_negative);
+  table.read("subdivide", body.subdivide, subdivisions);
+  body.subdivide_where = table.where("subdivide");
+  table.read("subdivision", body.subdivision, words::subdivisions);
   table.read("scale", body.scale, positive);
   read_motion(table, body);
   table.read("stretch", body.stretch, coordinate);

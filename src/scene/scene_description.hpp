@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/origin.hpp"
+#include "mesh/subdivide.hpp"
 
 namespace pliant {
 
@@ -137,13 +138,16 @@ struct PathKeyDescription {
 
 struct BodyDescription {
   std::string name;
-  BodyKind kind = BodyKind::soft;         // an immovable body keeps its place and shape, a scripted one its shape
-  bool is_container = false;              // holds the others, so pictures show its far walls alone
-  std::string mesh;                       // "generator:argument", or a path
-  std::string where;                      // "file:line", for errors about this body
-  Origin kind_where;                      // of the key `kind`
-  Origin mesh_where;                      // of the key `mesh`
-  std::optional<double> weld;             // [m], off if empty
+  BodyKind kind = BodyKind::soft;  // an immovable body keeps its place and shape, a scripted one its shape
+  bool is_container = false;       // holds the others, so pictures show its far walls alone
+  std::string mesh;                // "generator:argument", or a path
+  std::string where;               // "file:line", for errors about this body
+  Origin kind_where;               // of the key `kind`
+  Origin mesh_where;               // of the key `mesh`
+  std::optional<double> weld;      // [m], off if empty
+  unsigned subdivide = 0;          // how often, after welding
+  Origin subdivide_where;          // of the key `subdivide`
+  Subdivision subdivision = Subdivision::midpoint;
   double scale = 1.0;                     // [m per mesh unit]
   glm::dvec3 position{0.0};               // [m]
   glm::dvec3 rotation{0.0};               // [degrees] about the fixed world axes: R = Rz Ry Rx

@@ -178,6 +178,8 @@ std::string text_of_body(const BodyDescription& body, const std::string& mesh, s
   table.write_other("kind", body.kind, standard.kind, words::kinds);
   table.write("mesh", mesh);
   table.write("weld", body.weld);
+  table.write_other("subdivide", body.subdivide, standard.subdivide);
+  table.write_other("subdivision", body.subdivision, standard.subdivision, words::subdivisions);
   table.write_other("scale", body.scale, standard.scale);
   write_motion(table, body);
   table.write_other("stretch", body.stretch, standard.stretch);

@@ -12,6 +12,7 @@ inline const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw
                                                              {name_of(DampingLaw::internal), DampingLaw::internal}};
 inline const std::vector<Choice<BodyKind>> kinds = {
     {"soft", BodyKind::soft}, {"static", BodyKind::immovable}, {"scripted", BodyKind::scripted}};
+inline const std::vector<Choice<Subdivision>> subdivisions = {{"midpoint", Subdivision::midpoint}, {"loop", Subdivision::loop}};
 inline const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree},
                                                             {"brute_force", ContactSearch::brute_force}};
 inline const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},

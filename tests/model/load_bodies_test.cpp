@@ -1,5 +1,6 @@
 #include "model/load_bodies.hpp"
 
+#include "mesh/report.hpp"
 #include "support/expect_error.hpp"
 #include "support/paths.hpp"
 
@@ -35,6 +36,39 @@ TEST_CASE("the welding distance is in metres, whatever the scale") {
     return load_bodies(scene)[0].mesh.positions.size();
   };
   CHECK(count(1.0) < count(2.0));
+}
+
+TEST_CASE("a body's mesh is subdivided behind welding, so that seams stay closed") {
+  SceneDescription scene = scene_with("../meshes/teapot.obj");
+  scene.bodies[0].weld = 1e-6;
+  const MeshReport coarse = report_mesh(load_bodies(scene)[0].mesh);
+  scene.bodies[0].subdivide = 1;
+  const MeshReport fine = report_mesh(load_bodies(scene)[0].mesh);
+  CHECK(fine.vertex_count == coarse.vertex_count + coarse.edge_count);
+  CHECK(fine.triangle_count == 4 * coarse.triangle_count);
+  CHECK(fine.boundary_edge_count == 2 * coarse.boundary_edge_count);
+}
+
+TEST_CASE("bodies of one file may be subdivided in different ways") {
+  SceneDescription scene = scene_with("icosphere:1");
+  scene.bodies.resize(4, scene.bodies[0]);
+  scene.bodies[1].subdivide = scene.bodies[2].subdivide = scene.bodies[3].subdivide = 1;
+  scene.bodies[2].subdivision = Subdivision::loop;
+  scene.bodies[3].kind = BodyKind::immovable;
+  const std::vector<BodySetup> setups = load_bodies(scene);
+  CHECK((setups[0].mesh.positions.size() == 42 && setups[1].mesh.positions.size() == 162));
+  CHECK(setups[2].mesh.triangles == setups[1].mesh.triangles);
+  CHECK(setups[2].mesh.positions != setups[1].mesh.positions);
+  CHECK(setups[3].mesh.positions == setups[1].mesh.positions);
+}
+
+TEST_CASE("too many subdivisions are an error that blames their key") {
+  SceneDescription scene = scene_with("icosphere:3");
+  scene.bodies[0].subdivide = 12;
+  scene.bodies[0].subdivide_where = {Origin::From::file, "none.toml:4: body.pot.subdivide"};
+  const Error error = error_of([&] { return load_bodies(scene); });
+  CHECK(error.kind() == ErrorKind::input);
+  check_says(error, {"none.toml:4: body.pot.subdivide: 12 subdivisions of 642 vertices", "subdivide 10 times at most"});
 }
 
 TEST_CASE("a warning begins with its body's name") {

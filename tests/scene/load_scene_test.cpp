@@ -37,6 +37,7 @@ TEST_CASE("a body with a mesh is a scene, and all else has the documented defaul
   REQUIRE(scene.bodies.size() == 1);
   const BodyDescription& body = scene.bodies[0];
   CHECK((body.name == "body0" && body.mesh == "icosphere:1" && !body.weld && body.scale == 1.0));
+  CHECK((body.subdivide == 0 && body.subdivision == Subdivision::midpoint));
   CHECK((body.stiffness == 40.0 && !body.total_stiffness && body.vertex_mass == 1.0 && !body.total_mass && body.damping == 1.0));
   CHECK(body.kind == BodyKind::soft);
   CHECK((body.position == glm::dvec3(0.0) && body.rotation == glm::dvec3(0.0)));
@@ -87,6 +88,8 @@ ground_height = -1.5
 name = "thing"
 mesh = "thing.obj"
 weld = 1e-6
+subdivide = 2
+subdivision = "loop"
 scale = 2
 position = [1, 2, 3]
 rotation = [4, 5, 6]
@@ -125,6 +128,7 @@ color = [0.1, 0.2, 0.3]
   CHECK(scene.output.ground_height == -1.5);
   const BodyDescription& body = scene.bodies.at(0);
   CHECK((body.name == "thing" && body.mesh == "thing.obj" && body.weld == 1e-6 && body.scale == 2));
+  CHECK((body.subdivide == 2 && body.subdivision == Subdivision::loop));
   CHECK((body.position == glm::dvec3(1, 2, 3) && body.rotation == glm::dvec3(4, 5, 6) && body.velocity == glm::dvec3(7, 8, 9)));
   CHECK((body.spin == glm::dvec3(1.5, 2.5, 3.5) && body.stretch == glm::dvec3(0.5, 1, 2) &&
          body.color == glm::dvec3(0.1, 0.2, 0.3)));
@@ -204,10 +208,27 @@ TEST_CASE("a value out of range is an error that gives the range") {
                            "output.ground_height = nan"}) {
     check_input_error(std::string(line) + "\n" + smallest, 1, {"out of range", "write a"});
   }
-  for (const char* line : {"weld = -1", "scale = 0", "scale = -1", "position = [2e9, 0, 0]", "velocity = [0, inf, 0]",
-                           "spin = [nan, 0, 0]", "rotation = [0, 0, -inf]", "stretch = [1, 1, nan]", "stiffness = -1",
-                           "total_stiffness = -1", "vertex_mass = 0", "total_mass = 0", "damping = -1", "damping = nan",
-                           "color = [0, 0, 1.5]", "elasticity = 1.1", "friction = -1", "restitution = 2", "gap = 0"}) {
+  for (const char* line : {"weld = -1",
+                           "subdivide = -1",
+                           "subdivide = 16",
+                           "scale = 0",
+                           "scale = -1",
+                           "position = [2e9, 0, 0]",
+                           "velocity = [0, inf, 0]",
+                           "spin = [nan, 0, 0]",
+                           "rotation = [0, 0, -inf]",
+                           "stretch = [1, 1, nan]",
+                           "stiffness = -1",
+                           "total_stiffness = -1",
+                           "vertex_mass = 0",
+                           "total_mass = 0",
+                           "damping = -1",
+                           "damping = nan",
+                           "color = [0, 0, 1.5]",
+                           "elasticity = 1.1",
+                           "friction = -1",
+                           "restitution = 2",
+                           "gap = 0"}) {
     check_input_error("[[body]]\nmesh = \"icosphere:1\"\n" + std::string(line) + "\n", 3,
                       {"body.body0.", "out of range", "write a"});
   }
@@ -231,6 +252,7 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
   check_input_error("[collision.tree]\nrefit = \"lazy\"\n" + smallest, 2, {"bottom_up", "hybrid"});
   for (const char* fan_out : {"1", "3", "6", "16", "4.0"})
     check_input_error(std::string("[collision.tree]\nfan_out = ") + fan_out + "\n" + smallest, 2, {"fan_out", "2, 4 or 8"});
+  check_input_error(smallest + "subdivision = \"butterfly\"\n", 3, {"midpoint, loop"});
   check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
   check_input_error("[output]\nmarks = \"boxes\"\n" + smallest, 2, {"none, contacts"});
 }

@@ -25,6 +25,7 @@ void check_same(const CollisionDescription& a, const CollisionDescription& b) {
 void check_same(const BodyDescription& a, const BodyDescription& b) {
   CHECK((a.name == b.name && a.kind == b.kind && a.is_container == b.is_container));
   CHECK((a.mesh == b.mesh && a.weld == b.weld && a.scale == b.scale));
+  CHECK((a.subdivide == b.subdivide && a.subdivision == b.subdivision));
   CHECK((a.position == b.position && a.rotation == b.rotation && a.velocity == b.velocity && a.spin == b.spin));
   CHECK((a.path == b.path && a.repeats == b.repeats && a.stretch == b.stretch));
   CHECK((a.stiffness == b.stiffness && a.total_stiffness == b.total_stiffness));
@@ -88,6 +89,8 @@ gap = 0.03
 [[body]]
 mesh = "thing.obj"
 weld = 1e-6
+subdivide = 3
+subdivision = "loop"
 scale = 2
 position = [1, 2, 3]
 rotation = [4, 5, 6]
