@@ -18,11 +18,10 @@
 
 #include "app/bench_command.hpp"
 #include "app/info_command.hpp"
+#include "app/mesh_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
-#include "mesh/load.hpp"
-#include "mesh/report.hpp"
 #include "run/checkpoint.hpp"
 #include "run/run_scene.hpp"
 #include "simulation/skipping.hpp"
@@ -278,24 +277,20 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   add_draw_suite(*bench, options);
 }
 
-struct MeshOptions {
-  std::string mesh;
-  bool json = false;
-};
-
-void add_mesh(CLI::App& program, MeshOptions& options) {
-  CLI::App* mesh = program.add_subcommand("mesh", "Report what a mesh consists of and what is wrong with it");
+void add_mesh(CLI::App& program, app::MeshOptions& options) {
+  CLI::App* mesh = program.add_subcommand("mesh", "Report what a mesh consists of and what is wrong with it, or subdivide it");
   mesh->add_option("mesh", options.mesh, "OBJ file, or generator such as icosphere:3")
       ->required()
       ->check(not_empty("name a file or a generator"));
   mesh->add_flag("--json", options.json, "As JSON");
-}
-
-void show_mesh(const MeshOptions& options) {
-  const LoadedMesh loaded = load_mesh(options.mesh, ".");
-  for (const std::string& warning : loaded.warnings) std::cerr << "pliant: warning: " << warning << '\n';
-  const MeshReport report = report_mesh(loaded.mesh);
-  std::cout << (options.json ? to_json(report) : to_text(report));
+  CLI::Option* subdivide =
+      mesh->add_option("--subdivide", options.subdivide, "How often to split each triangle in four, before the report")
+          ->transform(whole_number(0, most_subdivisions));
+  add_choice<Subdivision>(*mesh, "--subdivision", options.subdivision,
+                          {{"midpoint", Subdivision::midpoint}, {"loop", Subdivision::loop}},
+                          "How to subdivide: midpoint keeps the surface (default), loop makes it smooth");
+  mesh->get_option("--subdivision")->needs(subdivide);
+  mesh->add_option("--out", options.out, "File to write the mesh to: obj or ply")->check(not_empty());
 }
 
 // Returns the command that was being read, and its name.
@@ -339,7 +334,7 @@ int execute(int count, char** arguments) {
   app::ViewOptions view;
   app::InfoOptions info;
   app::BenchOptions bench;
-  MeshOptions mesh;
+  app::MeshOptions mesh;
   add_run(program, run);
   add_view(program, view);
   add_info(program, info);
@@ -359,7 +354,7 @@ int execute(int count, char** arguments) {
   if (program.got_subcommand("info"))
     app::show_info(info);
   else
-    show_mesh(mesh);
+    app::show_mesh(mesh);
   return 0;
 }
 

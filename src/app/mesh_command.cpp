@@ -1,0 +1,33 @@
+#include "app/mesh_command.hpp"
+
+#include <iostream>
+
+#include "core/error.hpp"
+#include "mesh/load.hpp"
+#include "mesh/report.hpp"
+#include "output/mesh_file.hpp"
+
+namespace pliant::app {
+namespace {
+
+TriangleMesh subdivide_as_asked(const TriangleMesh& mesh, const MeshOptions& options) {
+  try {
+    return subdivide(mesh, options.subdivide, options.subdivision);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::command_line, "--subdivide", error.what(), "");
+  }
+}
+
+}  // namespace
+
+void show_mesh(const MeshOptions& options) {
+  if (!options.out.empty()) expect_place_for_mesh(options.out);
+  LoadedMesh loaded = load_mesh(options.mesh, ".");
+  for (const std::string& warning : loaded.warnings) std::cerr << "pliant: warning: " << warning << '\n';
+  if (options.subdivide > 0) loaded.mesh = subdivide_as_asked(loaded.mesh, options);
+  if (!options.out.empty()) write_mesh(options.out, loaded.mesh);
+  const MeshReport report = report_mesh(loaded.mesh);
+  std::cout << (options.json ? to_json(report) : to_text(report));
+}
+
+}  // namespace pliant::app
