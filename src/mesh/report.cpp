@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <map>
-#include <set>
-#include <span>
-#include <tuple>
+#include <numeric>
+#include <vector>
 
 #include "core/json.hpp"
+#include "mesh/edges.hpp"
+#include "mesh/position_hash.hpp"
 
 namespace pliant {
 namespace {
@@ -20,59 +21,43 @@ namespace {
 // Sets of indices that grow by joining (union-find).
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) {
-    parent_.reserve(count);
-    for (std::size_t index = 0; index < count; ++index) parent_.push_back(index);
-  }
-  std::size_t find(std::size_t index) {
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t find(std::uint32_t index) {
     while (parent_[index] != index) index = parent_[index] = parent_[parent_[index]];
     return index;
   }
-  void join(std::size_t a, std::size_t b) { parent_[find(a)] = find(b); }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
 
  private:
-  std::vector<std::size_t> parent_;
+  std::vector<std::uint32_t> parent_;
 };
 
-// One side of a triangle. Corner 3 t + k is corner k of triangle t.
-struct Side {
-  std::uint32_t low, high;              // its vertices
-  std::size_t low_corner, high_corner;  // its triangle's corners at them
-  bool forward;                         // runs from low to high
-};
-
-std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(mesh.triangles.size() * 3);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t from = 3 * t + k, to = 3 * t + (k + 1) % 3;
-      const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      if (a != b) sides.push_back(a < b ? Side{a, b, from, to, true} : Side{b, a, to, from, false});
-    }
-  }
-  std::ranges::stable_sort(sides, {}, [](const Side& side) { return std::tuple(side.low, side.high); });
-  return sides;
-}
-
-/// Calls visit(sides of one edge) for every edge.
+/// Calls visit(side, the first side of its edge, whether both lead the same way) for every side of an edge.
 template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
-  for (auto first = sides.begin(); first != sides.end();) {
-    const auto end =
-        std::find_if(first, sides.end(), [&](const Side& s) { return s.low != first->low || s.high != first->high; });
-    visit(std::span(first, end));
-    first = end;
+void for_each_side(const TriangleMesh& mesh, const Edges& edges, const Visit& visit) {
+  for (std::uint32_t side = 0; side < edges.of_side.size(); ++side) {
+    if (edges.of_side[side] == no_edge) continue;
+    const std::uint32_t first = edges.first_side[edges.of_side[side]];
+    visit(side, first, start_of_side(mesh, side) == start_of_side(mesh, first));
   }
 }
 
-void count_edges(const std::vector<Side>& sides, MeshReport& report) {
-  for_each_edge(sides, [&](std::span<const Side> edge) {
-    ++report.edge_count;
-    if (edge.size() == 1) ++report.boundary_edge_count;
-    if (edge.size() > 2) ++report.non_manifold_edge_count;
-    if (edge.size() > 1 && 2 * std::ranges::count_if(edge, &Side::forward) != std::ssize(edge)) ++report.inconsistent_edge_count;
+void count_edges(const TriangleMesh& mesh, const Edges& edges, MeshReport& report) {
+  struct SideCount {
+    std::uint32_t all = 0, forward = 0;
+  };
+  std::vector<SideCount> counts(edges.count());
+  for_each_side(mesh, edges, [&](std::uint32_t side, std::uint32_t, bool forward) {
+    SideCount& count = counts[edges.of_side[side]];
+    ++count.all;
+    count.forward += forward ? 1 : 0;
   });
+  report.edge_count = edges.count();
+  for (const SideCount& count : counts) {
+    if (count.all == 1) ++report.boundary_edge_count;
+    if (count.all > 2) ++report.non_manifold_edge_count;
+    if (count.all > 1 && 2 * std::uint64_t{count.forward} != count.all) ++report.inconsistent_edge_count;
+  }
 }
 
 std::size_t count_components(const TriangleMesh& mesh) {
@@ -82,29 +67,38 @@ std::size_t count_components(const TriangleMesh& mesh) {
     sets.join(b, c);
   }
   std::size_t count = 0;
-  for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) count += sets.find(vertex) == vertex ? 1 : 0;
+  for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) count += sets.find(vertex) == vertex ? 1 : 0;
   return count;
 }
 
-/// A fan is the corners at one vertex that are joined through shared edges.
-std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const std::vector<Side>& sides) {
+/// A fan is the corners at one vertex that are joined through shared edges. Side 3 t + k begins in corner 3 t + k.
+std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const Edges& edges) {
   DisjointSets fans(mesh.triangles.size() * 3);
-  for_each_edge(sides, [&](std::span<const Side> edge) {
-    for (const Side& side : edge) {
-      fans.join(edge[0].low_corner, side.low_corner);
-      fans.join(edge[0].high_corner, side.high_corner);
-    }
+  for_each_side(mesh, edges, [&](std::uint32_t side, std::uint32_t first, bool forward) {
+    fans.join(first, forward ? side : next_side(side));
+    fans.join(next_side(first), forward ? next_side(side) : side);
   });
-  std::vector<std::size_t> fan_count(mesh.positions.size(), 0);
-  for (std::size_t corner = 0; corner < mesh.triangles.size() * 3; ++corner)
-    if (fans.find(corner) == corner) ++fan_count[mesh.triangles[corner / 3][corner % 3]];
-  return static_cast<std::size_t>(std::ranges::count_if(fan_count, [](std::size_t count) { return count > 1; }));
+  std::vector<std::uint32_t> fan_count(mesh.positions.size(), 0);
+  for (std::uint32_t corner = 0; corner < mesh.triangles.size() * 3; ++corner)
+    if (fans.find(corner) == corner) ++fan_count[start_of_side(mesh, corner)];
+  return static_cast<std::size_t>(std::ranges::count_if(fan_count, [](std::uint32_t count) { return count > 1; }));
 }
 
+// Looks each vertex up in a table of those at other places. A place in the table that is taken makes it look at the next one.
 std::size_t count_duplicate_positions(const TriangleMesh& mesh) {
-  std::set<std::tuple<double, double, double>> distinct;
-  for (const glm::dvec3& p : mesh.positions) distinct.emplace(p.x, p.y, p.z);
-  return mesh.positions.size() - distinct.size();
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * mesh.positions.size() + 1), none);
+  std::size_t count = 0;
+  for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+    std::size_t place = hash_of(mesh.positions[vertex]) & (table.size() - 1);
+    while (table[place] != none && mesh.positions[table[place]] != mesh.positions[vertex])
+      place = (place + 1) & (table.size() - 1);
+    if (table[place] == none)
+      table[place] = vertex;
+    else
+      ++count;
+  }
+  return count;
 }
 
 struct Corners {
@@ -153,15 +147,13 @@ std::size_t count_zero_area_triangles(const TriangleMesh& mesh) {
 
 ClosedParts count_closed_parts(const TriangleMesh& mesh) {
   DisjointSets sets(mesh.triangles.size());
-  for_each_edge(sorted_sides(mesh), [&](std::span<const Side> edge) {
-    for (const Side& side : edge) sets.join(edge[0].low_corner / 3, side.low_corner / 3);
-  });
+  for_each_side(mesh, find_edges(mesh), [&](std::uint32_t side, std::uint32_t first, bool) { sets.join(first / 3, side / 3); });
   struct Volume {
     double sum = 0, rounding = 0;
   };
-  std::map<std::size_t, Volume> volumes;  // by one of the part's triangles
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::size_t part = sets.find(t);
+  std::map<std::uint32_t, Volume> volumes;  // by one of the part's triangles
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t part = sets.find(t);
     const glm::dvec3 origin = mesh.positions[mesh.triangles[part][0]];  // volumes about it lose fewer digits
     auto [a, b, c] = corners(mesh, mesh.triangles[t]);
     a -= origin, b -= origin, c -= origin;
@@ -177,10 +169,10 @@ MeshReport report_mesh(const TriangleMesh& mesh) {
   MeshReport report;
   report.vertex_count = mesh.positions.size();
   report.triangle_count = mesh.triangles.size();
-  const std::vector<Side> sides = sorted_sides(mesh);
-  count_edges(sides, report);
+  const Edges edges = find_edges(mesh);
+  count_edges(mesh, edges, report);
   report.component_count = count_components(mesh);
-  report.non_manifold_vertex_count = count_non_manifold_vertices(mesh, sides);
+  report.non_manifold_vertex_count = count_non_manifold_vertices(mesh, edges);
   report.duplicate_position_count = count_duplicate_positions(mesh);
   report.zero_area_triangle_count = count_zero_area_triangles(mesh);
   report.closed = report.boundary_edge_count == 0 && report.triangle_count > 0;

@@ -1,61 +1,69 @@
-// Uses a hash grid with cells as wide as the distance. Vertices that may become one stand in the same cell or in neighbours.
+// Uses a hash grid. Its cells are wider than the distance, so that most vertices have all their candidates in one cell. Cells
+// with the same hash share a list, because a candidate is judged by its distance alone.
 #include "mesh/weld.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <bit>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
-#include <unordered_map>
+#include <utility>
 
 #include "core/expect.hpp"
 #include "mesh/compact.hpp"
+#include "mesh/position_hash.hpp"
 
 namespace pliant {
 namespace {
 
 using Cell = glm::dvec3;  // whole numbers, held as doubles because a tiny distance makes them too large for integers
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    const std::hash<double> hash;
-    return (hash(cell.x) * 31 + hash(cell.y)) * 31 + hash(cell.z);
-  }
-};
-
 class WeldGrid {
  public:
-  WeldGrid(const std::vector<glm::dvec3>& positions, double distance) : positions_(positions), distance_(distance) {}
+  WeldGrid(const std::vector<glm::dvec3>& positions, double distance)
+      : positions_(positions),
+        distance_(distance),
+        latest_(std::bit_ceil(positions.size() + 1), none),
+        before_(positions.size()) {}
 
   /// Returns the first vertex that stays and is closer than the distance. If there is none, `vertex` itself stays.
   std::uint32_t find_or_add(std::uint32_t vertex) {
-    const Cell centre = cell_of(positions_[vertex]);
-    std::optional<std::uint32_t> first;
-    for (int i = 0; i < 27; ++i) {
-      const auto found = first_in(centre + Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1), positions_[vertex]);
-      if (found && (!first || *found < *first)) first = found;
-    }
-    if (first) return *first;
-    cells_[centre].push_back(vertex);
+    const glm::dvec3 &position = positions_[vertex], reach(distance_ * (1 + 1e-12));  // a distance rounds to less than it is
+    const Cell lowest = cell_of(position - reach), own = cell_of(position), highest = cell_of(position + reach);
+    std::uint32_t first = none;
+    for_each_of(lowest.x, own.x, highest.x, [&](double x) {
+      for_each_of(lowest.y, own.y, highest.y, [&](double y) {
+        for_each_of(lowest.z, own.z, highest.z, [&](double z) { first = std::min(first, first_in({x, y, z}, position)); });
+      });
+    });
+    if (first != none) return first;
+    before_[vertex] = std::exchange(latest_[list_of(own)], vertex);
     return vertex;
   }
 
  private:
-  [[nodiscard]] Cell cell_of(const glm::dvec3& position) const {
-    return {std::floor(position.x / distance_), std::floor(position.y / distance_), std::floor(position.z / distance_)};
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  template <typename Visit>
+  static void for_each_of(double lowest, double own, double highest, const Visit& visit) {
+    visit(own);
+    if (lowest != own) visit(lowest);
+    if (highest != own) visit(highest);
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> first_in(const Cell& cell, const glm::dvec3& position) const {
-    const auto found = cells_.find(cell);
-    if (found == cells_.end()) return std::nullopt;
-    for (const std::uint32_t vertex : found->second)
-      if (glm::distance(positions_[vertex], position) < distance_) return vertex;
-    return std::nullopt;
+  [[nodiscard]] Cell cell_of(const glm::dvec3& position) const { return glm::floor(position / (4 * distance_)); }
+  [[nodiscard]] std::size_t list_of(const Cell& cell) const { return hash_of(cell) & (latest_.size() - 1); }
+
+  [[nodiscard]] std::uint32_t first_in(const Cell& cell, const glm::dvec3& position) const {
+    std::uint32_t first = none;
+    for (std::uint32_t vertex = latest_[list_of(cell)]; vertex != none; vertex = before_[vertex])
+      if (glm::distance(positions_[vertex], position) < distance_) first = vertex;  // lists lead from later to earlier ones
+    return first;
   }
 
   const std::vector<glm::dvec3>& positions_;
   double distance_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
+  std::vector<std::uint32_t> latest_;  // [list] the vertex that was added last
+  std::vector<std::uint32_t> before_;  // [vertex] the one before it in its list
 };
 
 bool collapsed(const std::array<std::uint32_t, 3>& triangle) {
