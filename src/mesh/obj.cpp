@@ -1,5 +1,6 @@
-// A scan checks every line that matters, because tinyobjloader takes nonsense for zero. Then tinyobjloader resolves the faces.
-// Positions come from the scan, because tinyobjloader does not round decimals correctly.
+// Plain text goes the fast way of plain_obj.hpp. Any other goes the strict way, which finds errors: a scan checks every line that
+// matters, because tinyobjloader takes nonsense for zero. Then tinyobjloader resolves the faces. Positions come from the scan,
+// because tinyobjloader does not round decimals correctly.
 #include "mesh/obj.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,9 @@
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/read_text.hpp"
+#include "core/thread_pool.hpp"
 #include "mesh/compact.hpp"
+#include "mesh/plain_obj.hpp"
 #include "mesh/report.hpp"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -231,14 +234,21 @@ std::vector<std::array<std::uint32_t, 3>> split_into_fans(const std::vector<std:
   return triangles;
 }
 
+TriangleMesh parse_strictly(std::string_view text, const std::string& name) {
+  Scanner scanner(unify_line_ends(text), name);
+  scanner.scan();
+  std::vector<std::array<std::uint32_t, 3>> triangles =
+      split_into_fans(resolve_corners(scanner.relevant_lines, name), scanner.corner_counts);
+  return {std::move(scanner.positions), std::move(triangles)};
+}
+
 }  // namespace
 
 LoadedMesh parse_obj(std::string_view text, const std::string& name) {
-  Scanner scanner(unify_line_ends(text), name);
-  scanner.scan();
-  LoadedMesh loaded;
-  loaded.mesh.triangles = split_into_fans(resolve_corners(scanner.relevant_lines, name), scanner.corner_counts);
-  loaded.mesh.positions = std::move(scanner.positions);
+  constexpr std::size_t worth_a_thread = 1 << 20;  // bytes
+  const std::size_t part_count = std::min<std::size_t>(1 + text.size() / worth_a_thread, thread_count(0));
+  std::optional<TriangleMesh> plain = read_plain_obj(text, part_count);
+  LoadedMesh loaded{plain ? std::move(*plain) : parse_strictly(text, name), {}};
   if (const std::size_t count = remove_unused_vertices(loaded.mesh); count > 0)
     loaded.warnings.push_back(counted(count, "vertex is", "vertices are") + " in no face and left out");
   if (const std::size_t count = count_zero_area_triangles(loaded.mesh); count > 0)
