@@ -6,9 +6,15 @@
 #include "mesh/load.hpp"
 #include "mesh/report.hpp"
 #include "output/mesh_file.hpp"
+#include "run/reading_line.hpp"
 
 namespace pliant::app {
 namespace {
+
+LoadedMesh load_with_line(const std::string& mesh) {
+  const ReadingLine line(bytes_of_mesh(mesh, "."));
+  return load_mesh(mesh, ".");
+}
 
 TriangleMesh subdivide_as_asked(const TriangleMesh& mesh, const MeshOptions& options) {
   try {
@@ -22,7 +28,7 @@ TriangleMesh subdivide_as_asked(const TriangleMesh& mesh, const MeshOptions& opt
 
 void show_mesh(const MeshOptions& options) {
   if (!options.out.empty()) expect_place_for_mesh(options.out);
-  LoadedMesh loaded = load_mesh(options.mesh, ".");
+  LoadedMesh loaded = load_with_line(options.mesh);
   for (const std::string& warning : loaded.warnings) std::cerr << "pliant: warning: " << warning << '\n';
   if (options.subdivide > 0) loaded.mesh = subdivide_as_asked(loaded.mesh, options);
   if (!options.out.empty()) write_mesh(options.out, loaded.mesh);

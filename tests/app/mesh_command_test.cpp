@@ -1,5 +1,7 @@
 // `pliant mesh`, as a shell runs it.
 #include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
 
 #include "mesh/obj.hpp"
 #include "support/paths.hpp"
@@ -39,6 +41,16 @@ TEST_CASE("pliant mesh refuses subdivisions that are too many, and places that h
     CHECK(result.exit_code == 2);
     CHECK_THAT(result.output, Catch::Contains(reason));
   }
+}
+
+TEST_CASE("pliant mesh says on a terminal that it reads a large file, and nowhere else") {
+  const ScratchFolder folder;
+  const std::string file = (folder.path / "large.obj").string();
+  std::ofstream(file) << std::string(21'000'000, '#') << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  ProgramInTerminal terminal({"mesh", file});
+  CHECK_FALSE(terminal.has_shown_progress(1));  // no bar: it reads on to the end
+  CHECK_THAT(terminal.end_by(SIGTERM).output, Catch::Contains("reading 21 MB of meshes") && Catch::Contains("triangles "));
+  CHECK_THAT(run_program("mesh " + file).output, !Catch::Contains("reading"));
 }
 
 }  // namespace pliant
