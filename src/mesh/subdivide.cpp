@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "mesh/edges.hpp"
 
 namespace pliant {
@@ -97,11 +98,23 @@ struct Size {
   std::uint64_t vertices, edges, triangles;
 
   [[nodiscard]] bool is_allowed() const { return vertices <= most_mesh_vertices && triangles <= most_mesh_triangles; }
+  [[nodiscard]] std::uint64_t bytes() const {
+    return vertices * sizeof(glm::dvec3) + triangles * sizeof(std::array<std::uint32_t, 3>);
+  }
 };
 
 // Each edge falls in two, and each triangle gets three more inside.
 Size subdivided(const Size& size) {
   return {size.vertices + size.edges, 2 * size.edges + 3 * size.triangles, 4 * size.triangles};
+}
+
+// Asks for twice a mesh's memory, because a copy of it stands beside it, or what it is made from.
+void expect_memory(const Size& size, unsigned count) {
+  if (is_memory_given(2 * size.bytes())) return;
+  throw Error(ErrorKind::input, "",
+              fmt::format("{} subdivisions make {} vertices and {} triangles, for which there are no {:.1f} GB of memory", count,
+                          size.vertices, size.triangles, 2e-9 * static_cast<double>(size.bytes())),
+              "subdivide fewer times");
 }
 
 void expect_room(const Size& now, unsigned count) {
@@ -112,7 +125,7 @@ void expect_room(const Size& now, unsigned count) {
     if (size.is_allowed()) most = i + 1;
     if (size.vertices > 1000 * most_mesh_vertices) break;  // so that numbers stay within 64 bits
   }
-  if (most == count) return;
+  if (most == count) return expect_memory(size, count);
   throw Error(ErrorKind::input, "",
               fmt::format("{} subdivisions of {} vertices make more than {} vertices or {} triangles", count, now.vertices,
                           most_mesh_vertices, most_mesh_triangles),

@@ -1,7 +1,6 @@
 // Splits each triangle of a mesh in four, as often as asked.
 #pragma once
 #include <cstdint>
-#include <string>
 
 #include "mesh/triangle_mesh.hpp"
 
@@ -19,7 +18,8 @@ inline constexpr std::uint64_t most_mesh_vertices = 0xffffffff / 6, most_mesh_tr
 /// Most subdivisions of any mesh. One more would make too many triangles of a single one.
 inline constexpr unsigned most_subdivisions = 15;
 
-/// Subdivides a mesh `count` times. Throws Error (input), without a place, before it makes too many vertices or triangles.
+/// Subdivides a mesh `count` times. Throws Error (input), without a place, before it makes too many vertices or triangles, or
+/// more than there is memory for.
 ///
 /// A subdivision keeps the vertices' numbers. Behind them it adds one vertex for each edge, in the order in which triangles first
 /// name them. Triangle t becomes 4 t to 4 t + 3: those at its corners in their order, then the one in its middle, and all wind as

@@ -43,6 +43,17 @@ TEST_CASE("pliant mesh refuses subdivisions that are too many, and places that h
   }
 }
 
+#ifndef __SANITIZE_ADDRESS__  // its own memory is beyond any limit
+#ifndef __SANITIZE_THREAD__
+TEST_CASE("a mesh too large for the memory is refused before it is made") {
+  const ProgramResult result = run_program("mesh cube:2 --subdivide 11", "ulimit -v 4000000; ");  // [KiB]
+  CHECK(result.exit_code == 2);
+  CHECK_THAT(result.output, Catch::Contains("--subdivide: 11 subdivisions make 100663298 vertices and 201326592 triangles") &&
+                                Catch::Contains("no 9.7 GB of memory; subdivide fewer times"));
+}
+#endif
+#endif
+
 TEST_CASE("pliant mesh says on a terminal that it reads a large file, and nowhere else") {
   const ScratchFolder folder;
   const std::string file = (folder.path / "large.obj").string();
