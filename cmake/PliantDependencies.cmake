@@ -1,5 +1,6 @@
 # Everything comes from Debian packages; tools/packages/ lists them by purpose.
 find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 if(NOT TARGET glm::glm)

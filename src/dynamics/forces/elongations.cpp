@@ -3,6 +3,7 @@
 #include "dynamics/forces/elongations.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #define PLIANT_INLINE inline __attribute__((always_inline))
@@ -10,9 +11,12 @@
 namespace pliant {
 namespace {
 
-// Returns (|x| - L)^2 [m^2] of the spring between two vertices, without cancellation. r leads from one to the other at rest, d is
-// its change, and x = r + d. Then (|x| - L)^2 is (|x|^2 - L^2)^2 / (|x| + L)^2, and |x|^2 - L^2 = d.(r + x). One factor is
-// divided before the other comes in, so that only an energy beyond all numbers overflows.
+// `now` is |x|^2, `before` L^2, and `growth` |x|^2 - L^2.
+PLIANT_INLINE double elongation_squared(double now, double before, double growth) {
+  constexpr double least = std::numeric_limits<double>::min();  // so that two vertices that share a place in both shapes give 0
+  return growth * (growth / (now + before + 2 * std::sqrt(now * before) + least));
+}
+
 PLIANT_INLINE double elongation_squared(const SpringEnds& at, std::size_t i, std::size_t j) {
   double now = 0, rest = 0, growth = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -21,8 +25,7 @@ PLIANT_INLINE double elongation_squared(const SpringEnds& at, std::size_t i, std
     rest += r * r;
     growth += d * (r + x);
   }
-  constexpr double least = std::numeric_limits<double>::min();  // so that two vertices that share a place in both shapes give 0
-  return growth * (growth / (now + rest + 2 * std::sqrt(now * rest) + least));
+  return elongation_squared(now, rest, growth);
 }
 
 // The last lanes may be beyond `end`. What they compute is dropped.
@@ -45,6 +48,11 @@ __attribute__((target("avx2"))) double sum_avx2(const SpringEnds& at, std::size_
 #endif
 
 }  // namespace
+
+double elongation_squared(const glm::dvec3& rest, const glm::dvec3& change) {
+  const glm::dvec3 x = rest + change;
+  return elongation_squared(glm::dot(x, x), glm::dot(rest, rest), glm::dot(change, rest + x));
+}
 
 // Most of the time goes into divisions and roots. AVX-512 makes no more of them in a cycle than AVX2.
 ElongationSum elongation_sum(cpu::Isa isa) {

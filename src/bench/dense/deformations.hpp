@@ -1,0 +1,36 @@
+// Deformations under which forces by clusters are compared with direct sums, and those sums.
+#pragma once
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pliant::bench {
+
+struct Deformation {
+  std::string name;
+  std::vector<glm::dvec3> displacements;  // of all vertices
+  bool is_crushed = false;                // parts that are far from each other at rest have come together
+};
+
+/// Returns the force of all springs on vertex i over the stiffness [m], which is what forces by clusters come near to.
+[[nodiscard]] glm::dvec3 direct_force(std::span<const glm::dvec3> rest, std::span<const glm::dvec3> displacements, std::size_t i);
+
+/// Returns positions about their mean, scaled so that the farthest is 1 away.
+[[nodiscard]] std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions);
+
+/// Returns all of them, of a body that scaled_to_radius_1() has scaled:
+///
+/// | name | what happens |
+/// |---|---|
+/// | smooth A | a smooth displacement of about A, from 1e-4 to 0.2 |
+/// | turned | smooth 0.01, then a quarter turn about z |
+/// | stretched | twice as long along x |
+/// | dent | all below a fifth of the height is raised to there |
+/// | dephased A | smooth A times cos(2 pi r), where r is drawn anew for each vertex |
+/// | flat | a tenth as high |
+/// | poke | the middle of the upper half is lowered by up to 0.8 |
+[[nodiscard]] std::vector<Deformation> deformations_of(std::span<const glm::dvec3> rest);
+
+}  // namespace pliant::bench

@@ -1,0 +1,40 @@
+// Which clusters of a body act on each other vertex by vertex, and which through their nodes.
+//
+// The springs between two clusters A and B that are far from each other have an energy near to
+//   sum over i in A and nodes b of w_b phi(i, b) + sum over nodes a and j in B of w_a phi(a, j) - sum over a and b of w_a w_b
+//   phi(a, b).
+// phi(p, q) = (|x| - L)^2 / 2 is a spring's energy. A node stands for w vertices, which are those of its cluster over the number
+// of nodes. So each side sees all vertices of the other's through its nodes, and what is counted twice is taken off. Forces are
+// the exact gradient of that energy, so that they add up to no force and no torque. Nodes move as means of their vertices.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dynamics/clusters/cluster_tree.hpp"
+
+namespace pliant {
+
+/// A cluster that is seen through its nodes.
+struct FarCluster {
+  std::uint32_t cluster;
+  std::uint32_t nodes;  // 1: node 0. 4: nodes 1 to 4
+};
+
+/// The pairs cover each pair of vertices once. Both sides of a pair list each other.
+struct ClusterPairs {
+  std::vector<std::uint32_t> near_begin;  // [leaf + 1] where a leaf's part of `near` begins
+  std::vector<std::uint32_t> near;        // leaves whose vertices it sees one by one, itself among them, in ascending order
+  std::vector<std::uint32_t> far_begin;   // [cluster + 1] where a cluster's part of `far` begins
+  std::vector<FarCluster> far;            // in the order in which they were found
+};
+
+/// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. Throws Error (input) if so many vertices share a
+/// place that lists would get too long.
+[[nodiscard]] ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy);
+
+/// Returns the accuracy for forces with about this relative error. In smooth deformations it is a third of that. Where neighbours
+/// move apart by 0.01 of the body's radius it is as much for tolerances from 1e-3 on, and more for smaller ones. Rougher
+/// deformations have an error that no accuracy takes away.
+[[nodiscard]] double accuracy_of(double tolerance);
+
+}  // namespace pliant

@@ -1,0 +1,196 @@
+// A vertex gets its force from the vertices of near leaves, from the nodes that its own clusters see, and from its clusters' own
+// nodes, which hand down what they feel.
+#define REAL_BITS 64
+#include "dynamics/clusters/cluster_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/expect.hpp"
+#include "dynamics/forces/elongations.hpp"
+#include "physics/forces/spring.glsl"
+
+namespace pliant {
+namespace {
+
+constexpr std::uint32_t grain = 4;  // leaves or clusters that a thread takes at a time
+
+// Calls visit(item) for all items, on all threads.
+void for_all(ThreadPool& pool, std::size_t count, const std::function<void(std::uint32_t)>& visit) {
+  pool.for_ranges(static_cast<std::uint32_t>(count), grain, [&](std::uint32_t first, std::uint32_t end) {
+    for (; first < end; ++first) visit(first);
+  });
+}
+
+}  // namespace
+
+ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy)
+    : tree_(make_cluster_tree(rest)), pairs_(pair_clusters(tree_, accuracy)) {
+  for (const std::uint32_t v : tree_.order) rest_.push_back(rest[v]);
+}
+
+double ClusterSprings::energy(ThreadPool& pool, std::span<const glm::dvec3> displacements) const {
+  const Points points = points_at(displacements);
+  std::vector<double> of_leaves(tree_.leaves.size()), between_nodes(tree_.clusters.size());
+  for_all(pool, of_leaves.size(), [&](std::uint32_t leaf) { of_leaves[leaf] = energy_of_leaf(points, leaf); });
+  for_all(pool, between_nodes.size(), [&](std::uint32_t c) { between_nodes[c] = energy_between_nodes(points, c); });
+  double sum = 0;
+  for (const double energy : of_leaves) sum += energy;
+  for (const double energy : between_nodes) sum -= energy;
+  return sum;
+}
+
+std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const glm::dvec3> displacements) const {
+  const Points points = points_at(displacements);
+  std::vector<Shared> shared(tree_.clusters.size());
+  for_all(pool, shared.size(), [&](std::uint32_t c) { shared[c] = shared_by(points, c); });
+  for (std::size_t c = 1; c < shared.size(); ++c) {  // parents come first
+    const Shared& above = shared[tree_.clusters[c].parent];
+    const glm::dvec3 way = tree_.clusters[c].centre - tree_.clusters[tree_.clusters[c].parent].centre;
+    shared[c].force += above.force + above.slope * way;
+    shared[c].slope += above.slope;
+  }
+  std::vector<glm::dvec3> forces(rest_.size());
+  for_all(pool, tree_.leaves.size(), [&](std::uint32_t leaf) {
+    const Cluster& cluster = tree_.clusters[tree_.leaves[leaf]];
+    const Shared& above = shared[tree_.leaves[leaf]];
+    for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
+      forces[tree_.order[place]] =
+          force_on_vertex(points, leaf, place) + above.force + above.slope * (rest_[place] - cluster.centre);
+  });
+  return forces;
+}
+
+SpringCounts ClusterSprings::counts() const {
+  SpringCounts counts;
+  for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf)
+    for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
+      const std::uint64_t own = tree_.clusters[tree_.leaves[leaf]].size();
+      if (pairs_.near[k] == leaf) counts.near += own * (own - 1) / 2;
+      if (pairs_.near[k] > leaf) counts.near += own * tree_.clusters[tree_.leaves[pairs_.near[k]]].size();
+    }
+  for (std::uint32_t c = 0; c < tree_.clusters.size(); ++c)
+    for (const FarCluster& far : far_of(c)) {
+      counts.far += std::uint64_t{tree_.clusters[c].size()} * far.nodes;
+      if (far.cluster > c) counts.between_nodes += std::uint64_t{far.nodes} * far.nodes;
+    }
+  return counts;
+}
+
+// Moments go up from leaves to the root: the sum of u, and that of u (X - centre)^T.
+ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> displacements) const {
+  PLIANT_EXPECT(displacements.size() == rest_.size());
+  Points points{std::vector<Point>(rest_.size()), std::vector<std::array<Point, node_count>>(tree_.clusters.size())};
+  std::vector<Shared> moments(tree_.clusters.size());
+  for (std::uint32_t place = 0; place < rest_.size(); ++place)
+    points.vertices[place] = {rest_[place], displacements[tree_.order[place]]};
+  for (std::size_t c = tree_.clusters.size(); c-- > 0;) {
+    const Cluster& cluster = tree_.clusters[c];
+    Shared& of_cluster = moments[c];
+    const auto add = [&](const glm::dvec3& sum, const glm::dmat3& moment, const glm::dvec3& place) {
+      of_cluster.force += sum;
+      of_cluster.slope += moment + glm::outerProduct(sum, place - cluster.centre);
+    };
+    if (cluster.is_leaf())
+      for (std::uint32_t p = cluster.first; p < cluster.end; ++p) add(points.vertices[p].displacement, glm::dmat3(0.0), rest_[p]);
+    else
+      for (const std::uint32_t child : {cluster.first_child, cluster.first_child + 1})
+        add(moments[child].force, moments[child].slope, tree_.clusters[child].centre);
+    for (std::uint32_t n = 0; n < node_count; ++n) {
+      const ClusterNode& node = cluster.nodes[n];
+      points.nodes[c][n] = {cluster.centre + node.offset,
+                            (of_cluster.force + of_cluster.slope * node.gradient) / static_cast<double>(cluster.size())};
+    }
+  }
+  return points;
+}
+
+std::span<const ClusterSprings::Point> ClusterSprings::nodes_of(const Points& points, const FarCluster& far) const {
+  return std::span(points.nodes[far.cluster]).subspan(physics::first_node(far.nodes), far.nodes);
+}
+
+std::span<const FarCluster> ClusterSprings::far_of(std::uint32_t cluster) const {
+  return std::span(pairs_.far).subspan(pairs_.far_begin[cluster], pairs_.far_begin[cluster + 1] - pairs_.far_begin[cluster]);
+}
+
+// How many vertices a node stands for.
+double ClusterSprings::weight_of(std::uint32_t cluster, std::uint32_t nodes) const {
+  return static_cast<double>(tree_.clusters[cluster].size()) / nodes;
+}
+
+// Half of that with near vertices, because each such pair comes twice, and all of that with far nodes.
+double ClusterSprings::energy_of_leaf(const Points& points, std::uint32_t leaf) const {
+  const Cluster& cluster = tree_.clusters[tree_.leaves[leaf]];
+  const auto energy_with = [&](const Point& other) {
+    double sum = 0;
+    for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
+      sum += 0.5 * elongation_squared(points.vertices[place].rest - other.rest,
+                                      points.vertices[place].displacement - other.displacement);
+    return sum;
+  };
+  double sum = 0;
+  for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
+    const Cluster& near = tree_.clusters[tree_.leaves[pairs_.near[k]]];
+    for (std::uint32_t place = near.first; place < near.end; ++place) sum += 0.5 * energy_with(points.vertices[place]);
+  }
+  for (std::uint32_t c = tree_.leaves[leaf];; c = tree_.clusters[c].parent) {
+    for (const FarCluster& far : far_of(c))
+      for (const Point& node : nodes_of(points, far)) sum += weight_of(far.cluster, far.nodes) * energy_with(node);
+    if (c == 0) return sum;
+  }
+}
+
+// Of pairs with clusters that come later.
+double ClusterSprings::energy_between_nodes(const Points& points, std::uint32_t cluster) const {
+  double sum = 0;
+  for (const FarCluster& far : far_of(cluster)) {
+    if (far.cluster < cluster) continue;
+    for (const Point& own : nodes_of(points, {cluster, far.nodes}))
+      for (const Point& other : nodes_of(points, far))
+        sum += weight_of(cluster, far.nodes) * weight_of(far.cluster, far.nodes) * 0.5 *
+               elongation_squared(own.rest - other.rest, own.displacement - other.displacement);
+  }
+  return sum;
+}
+
+glm::dvec3 ClusterSprings::force_between(const Point& own, const Point& other) {
+  const glm::dvec3 change = own.displacement - other.displacement, x = own.rest - other.rest + change;
+  return -physics64::spring_strain(x, change) * x;
+}
+
+glm::dvec3 ClusterSprings::force_on_vertex(const Points& points, std::uint32_t leaf, std::uint32_t place) const {
+  const Point& own = points.vertices[place];
+  glm::dvec3 sum(0.0);
+  for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
+    const Cluster& near = tree_.clusters[tree_.leaves[pairs_.near[k]]];
+    for (std::uint32_t p = near.first; p < near.end; ++p) sum += force_between(own, points.vertices[p]);
+  }
+  for (std::uint32_t c = tree_.leaves[leaf];; c = tree_.clusters[c].parent) {
+    for (const FarCluster& far : far_of(c))
+      for (const Point& node : nodes_of(points, far)) sum += weight_of(far.cluster, far.nodes) * force_between(own, node);
+    if (c == 0) return sum;
+  }
+}
+
+// A node is pulled by all vertices of a far cluster, less what that cluster's nodes pull.
+ClusterSprings::Shared ClusterSprings::shared_by(const Points& points, std::uint32_t cluster) const {
+  Shared shared;
+  for (const FarCluster& far : far_of(cluster)) {
+    const Cluster& other = tree_.clusters[far.cluster];
+    for (std::uint32_t n = physics::first_node(far.nodes); n < physics::first_node(far.nodes) + far.nodes; ++n) {
+      const Point& own = points.nodes[cluster][n];
+      glm::dvec3 pull(0.0);
+      for (std::uint32_t place = other.first; place < other.end; ++place) pull += force_between(own, points.vertices[place]);
+      for (const Point& node : nodes_of(points, far)) pull -= weight_of(far.cluster, far.nodes) * force_between(own, node);
+      pull /= far.nodes;
+      shared.force += pull;
+      shared.slope += glm::outerProduct(pull, tree_.clusters[cluster].nodes[n].gradient);
+    }
+  }
+  return shared;
+}
+
+}  // namespace pliant

@@ -1,0 +1,70 @@
+// Sums the springs of a clustered body in fp64: its energy and its forces.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "core/thread_pool.hpp"
+#include "dynamics/clusters/cluster_pairs.hpp"
+#include "dynamics/clusters/cluster_tree.hpp"
+
+namespace pliant {
+
+/// How many springs stand for those between all pairs of vertices.
+struct SpringCounts {
+  std::uint64_t near = 0;           // between two vertices
+  std::uint64_t far = 0;            // between a vertex and a node
+  std::uint64_t between_nodes = 0;  // which take off what counts twice
+  [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
+};
+
+/// Sums have the same bits on any number of threads.
+class ClusterSprings {
+ public:
+  /// `rest` are positions at rest [m], at least one. pair_clusters() says what `accuracy` is.
+  ClusterSprings(std::span<const glm::dvec3> rest, double accuracy);
+
+  /// Returns the energy of the body over its stiffness [m^2]. `displacements` are those of the vertices [m].
+  [[nodiscard]] double energy(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;
+  /// Returns the forces on the vertices over the stiffness [m]: the gradient of the energy with its sign changed.
+  [[nodiscard]] std::vector<glm::dvec3> forces(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;
+
+  [[nodiscard]] SpringCounts counts() const;
+
+ private:
+  static constexpr std::uint32_t node_count = 5;  // of a cluster
+
+  // A vertex, or a node.
+  struct Point {
+    glm::dvec3 rest{0.0}, displacement{0.0};
+  };
+  struct Points {
+    std::vector<Point> vertices;                       // by their places in the tree
+    std::vector<std::array<Point, node_count>> nodes;  // of each cluster
+  };
+  // What a cluster's nodes hand down: a vertex at X gets force + slope (X - centre).
+  struct Shared {
+    glm::dvec3 force{0.0};
+    glm::dmat3 slope{0.0};
+  };
+
+  // Returns the force that a spring from `own` to `other` exerts on it, over the stiffness [m].
+  [[nodiscard]] static glm::dvec3 force_between(const Point& own, const Point& other);
+  [[nodiscard]] Points points_at(std::span<const glm::dvec3> displacements) const;
+  [[nodiscard]] std::span<const Point> nodes_of(const Points& points, const FarCluster& far) const;
+  [[nodiscard]] std::span<const FarCluster> far_of(std::uint32_t cluster) const;
+  [[nodiscard]] double weight_of(std::uint32_t cluster, std::uint32_t nodes) const;
+  [[nodiscard]] double energy_of_leaf(const Points& points, std::uint32_t leaf) const;
+  [[nodiscard]] double energy_between_nodes(const Points& points, std::uint32_t cluster) const;
+  [[nodiscard]] glm::dvec3 force_on_vertex(const Points& points, std::uint32_t leaf, std::uint32_t place) const;
+  [[nodiscard]] Shared shared_by(const Points& points, std::uint32_t cluster) const;
+
+  ClusterTree tree_;
+  std::vector<glm::dvec3> rest_;  // by places in the tree [m]
+  ClusterPairs pairs_;
+};
+
+}  // namespace pliant
