@@ -24,6 +24,7 @@
 #include "physics/contact/parts.glsl"
 #include "physics/contact/surface.glsl"
 #include "physics/control.glsl"
+#include "physics/forces/clusters.glsl"
 #include "physics/forces/pressure.glsl"
 #include "physics/pace.glsl"
 #include "physics/path.glsl"
@@ -67,6 +68,7 @@ PLIANT_ELEMENT(physics::Tally, "Tally")
 PLIANT_ELEMENT(physics::Control, "Control")
 PLIANT_ELEMENT(physics::Pace, "Pace")
 PLIANT_ELEMENT(physics::Pressure, "Pressure")
+PLIANT_ELEMENT(physics::SpringCluster, "SpringCluster")
 PLIANT_ELEMENT(physics::Moments, "Moments")
 PLIANT_ELEMENT(physics::RigidMotion, "RigidMotion")
 PLIANT_ELEMENT(physics::PartSums, "PartSums")

@@ -45,6 +45,21 @@ ARRAY(volume_part, double, part, step, "what these triangles add to the body's v
 ARRAY(fan_begin, uint, vertex, fixed, "[vertex + 1] where the vertex's triangles begin in `fan`")
 ARRAY(fan, uvec2, corner, fixed, "the other two vertices of a triangle around a vertex, in its order")
 
+// springs of clustered bodies
+ARRAY(tree_vertex, uint, vertex, fixed, "[leaf][16] vertices of clustered bodies in the order of their trees; behind the end of a body's last leaf its last vertex again")
+ARRAY(spring_cluster, SpringCluster, cluster, fixed, "of vertices, with its nodes; parents come before children")
+ARRAY(spring_leaf, uvec4, leaf, fixed, "body, cluster, 0, number of vertices")
+ARRAY(near_begin, uint, leaf, fixed, "[leaf + 1] where the leaf's part of `near_leaf` begins")
+ARRAY(near_leaf, uint, pair, fixed, "leaves whose vertices a leaf's vertices see one by one, itself among them")
+ARRAY(far_node, uint, pair, fixed, "points that are the nodes which a cluster's vertices see in place of other vertices")
+ARRAY(far_cluster, uvec4, pair, fixed, "a cluster that sees nodes of the one that lists it, how many of them, the first of what its leaves pull them with in `node_pull`, how many leaves")
+ARRAY(spring_point, real, point, step, "[point][2][4] placement as stages have it, and how many vertices the point stands for; then displacement, 0. Points are the places of trees, then [cluster][5] nodes")
+ARRAY(leaf_moment, real, leaf, step, "[leaf][12] sums over its vertices (forces/clusters.glsl has units)")
+ARRAY(leaf_pull, real, vertex, step, "[leaf][16][3] what pulls a vertex, of all that it sees [body's unit]")
+ARRAY(node_pull, real, pair, step, "[cluster][node][leaf][3] of the nodes that a cluster's vertices see: what they pull one leaf's vertices with, which pulls the node the other way [body's unit]")
+ARRAY(cluster_pull, double, cluster, step, "[cluster][12] what its nodes hand down to its vertices (forces/clusters.glsl has units)")
+ARRAY(spring_sum, double, vertex, step, "[vertex][3] what pulls a vertex of a clustered body: minus the force over the stiffness [body's unit]; old numbers of other bodies, and of those that are not deformed")
+
 // internal damping
 ARRAY(moment_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread sums of a body with internal damping")
 ARRAY(moment_range, uvec2, body, fixed, "first part, number of parts; none without internal damping")

@@ -1,9 +1,11 @@
-// Tiles of spring forces in vectors of 32 bytes.
+// Spring forces in vectors of 32 bytes.
 #if defined(__AVX2__) && defined(__FMA__)
 #include <immintrin.h>
 
+#include <cstddef>
 #include <utility>
 
+#include "device/cpu/leaf_springs.hpp"
 #include "device/cpu/spring_tile.hpp"
 
 #define PLIANT_INLINE inline __attribute__((always_inline))
@@ -29,10 +31,12 @@ PLIANT_INLINE __m256d square_root(__m256d v) { return _mm256_sqrt_pd(v); }
 
 }  // namespace
 
-#include "device/cpu/spring_tile.inc"
+#include "device/cpu/leaf_springs.inc"
 
 void sum_tile_avx2(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_avx2(const SpringTile<double>& tile) { sum_tile(tile); }
+void sum_leaf_avx2(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
+void sum_leaf_avx2(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
 
 }  // namespace pliant::cpu
 #endif

@@ -1,9 +1,11 @@
-// Tiles of spring forces in vectors of 64 bytes.
+// Spring forces in vectors of 64 bytes.
 #if defined(__AVX512F__)
 #include <immintrin.h>
 
+#include <cstddef>
 #include <utility>
 
+#include "device/cpu/leaf_springs.hpp"
 #include "device/cpu/spring_tile.hpp"
 
 #define PLIANT_INLINE inline __attribute__((always_inline))
@@ -48,10 +50,12 @@ PLIANT_INLINE __m512d quarter_strain(__m512d growth, __m512d now) {
 
 }  // namespace
 
-#include "device/cpu/spring_tile.inc"
+#include "device/cpu/leaf_springs.inc"
 
 void sum_tile_avx512(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_avx512(const SpringTile<double>& tile) { sum_tile(tile); }
+void sum_leaf_avx512(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
+void sum_leaf_avx512(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
 
 }  // namespace pliant::cpu
 #endif

@@ -1,6 +1,8 @@
-// Tiles of spring forces in vectors of 16 bytes, which every processor has or the compiler takes apart.
+// Spring forces in vectors of 16 bytes, which every processor has or the compiler takes apart.
+#include <cstddef>
 #include <utility>
 
+#include "device/cpu/leaf_springs.hpp"
 #include "device/cpu/spring_tile.hpp"
 
 #define PLIANT_INLINE inline __attribute__((always_inline))
@@ -33,9 +35,11 @@ PLIANT_INLINE V square_root(V v) {
 
 }  // namespace
 
-#include "device/cpu/spring_tile.inc"
+#include "device/cpu/leaf_springs.inc"
 
 void sum_tile_portable(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_portable(const SpringTile<double>& tile) { sum_tile(tile); }
+void sum_leaf_portable(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
+void sum_leaf_portable(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
 
 }  // namespace pliant::cpu

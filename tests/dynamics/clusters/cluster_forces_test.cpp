@@ -1,0 +1,163 @@
+// Springs of clustered bodies on devices, beside the same sums in fp64 on the host.
+#include "dynamics/clusters/cluster_forces.hpp"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "bench/dense/deformations.hpp"
+#include "device/gpu/gpu_device.hpp"
+#include "dynamics/clusters/cluster_springs.hpp"
+#include "dynamics/stepper.hpp"
+#include "support/evolve.hpp"
+#include "support/has.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double tested_accuracy = 1e-7;
+
+// A slightly bent sheet.
+TriangleMesh sheet() {
+  TriangleMesh mesh;
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) mesh.positions.emplace_back(0.1 * i, 0.0001 * i * i, 0.1 * k);
+  return mesh;
+}
+
+TriangleMesh few_points() { return {{{0, 0, 0}, {1, 0.1, 0}, {0, 1, 0.2}, {0, 0.3, 1}, {1, 1, 1}}, {}}; }
+
+// All but the second are clustered.
+ModelAndState several_bodies() {
+  std::vector<BodySetup> setups;
+  for (const TriangleMesh& mesh :
+       {generate_mesh("icosphere:3"), generate_mesh("cube:3"), generate_mesh("bowl:12"), sheet(), few_points()}) {
+    BodySetup& setup = setups.emplace_back(body_of_mesh(mesh));
+    setup.description.scale = 0.7;
+    setup.description.position = glm::dvec3(3.0 * static_cast<double>(setups.size()), 0.5, 0);
+  }
+  return build_model(setups, glm::dvec3(0.0));
+}
+
+std::vector<std::optional<double>> accuracies_of(const Model& model) {
+  std::vector<std::optional<double>> accuracies(model.bodies.size(), tested_accuracy);
+  accuracies[1].reset();
+  return accuracies;
+}
+
+std::vector<glm::dvec3> rest_positions_of(const Model& model, const ModelBody& body) {
+  std::vector<glm::dvec3> rest;
+  for (std::uint32_t i = 0; i < body.vertex_count; ++i) rest.push_back(model.rest_position(body.first_vertex + i));
+  return rest;
+}
+
+std::vector<glm::dvec3> displacements_of(const State& state, const ModelBody& body) {
+  std::vector<glm::dvec3> displacements;
+  for (std::uint32_t i = 0; i < body.vertex_count; ++i) displacements.push_back(state.displacement(body.first_vertex + i));
+  return displacements;
+}
+
+void deform(State& state, const Model& model, std::size_t number) {
+  for (const ModelBody& body : model.bodies) {
+    const bench::Deformation deformation = bench::deformations_of(rest_positions_of(model, body))[number];
+    for (std::uint32_t i = 0; i < body.vertex_count; ++i)
+      for (int k = 0; k < 3; ++k)
+        state.motion[6 * (body.first_vertex + i) + static_cast<std::size_t>(k)] = deformation.displacements[i][k];
+  }
+}
+
+struct Sums {
+  std::vector<double> numbers;
+
+  [[nodiscard]] glm::dvec3 force(const ModelBody& body, std::uint32_t i) const {
+    const std::size_t at = 3 * (body.first_vertex + std::size_t{i});
+    return -body.unit_of_length() * glm::dvec3(numbers[at], numbers[at + 1], numbers[at + 2]);
+  }
+};
+
+Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false) {
+  DeviceBodies bodies(device, start.model, start.state);
+  const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
+  const ClusterForces forces(bodies, start.model, accuracies_of(start.model));
+  device.run(stepper.first_passes());
+  device.run(forces.passes(physics::start_slot, only_stale));
+  return {bodies.arrays.get<double>("spring_sum").download()};
+}
+
+TEST_CASE("springs of clustered bodies are the same on every device and on the host", "[gl]") {
+  ThreadPool pool(1);
+  ModelAndState start = several_bodies();
+  const std::vector<bench::Deformation> deformations =
+      bench::deformations_of(rest_positions_of(start.model, start.model.bodies[0]));
+  for (std::size_t d = 0; d < deformations.size(); ++d) {
+    deform(start.state, start.model, d);
+    for (const TestDevice& test : all_devices()) {
+      const Sums sums = sums_on(*test.device, start);
+      for (const ModelBody& body : start.model.bodies) {
+        if (&body == &start.model.bodies[1]) continue;
+        CAPTURE(deformations[d].name, test.name, body.first_vertex);
+        const std::vector<glm::dvec3> exact = ClusterSprings(rest_positions_of(start.model, body), tested_accuracy)
+                                                  .forces(pool, displacements_of(start.state, body));
+        double error = 0, squared = 0, size = 0;
+        glm::dvec3 all(0.0);
+        for (std::uint32_t i = 0; i < body.vertex_count; ++i) {
+          const glm::dvec3 force = sums.force(body, i);
+          error += glm::dot(force - exact[i], force - exact[i]);
+          squared += glm::dot(exact[i], exact[i]);
+          size += glm::length(exact[i]);
+          all += force;
+        }
+        const bool is_double = test.device->precision() == 64;
+        // The strains of a turned body are a hundredth of its displacements, which are rounded.
+        CHECK(std::sqrt(error / squared) < (is_double ? 1e-13 : deformations[d].name == "turned" ? 1e-5 : 5e-7));
+        CHECK(glm::length(all) < (is_double ? 1e-14 : 1e-7) * size);
+      }
+    }
+  }
+}
+
+TEST_CASE("springs of clustered bodies have the same bits on any number of threads, and in any order", "[gl]") {
+  ModelAndState start = several_bodies();
+  deform(start.state, start.model, 2);
+  const auto numbers_on = [&](std::unique_ptr<Device> device) { return sums_on(*device, start).numbers; };
+  const std::vector<double> one = numbers_on(make_cpu_device(1, 32));
+  for (const unsigned threads : {2u, 7u}) CHECK(numbers_on(make_cpu_device(threads, 32)) == one);
+  if (test::lacks_gl()) return;
+  CHECK(numbers_on(make_gpu_device(0, ItemOrder::ascending)) == numbers_on(make_gpu_device(0, ItemOrder::descending)));
+}
+
+TEST_CASE("springs of clustered bodies are summed again if a stage asks for it, or kept forces are stale", "[gl]") {
+  ModelAndState start = several_bodies();
+  deform(start.state, start.model, 2);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    DeviceBodies bodies(*test.device, start.model, start.state);
+    const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
+    const ClusterForces forces(bodies, start.model, accuracies_of(start.model));
+    test.device->run(stepper.first_passes());
+    auto& sums = bodies.arrays.get<double>("spring_sum");
+    const auto numbers_after = [&](bool only_stale) {
+      sums.upload(std::vector<double>(sums.size()));
+      test.device->run(forces.passes(physics::start_slot, only_stale));
+      return sums.download();
+    };
+    const std::vector<double> all = numbers_after(false);
+    CHECK(numbers_after(true) == all);
+    std::vector<physics::Status> statuses = bodies.statuses.download();
+    statuses[0].force_stale = 0;
+    statuses[2].deformed = 0;
+    bodies.statuses.upload(statuses);
+    const std::vector<double> some = numbers_after(true);
+    for (std::size_t b = 0; b < start.model.bodies.size(); ++b) {
+      const ModelBody& body = start.model.bodies[b];
+      const std::size_t first = 3 * std::size_t{body.first_vertex}, count = 3 * std::size_t{body.vertex_count};
+      const std::vector<double> own(some.begin() + first, some.begin() + first + count);
+      const bool is_summed = b > 2;
+      CHECK((own == std::vector<double>(all.begin() + first, all.begin() + first + count)) == (is_summed || b == 1));
+      if (!is_summed) CHECK(own == std::vector<double>(count));
+    }
+    CHECK(numbers_after(false) != all);  // without the third body
+  }
+}
+
+}  // namespace
+}  // namespace pliant
