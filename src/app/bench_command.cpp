@@ -11,6 +11,7 @@
 #include "bench/collision/report.hpp"
 #include "bench/common/step_cases.hpp"
 #include "bench/contact/report.hpp"
+#include "bench/dense/report.hpp"
 #include "bench/draw/report.hpp"
 #include "bench/drops/report.hpp"
 #include "bench/forces/report.hpp"
@@ -133,6 +134,11 @@ int measure_collision(const BenchOptions& options) {
   return measure_and_write(options, asked, bench::bench_collision);
 }
 
+int measure_dense(const BenchOptions& options) {
+  const bench::DenseOptions asked{.devices = selection_of(options), .quick = options.quick};
+  return measure_and_write(options, asked, bench::bench_dense);
+}
+
 int measure_drops(const BenchOptions& options) {
   if (!options.quick) bench::expect_scenes(options.scenes);
   const bench::DropsOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
@@ -164,6 +170,8 @@ int bench(const BenchOptions& options) {
       return measure_contact(options);
     case BenchSuite::collision:
       return measure_collision(options);
+    case BenchSuite::dense:
+      return measure_dense(options);
     case BenchSuite::drops:
       return measure_drops(options);
     case BenchSuite::draw:

@@ -11,7 +11,7 @@ namespace pliant::app {
 /// software.
 enum class BenchDevices { automatic, cpu, gpu, all };
 
-enum class BenchSuite { forces, steps, precision, stability, contact, collision, drops, draw };
+enum class BenchSuite { forces, steps, precision, stability, contact, collision, drops, draw, dense };
 
 /// What the suite contact is made of (bench/contact/contact.hpp).
 enum class BenchStudy { all, apart, impacts, rest, cost, self };

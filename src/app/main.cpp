@@ -245,7 +245,7 @@ void add_draw_suite(CLI::App& bench, app::BenchOptions& options) {
 void add_bench(CLI::App& program, app::BenchOptions& options) {
   CLI::App* bench = program.add_subcommand(
       "bench",
-      "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, collision, drops, draw");
+      "Measure how fast this machine is; suites are forces, steps, precision, stability, contact, collision, dense, drops, draw");
   bench->require_subcommand(1);
   CLI::App* forces = add_device_suite(*bench, options, app::BenchSuite::forces, "forces",
                                       "Spring forces by size of the body, beside what the hardware allows");
@@ -271,6 +271,8 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   add_device_suite(
       *bench, options, app::BenchSuite::collision, "collision",
       "Finding all pairs of triangles that touch, beside other libraries' trees, and steps in contact by their passes");
+  add_device_suite(*bench, options, app::BenchSuite::dense, "dense",
+                   "Springs of dense bodies by clusters: errors for how many springs, and times beside all springs");
   CLI::App* drops = add_device_suite(*bench, options, app::BenchSuite::drops, "drops",
                                      "Soft bodies that fall on a floor, beside Bullet's: time, space, volume and energy");
   drops->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny beside it (default scenes)");

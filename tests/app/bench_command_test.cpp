@@ -69,6 +69,24 @@ TEST_CASE("bench forces writes every key of its rows, into a folder that it make
   }
 }
 
+TEST_CASE("bench dense writes every key of its rows, and forces by clusters are near exact ones") {
+  const ScratchFolder folder;
+  const auto json = checked_results("dense --device cpu --threads 1", folder.path / "dense.json");
+  CHECK(json["suite"] == "dense");
+  REQUIRE(json["rows"].size() > 0);
+  for (const auto& row : json["rows"]) {
+    for (const char* key : {"mesh", "deformation"}) CHECK(row[key].is_string());
+    const auto deformation = row["deformation"].get<std::string>();
+    if (deformation != "flat" && deformation != "poke") CHECK(row["error"].get<double>() < 3e-3);
+    CHECK(row["error"].get<double>() > 0);
+    CHECK(row["springs_per_vertex"].get<double>() < row["vertices"].get<double>() / 2);
+  }
+  REQUIRE(json["forces"].size() == 4);  // two sizes in two precisions
+  for (const auto& row : json["forces"])
+    for (const char* key : {"error", "list_seconds", "seconds_per_sum", "direct_seconds_per_sum", "bytes_per_vertex"})
+      CHECK(row[key].get<double>() > 0);
+}
+
 TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder") {
   const ScratchFolder folder;
   std::ofstream(folder.path / "small.toml") << "[simulation]\ntime_step = 0.01\nduration = 0.05\n"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -19,21 +18,6 @@ TriangleMesh spiral_sphere(std::uint32_t vertex_count) {
     mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
   }
   return mesh;
-}
-
-TriangleMesh split_in_four(const TriangleMesh& mesh) {
-  TriangleMesh fine{mesh.positions, {}};
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [entry, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.positions.size()));
-    if (is_new) fine.positions.push_back(0.5 * (fine.positions[a] + fine.positions[b]));
-    return entry->second;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-  }
-  return fine;
 }
 
 ModelAndState deformed_body(TriangleMesh mesh) {

@@ -10,9 +10,6 @@ namespace pliant::bench {
 /// Returns points spread evenly over the unit sphere along a spiral (a Fibonacci lattice), without triangles.
 [[nodiscard]] TriangleMesh spiral_sphere(std::uint32_t vertex_count);
 
-/// Splits every triangle in four at the middles of its edges. The result is the same surface with four times the triangles.
-[[nodiscard]] TriangleMesh split_in_four(const TriangleMesh& mesh);
-
 /// Returns a body without velocity. Each vertex is off its rest position by its own amount, a few percent of the body's size.
 [[nodiscard]] ModelAndState deformed_body(TriangleMesh mesh);
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "bench/common/shapes.hpp"
 #include "core/error.hpp"
+#include "mesh/subdivide.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
 
@@ -63,8 +63,7 @@ StepCase case_of(const Family& family, const SceneDescription& as_it_is, int lev
   const SceneDescription scene = scene_at(family, as_it_is, level);
   std::vector<BodySetup> setups = load_bodies(scene);
   for (BodySetup& setup : setups)
-    if (!setup.description.mesh.starts_with("icosphere:"))
-      for (int k = 0; k < level; ++k) setup.mesh = split_in_four(setup.mesh);
+    if (!setup.description.mesh.starts_with("icosphere:")) setup.mesh = subdivide(setup.mesh, static_cast<unsigned>(level));
   StepCase made = make_case(scene, setups);
   made.name = fmt::format("{}:{}", family.name, level);
   made.family = family.name;

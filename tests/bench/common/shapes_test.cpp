@@ -7,20 +7,9 @@
 #include <numbers>
 
 #include "mesh/generators.hpp"
-#include "mesh/report.hpp"
 
 namespace pliant::bench {
 namespace {
-
-TEST_CASE("splitting in four keeps the surface and adds a vertex an edge") {
-  const TriangleMesh coarse = generate_mesh("icosphere:2"), fine = split_in_four(coarse);
-  CHECK(fine.triangles.size() == 4 * coarse.triangles.size());
-  CHECK(fine.positions.size() == coarse.positions.size() + 3 * coarse.triangles.size() / 2);
-  const MeshReport before = report_mesh(coarse), after = report_mesh(fine);
-  CHECK(after.area == Approx(before.area));
-  CHECK(after.volume.value() == Approx(before.volume.value()));
-  CHECK(after.manifold);
-}
 
 TEST_CASE("points on the spiral are evenly spread over the unit sphere") {
   const TriangleMesh mesh = spiral_sphere(1000);

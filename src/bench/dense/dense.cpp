@@ -1,0 +1,231 @@
+#include "bench/dense/dense.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "bench/common/shapes.hpp"
+#include "bench/common/timing.hpp"
+#include "bench/dense/deformations.hpp"
+#include "bench/forces/peak_rate.hpp"
+#include "core/stopwatch.hpp"
+#include "dynamics/clusters/cluster_forces.hpp"
+#include "dynamics/clusters/cluster_springs.hpp"
+#include "dynamics/stepper.hpp"
+#include "mesh/generators.hpp"
+
+namespace pliant::bench {
+namespace {
+
+constexpr double longest_direct_sum = 2;  // [s]
+constexpr std::uint32_t sample_count = 300;
+
+std::string sphere_name(int level) { return fmt::format("icosphere:{}", level); }
+
+double relative_error(const std::vector<glm::dvec3>& forces, const std::vector<glm::dvec3>& exact) {
+  double error = 0, size = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    const glm::dvec3 off = forces[k] - exact[k];
+    error += glm::dot(off, off);
+    size += glm::dot(exact[k], exact[k]);
+  }
+  return std::sqrt(error / size);
+}
+
+// Measures errors of one mesh.
+class ErrorsOf {
+ public:
+  explicit ErrorsOf(std::string mesh)
+      : mesh_(std::move(mesh)), rest_(scaled_to_radius_1(generate_mesh(mesh_).positions)), deformations_(deformations_of(rest_)) {
+    for (const Deformation& deformation : deformations_) {
+      std::vector<glm::dvec3>& exact = exact_.emplace_back(sample_count);
+      pool_.for_ranges(sample_count, 4, [&](std::uint32_t first, std::uint32_t end) {
+        for (; first < end; ++first) exact[first] = direct_force(rest_, deformation.displacements, sample(first));
+      });
+    }
+  }
+
+  void measure(double accuracy, std::vector<DenseErrorRow>& rows) {
+    const ClusterSprings springs(rest_, accuracy);
+    for (std::size_t d = 0; d < deformations_.size(); ++d)
+      rows.push_back({.mesh = mesh_,
+                      .vertices = static_cast<std::uint32_t>(rest_.size()),
+                      .accuracy = accuracy,
+                      .springs_per_vertex = static_cast<double>(springs.counts().all()) / static_cast<double>(rest_.size()),
+                      .deformation = deformations_[d].name,
+                      .error = error_of(springs.forces(pool_, deformations_[d].displacements), exact_[d])});
+  }
+
+ private:
+  [[nodiscard]] std::size_t sample(std::size_t k) const { return k * rest_.size() / sample_count; }
+
+  [[nodiscard]] double error_of(const std::vector<glm::dvec3>& forces, const std::vector<glm::dvec3>& exact) const {
+    std::vector<glm::dvec3> sampled;
+    for (std::size_t k = 0; k < exact.size(); ++k) sampled.push_back(forces[sample(k)]);
+    return relative_error(sampled, exact);
+  }
+
+  std::string mesh_;
+  std::vector<glm::dvec3> rest_;
+  std::vector<Deformation> deformations_;
+  std::vector<std::vector<glm::dvec3>> exact_;  // forces on samples, of each deformation
+  ThreadPool pool_{0};
+};
+
+std::vector<glm::dvec3> rest_of(const Model& model) {
+  std::vector<glm::dvec3> rest;
+  for (std::uint32_t i = 0; i < model.vertex_count(); ++i) rest.push_back(model.rest_position(i));
+  return rest;
+}
+
+// Measures sums of one body's forces at one place, first of all springs.
+class SumsOf {
+ public:
+  SumsOf(Device& device, const Place& place, const Effort& effort, const ModelAndState& body)
+      : device_(device),
+        place_(place),
+        effort_(effort),
+        model_(body.model),
+        rest_(rest_of(model_)),
+        bodies_(device, model_, body.state),
+        stepper_(bodies_, model_, find_integrator("verlet"), DampingLaw::none, 1e-3) {
+    device.run(stepper_.first_passes());
+    bytes_without_clusters_ = device.allocated_bytes();
+    std::vector<glm::dvec3> displacements;
+    for (std::uint32_t i = 0; i < model_.vertex_count(); ++i) displacements.push_back(body.state.displacement(i));
+    for (std::size_t k = 0; k < sample_count; ++k) exact_.push_back(direct_force(rest_, displacements, sample(k)));
+  }
+
+  // Returns the time of a sum of all springs [s].
+  double measure_direct() {
+    const std::vector<Pass> passes = stepper_.refresh_passes();  // kept forces stay marked as stale, so they sum them every time
+    direct_seconds_ = seconds_each(device_, effort_, [&] { device_.run(passes); }).median;
+    bytes_without_clusters_ = device_.allocated_bytes();  // a processor has taken scratch memory
+    return direct_seconds_;
+  }
+
+  DenseForceRow measure(double tolerance) {
+    const double accuracy = accuracy_of(tolerance);
+    DenseForceRow row{.device = place_.device,
+                      .precision = place_.precision,
+                      .threads = place_.threads,
+                      .vertices = model_.vertex_count(),
+                      .tolerance = tolerance,
+                      .direct_seconds_per_sum = direct_seconds_};
+    Stopwatch listing;
+    listing.time([&] { return pair_clusters(make_cluster_tree(rest_), accuracy).far.size(); });
+    row.list_seconds = listing.seconds();
+    const ClusterForces forces(bodies_, model_, std::vector<std::optional<double>>{accuracy});
+    row.bytes_per_vertex = static_cast<double>(device_.allocated_bytes() - bytes_without_clusters_) / row.vertices;
+    const std::vector<Pass> passes = forces.passes(physics::start_slot, false);
+    row.seconds_per_sum = seconds_each(device_, effort_, [&] { device_.run(passes); }).median;
+    row.error = error_of(bodies_.arrays.get<double>("spring_sum").download());
+    return row;
+  }
+
+ private:
+  [[nodiscard]] std::size_t sample(std::size_t k) const { return k * rest_.size() / sample_count; }
+
+  [[nodiscard]] double error_of(const std::vector<double>& sums) const {
+    std::vector<glm::dvec3> forces;
+    for (std::size_t k = 0; k < sample_count; ++k) {
+      const double* const sum = sums.data() + 3 * sample(k);
+      forces.push_back(-model_.bodies.front().unit_of_length() * glm::dvec3(sum[0], sum[1], sum[2]));
+    }
+    return relative_error(forces, exact_);
+  }
+
+  Device& device_;
+  const Place& place_;
+  const Effort& effort_;
+  const Model& model_;
+  std::vector<glm::dvec3> rest_;
+  DeviceBodies bodies_;
+  Stepper stepper_;
+  std::vector<glm::dvec3> exact_;  // of samples
+  std::size_t bytes_without_clusters_ = 0;
+  double direct_seconds_ = 0;  // 0: not measured
+};
+
+struct ErrorCase {
+  int level;  // of the icosphere
+  double accuracy;
+};
+
+std::vector<ErrorCase> error_cases(bool quick) {
+  if (quick) return {{3, 1e-6}, {4, 1e-7}};
+  return {{6, 1e-6}, {6, 1e-7}, {6, 1e-8}, {6, 1e-9}, {7, 1e-7}};
+}
+
+class Suite {
+ public:
+  Suite(const DenseOptions& options, const Progress& progress)
+      : quick_(options.quick), progress_(progress), places_(places_of(options.devices, std::array{32, 64})) {
+    steps_ = error_cases(quick_).size() + places_.size() * bodies_of_all_sizes().size();
+  }
+
+  DenseResult run() {
+    measure_errors();
+    for (const Place& place : places_) measure_sums(place);
+    if (!result_.interrupted) progress_(1, "");
+    return std::move(result_);
+  }
+
+ private:
+  bool goes_on(const std::string& next) {
+    if (!result_.interrupted) result_.interrupted = !progress_(static_cast<double>(done_++) / static_cast<double>(steps_), next);
+    return !result_.interrupted;
+  }
+
+  void measure_errors() {
+    int level = -1;
+    std::optional<ErrorsOf> errors;
+    for (const ErrorCase& next : error_cases(quick_)) {
+      if (!goes_on(fmt::format("errors of {}", sphere_name(next.level)))) return;
+      if (next.level != std::exchange(level, next.level)) errors.emplace(sphere_name(next.level));
+      errors->measure(next.accuracy, result_.rows);
+    }
+  }
+
+  static void raise_clocks(Device& device, const Place& place) {
+    static_cast<void>(multiply_adds_per_second(device, place, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
+  }
+
+  [[nodiscard]] std::vector<int> bodies_of_all_sizes() const { return quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7}; }
+
+  void measure_sums(const Place& place) {
+    if (result_.interrupted) return;
+    const std::unique_ptr<Device> device = open(place);
+    const Effort effort = quick_ ? quick_effort : Effort{};
+    raise_clocks(*device, place);
+    double seconds_per_pair = 0;  // of a sum of all springs, by the largest body so far
+    for (const int level : bodies_of_all_sizes()) {
+      const std::string what = fmt::format("{}, {}", name_of(place), sphere_name(level));
+      if (!goes_on(what)) return;
+      const ModelAndState body = deformed_body(generate_mesh(sphere_name(level)));
+      const double pairs = std::pow(body.model.vertex_count(), 2), expected = seconds_per_pair * pairs;
+      SumsOf sums(*device, place, effort, body);
+      if (expected > longest_direct_sum)
+        result_.notes.push_back(fmt::format("{}: all springs left out, as a sum would take about {:.2g} s", what, expected));
+      else
+        seconds_per_pair = sums.measure_direct() / pairs;
+      for (const double tolerance : quick_ ? std::vector{1e-3} : std::vector{1e-3, 1e-4})
+        result_.forces.push_back(sums.measure(tolerance));
+    }
+  }
+
+  bool quick_;
+  const Progress& progress_;
+  std::vector<Place> places_;
+  std::size_t steps_ = 0, done_ = 0;
+  DenseResult result_;
+};
+
+}  // namespace
+
+DenseResult bench_dense(const DenseOptions& options, const Progress& progress) { return Suite(options, progress).run(); }
+
+}  // namespace pliant::bench
