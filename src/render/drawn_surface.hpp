@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "gl/objects.hpp"
+#include "gl/targets.hpp"
 #include "mesh/incident_triangles.hpp"
 #include "model/model.hpp"
 

@@ -18,23 +18,13 @@
 #include "support/collision_scene.hpp"
 #include "support/device_bench.hpp"
 #include "support/has.hpp"
+#include "support/largest_difference.hpp"
 #include "support/own_rows.hpp"
 #include "support/shared_phases.hpp"
 #include "support/struct_numbers.hpp"
 
 namespace pliant {
 namespace {
-
-template <class T>
-double largest_difference(const std::vector<T>& a, const std::vector<T>& b) {
-  REQUIRE(a.size() == b.size());
-  double largest = 0, scale = 1e-30;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = larger(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
-    scale = std::max(scale, std::abs(static_cast<double>(b[i])));
-  }
-  return largest / scale;
-}
 
 std::multiset<std::pair<std::uint32_t, std::uint32_t>> as_set(const std::vector<glm::uvec2>& pairs, std::size_t count) {
   std::multiset<std::pair<std::uint32_t, std::uint32_t>> set;

@@ -13,6 +13,7 @@
 #include "dynamics/stepper.hpp"
 #include "support/evolve.hpp"
 #include "support/expect_error.hpp"
+#include "support/largest_difference.hpp"
 
 namespace pliant::cpu {
 namespace {

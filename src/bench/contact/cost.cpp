@@ -14,6 +14,7 @@
 #include "core/stopwatch.hpp"
 #include "dynamics/integrator.hpp"
 #include "mesh/generators.hpp"
+#include "simulation/simulation.hpp"
 
 namespace pliant::bench {
 namespace {
