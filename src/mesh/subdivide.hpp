@@ -26,9 +26,9 @@ inline constexpr unsigned most_subdivisions = 15;
 /// it did. Triangles share the new vertices, so a closed mesh stays closed.
 ///
 /// With `loop`:
-/// - Sources: C. Loop, "Smooth subdivision surfaces based on triangles", Master's thesis, University of Utah 1987, for the masks
-/// of
-///   closed surfaces. H. Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH 1994, for boundaries and creases.
+/// - Masks of closed surfaces are those of C. Loop, "Smooth subdivision surfaces based on triangles", Master's thesis, University
+///   of Utah 1987. Those of boundaries and creases are of H. Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH
+///   1994.
 /// - Edges with one triangle, or with three or more, are creases. They become cubic B-splines, whatever stands beside them.
 /// - A vertex with one crease edge, or with three or more, stays where it is.
 [[nodiscard]] TriangleMesh subdivide(const TriangleMesh& mesh, unsigned count, Subdivision scheme = Subdivision::midpoint);

@@ -256,6 +256,15 @@ void compare_pass(Bench& cpu, Bench& gpu, SharedPhases& phases, const Pass& cpu_
   copy_state(cpu, gpu, cpu_pass, gpu_pass);
 }
 
+void compare_passes(Bench& cpu, Bench& gpu, SharedPhases& phases, const std::vector<Pass>& cpu_passes,
+                    const std::vector<Pass>& gpu_passes, std::set<std::string_view>& seen) {
+  REQUIRE(cpu_passes.size() == gpu_passes.size());
+  for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
+    compare_pass(cpu, gpu, phases, cpu_passes[k], gpu_passes[k]);
+    seen.insert(cpu_passes[k].name);
+  }
+}
+
 void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::string_view>& seen) {
   SharedPhases phases;
   for (const auto& [on_cpu, on_gpu] :
@@ -268,12 +277,7 @@ void compare_steps(Bench& cpu, Bench& gpu, std::uint32_t steps, std::set<std::st
   gpu.bodies.prepare_search();
   for (std::uint32_t step = 0; step < steps; ++step) {
     CAPTURE(step);
-    const auto cpu_passes = cpu.pulled_step(step & 1), gpu_passes = gpu.pulled_step(step & 1);
-    REQUIRE(cpu_passes.size() == gpu_passes.size());
-    for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
-      compare_pass(cpu, gpu, phases, cpu_passes[k], gpu_passes[k]);
-      seen.insert(cpu_passes[k].name);
-    }
+    compare_passes(cpu, gpu, phases, cpu.pulled_step(step & 1), gpu.pulled_step(step & 1), seen);
   }
   CHECK(cpu.bodies.control.download().front().contact_steps > 0);
 }
@@ -306,12 +310,8 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
     std::ranges::copy(bench.collider.response()->after_quiet_steps(), std::back_inserter(passes));
     return passes;
   };
-  const std::vector<Pass> cpu_passes = passes_of(cpu), gpu_passes = passes_of(gpu);
   SharedPhases phases;
-  for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
-    compare_pass(cpu, gpu, phases, cpu_passes[k], gpu_passes[k]);
-    seen.insert(cpu_passes[k].name);
-  }
+  compare_passes(cpu, gpu, phases, passes_of(cpu), passes_of(gpu), seen);
   CHECK(cpu.bodies.control.download().front().step == 7);
   for (Bench* bench : {&cpu, &gpu}) {
     DeviceArray<physics::QuietSteps>& steps = bench->bodies.arrays.get<physics::QuietSteps>("quiet_steps");
@@ -335,12 +335,8 @@ void compare_cluster_passes(std::set<std::string_view>& seen) {
     std::ranges::copy(forces.passes(physics::start_slot, false), std::back_inserter(passes));
     return passes;
   };
-  const std::vector<Pass> cpu_passes = passes_of(cpu), gpu_passes = passes_of(gpu);
   SharedPhases phases;
-  for (std::size_t k = 0; k < cpu_passes.size(); ++k) {
-    compare_pass(cpu, gpu, phases, cpu_passes[k], gpu_passes[k]);
-    seen.insert(cpu_passes[k].name);
-  }
+  compare_passes(cpu, gpu, phases, passes_of(cpu), passes_of(gpu), seen);
 }
 
 std::uint32_t frame_changes(const Bench& bench) {

@@ -43,17 +43,6 @@ class SmoothField {
 
 }  // namespace
 
-glm::dvec3 direct_force(std::span<const glm::dvec3> rest, std::span<const glm::dvec3> displacements, std::size_t i) {
-  glm::dvec3 sum(0.0);
-  for (std::size_t j = 0; j < rest.size(); ++j) {
-    if (j == i) continue;
-    const glm::dvec3 before = rest[i] - rest[j], change = displacements[i] - displacements[j], x = before + change;
-    const double length = glm::length(x);
-    sum -= glm::dot(change, before + x) / (length * (length + glm::length(before))) * x;
-  }
-  return sum;
-}
-
 std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions) {
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& p : positions) mean += p / static_cast<double>(positions.size());

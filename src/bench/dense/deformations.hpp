@@ -1,6 +1,5 @@
-// Deformations under which forces by clusters are compared with direct sums, and those sums.
+// Deformations under which forces by clusters are compared with those of all springs.
 #pragma once
-#include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -13,9 +12,6 @@ struct Deformation {
   std::vector<glm::dvec3> displacements;  // of all vertices
   bool is_crushed = false;                // parts that are far from each other at rest have come together
 };
-
-/// Returns the force of all springs on vertex i over the stiffness [m], which is what forces by clusters come near to.
-[[nodiscard]] glm::dvec3 direct_force(std::span<const glm::dvec3> rest, std::span<const glm::dvec3> displacements, std::size_t i);
 
 /// Returns positions about their mean, scaled so that the farthest is 1 away.
 [[nodiscard]] std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions);

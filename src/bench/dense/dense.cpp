@@ -10,6 +10,7 @@
 #include "bench/common/shapes.hpp"
 #include "bench/common/timing.hpp"
 #include "bench/dense/deformations.hpp"
+#include "bench/dense/exact_forces.hpp"
 #include "bench/forces/peak_rate.hpp"
 #include "core/stopwatch.hpp"
 #include "dynamics/clusters/cluster_forces.hpp"
@@ -25,55 +26,41 @@ constexpr std::uint32_t sample_count = 300;
 
 std::string sphere_name(int level) { return fmt::format("icosphere:{}", level); }
 
-double relative_error(const std::vector<glm::dvec3>& forces, const std::vector<glm::dvec3>& exact) {
-  double error = 0, size = 0;
-  for (std::size_t k = 0; k < exact.size(); ++k) {
-    const glm::dvec3 off = forces[k] - exact[k];
-    error += glm::dot(off, off);
-    size += glm::dot(exact[k], exact[k]);
-  }
-  return std::sqrt(error / size);
-}
-
 // Measures errors of one mesh.
 class ErrorsOf {
  public:
   explicit ErrorsOf(std::string mesh)
       : mesh_(std::move(mesh)), rest_(scaled_to_radius_1(generate_mesh(mesh_).positions)), deformations_(deformations_of(rest_)) {
-    for (const Deformation& deformation : deformations_) {
-      std::vector<glm::dvec3>& exact = exact_.emplace_back(sample_count);
-      pool_.for_ranges(sample_count, 4, [&](std::uint32_t first, std::uint32_t end) {
-        for (; first < end; ++first) exact[first] = direct_force(rest_, deformation.displacements, sample(first));
-      });
-    }
+    for (const Deformation& deformation : deformations_)
+      exact_.emplace_back(pool_, rest_, deformation.displacements, sample_count);
   }
 
   void measure(double accuracy, std::vector<DenseErrorRow>& rows) {
     const ClusterSprings springs(rest_, accuracy);
-    for (std::size_t d = 0; d < deformations_.size(); ++d)
+    for (std::size_t d = 0; d < deformations_.size(); ++d) {
+      const std::vector<glm::dvec3> forces = springs.forces(pool_, deformations_[d].displacements);
       rows.push_back({.mesh = mesh_,
                       .vertices = static_cast<std::uint32_t>(rest_.size()),
                       .accuracy = accuracy,
                       .springs_per_vertex = static_cast<double>(springs.counts().all()) / static_cast<double>(rest_.size()),
                       .deformation = deformations_[d].name,
-                      .error = error_of(springs.forces(pool_, deformations_[d].displacements), exact_[d])});
+                      .error = exact_[d].error_of([&](std::size_t i) { return forces[i]; })});
+    }
   }
 
  private:
-  [[nodiscard]] std::size_t sample(std::size_t k) const { return k * rest_.size() / sample_count; }
-
-  [[nodiscard]] double error_of(const std::vector<glm::dvec3>& forces, const std::vector<glm::dvec3>& exact) const {
-    std::vector<glm::dvec3> sampled;
-    for (std::size_t k = 0; k < exact.size(); ++k) sampled.push_back(forces[sample(k)]);
-    return relative_error(sampled, exact);
-  }
-
   std::string mesh_;
   std::vector<glm::dvec3> rest_;
   std::vector<Deformation> deformations_;
-  std::vector<std::vector<glm::dvec3>> exact_;  // forces on samples, of each deformation
   ThreadPool pool_{0};
+  std::vector<ExactForces> exact_;  // of each deformation
 };
+
+std::vector<glm::dvec3> displacements_of(const ModelAndState& body) {
+  std::vector<glm::dvec3> displacements;
+  for (std::uint32_t i = 0; i < body.model.vertex_count(); ++i) displacements.push_back(body.state.displacement(i));
+  return displacements;
+}
 
 std::vector<glm::dvec3> rest_of(const Model& model) {
   std::vector<glm::dvec3> rest;
@@ -90,13 +77,11 @@ class SumsOf {
         effort_(effort),
         model_(body.model),
         rest_(rest_of(model_)),
+        exact_(pool_, rest_, displacements_of(body), sample_count),
         bodies_(device, model_, body.state),
         stepper_(bodies_, model_, find_integrator("verlet"), DampingLaw::none, 1e-3) {
     device.run(stepper_.first_passes());
     bytes_without_clusters_ = device.allocated_bytes();
-    std::vector<glm::dvec3> displacements;
-    for (std::uint32_t i = 0; i < model_.vertex_count(); ++i) displacements.push_back(body.state.displacement(i));
-    for (std::size_t k = 0; k < sample_count; ++k) exact_.push_back(direct_force(rest_, displacements, sample(k)));
   }
 
   // Returns the time of a sum of all springs [s].
@@ -122,30 +107,23 @@ class SumsOf {
     row.bytes_per_vertex = static_cast<double>(device_.allocated_bytes() - bytes_without_clusters_) / row.vertices;
     const std::vector<Pass> passes = forces.passes(physics::start_slot, false);
     row.seconds_per_sum = seconds_each(device_, effort_, [&] { device_.run(passes); }).median;
-    row.error = error_of(bodies_.arrays.get<double>("spring_sum").download());
+    const std::vector<double> sums = bodies_.arrays.get<double>("spring_sum").download();
+    row.error = exact_.error_of([&](std::size_t i) {
+      return -model_.bodies.front().unit_of_length() * glm::dvec3(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
+    });
     return row;
   }
 
  private:
-  [[nodiscard]] std::size_t sample(std::size_t k) const { return k * rest_.size() / sample_count; }
-
-  [[nodiscard]] double error_of(const std::vector<double>& sums) const {
-    std::vector<glm::dvec3> forces;
-    for (std::size_t k = 0; k < sample_count; ++k) {
-      const double* const sum = sums.data() + 3 * sample(k);
-      forces.push_back(-model_.bodies.front().unit_of_length() * glm::dvec3(sum[0], sum[1], sum[2]));
-    }
-    return relative_error(forces, exact_);
-  }
-
   Device& device_;
   const Place& place_;
   const Effort& effort_;
   const Model& model_;
   std::vector<glm::dvec3> rest_;
+  ThreadPool pool_{0};
+  ExactForces exact_;
   DeviceBodies bodies_;
   Stepper stepper_;
-  std::vector<glm::dvec3> exact_;  // of samples
   std::size_t bytes_without_clusters_ = 0;
   double direct_seconds_ = 0;  // 0: not measured
 };

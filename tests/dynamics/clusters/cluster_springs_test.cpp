@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bench/dense/deformations.hpp"
+#include "bench/dense/exact_forces.hpp"
 #include "mesh/generators.hpp"
 
 namespace pliant {
@@ -36,16 +37,9 @@ double direct_energy(const Vectors& rest, const Vectors& displacements) {
   return sum;
 }
 
-// Of the forces on some vertices, over their size.
-double error_of(const Vectors& forces, const Vectors& rest, const Vectors& displacements, std::size_t samples) {
-  double error = 0, size = 0;
-  for (std::size_t k = 0; k < samples; ++k) {
-    const std::size_t i = k * rest.size() / samples;
-    const glm::dvec3 exact = bench::direct_force(rest, displacements, i), difference = forces[i] - exact;
-    error += glm::dot(difference, difference);
-    size += glm::dot(exact, exact);
-  }
-  return std::sqrt(error / size);
+double error_of(const Vectors& forces, const Vectors& rest, const Vectors& displacements) {
+  ThreadPool pool(1);
+  return bench::ExactForces(pool, rest, displacements, 200).error_of([&](std::size_t i) { return forces[i]; });
 }
 
 double sum_of_sizes(const Vectors& vectors) {
@@ -235,7 +229,7 @@ TEST_CASE("forces by clusters have errors as small as their accuracy says") {
                            : deformation.name == "dent"               ? bounds.dent
                            : deformation.name.starts_with("dephased") ? bounds.dephased[dephased++]
                                                                       : bounds.smooth;
-      CHECK(error_of(springs.forces(pool, deformation.displacements), rest, deformation.displacements, 200) < 1.5 * bound);
+      CHECK(error_of(springs.forces(pool, deformation.displacements), rest, deformation.displacements) < 1.5 * bound);
     }
   }
 }
@@ -250,7 +244,7 @@ TEST_CASE("a tolerance is met three times over in smooth deformations, and from 
       const bool is_dephased = deformation.name == "dephased 0.03";  // by 0.008, the root of the mean square
       if (!is_smooth && (!is_dephased || tolerance < 1e-3)) continue;
       CAPTURE(tolerance, deformation.name);
-      const double error = error_of(springs.forces(pool, deformation.displacements), rest, deformation.displacements, 200);
+      const double error = error_of(springs.forces(pool, deformation.displacements), rest, deformation.displacements);
       CHECK(error < (is_smooth ? tolerance / 3 : tolerance));
       CHECK(error > tolerance / 30);  // which would be work for nothing
     }
@@ -264,7 +258,7 @@ TEST_CASE("forces on a thin disc are as near") {
   for (glm::dvec3& p : rest) p.y *= 0.03;
   const ClusterSprings springs(rest, 1e-7);
   const Vectors displacements = bench::deformations_of(rest)[1].displacements;
-  CHECK(error_of(springs.forces(pool, displacements), rest, displacements, 200) < 5e-4);
+  CHECK(error_of(springs.forces(pool, displacements), rest, displacements) < 5e-4);
 }
 
 TEST_CASE("the energy of a clustered body is near that of all springs") {
