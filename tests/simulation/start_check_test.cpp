@@ -129,6 +129,10 @@ TEST_CASE("bodies that begin too near each other for proofs are an error, and hi
   const Error in_fp64 = error_of([] { Start(two_balls(2.000000000000001)).check(64); });
   check_says(in_fp64, {"too near to prove in fp64", "move them further apart"});
   CHECK_THAT(std::string(in_fp64.what()), !Catch::Contains("--precision"));
+  const Error in_rows =
+      Start("[[body]]\nname = \"row\"\nmesh = \"icosphere:2\"\ncount = [2, 1, 1]\nspacing = [2.0000001, 0, 0]\n").error();
+  check_says(in_rows, {"\"row[0,0,0]\" and \"row[1,0,0]\" begin ", "move them further apart, or take --precision 64"});
+  CHECK_THAT(std::string(in_rows.what()), !Catch::Contains("spacing"));  // one of them may have a position of its own
 }
 
 TEST_CASE("bodies that have come too near each other for proofs go on, and stay apart, on every device", "[gl][long]") {

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "bench/collision/report.hpp"
 #include "bench/collision/tree_peers.hpp"
