@@ -2,6 +2,7 @@
 // lanes. One lane takes every LANES-th vertex of the body and adds its springs to all vertices of the team. What it loads once thus
 // serves VERTICES pairs. The lanes' sums meet in shared memory. Other threads of the group are keepers, one for each coordinate.
 // Meanwhile they load what else is needed, and then they finish the vertices.
+// With GIVEN_SUMS other passes have summed the springs, and there are only keepers.
 // With LANES = 1, for small bodies and for devices without parallel lanes, one thread serves its own vertices alone.
 //
 // With TILE the kernel runs all stages of a step in one dispatch. Between two stages the groups of a body wait for each other, which
@@ -13,6 +14,9 @@
 #define CANCELS_ROUNDING (VERTICES == 1 || LANES == 1)
 #include "@kernel"
 
+#ifdef GIVEN_SUMS
+layout(local_size_x = KEEPERS) in;
+#else
 // Repeats f for each of a thread's vertices. Arrays would end up in memory, because compilers index them before they unroll.
 #if VERTICES == 1
 #define EACH(f) f(0)
@@ -41,8 +45,10 @@ const uint runs_of_lanes = min(LANES / 2u, 8u);
 layout(local_size_x = LANES * TEAMS + KEEPERS) in;
 shared float partial_sum[3u * VERTICES * TEAMS * LANES];  // [axis][vertex][lane], later runs' totals and rests as sum_run() leaves them
 #endif
+#endif  // GIVEN_SUMS
 PARAMETER(uint, item_count)  // shares
 
+#ifndef GIVEN_SUMS
 // Adds `sum` to `total`. `rest` collects what rounding takes from the total. Knuth's summation finds that exactly, but needs registers
 // that threads with several vertices do not have. Those use Kahan's summation.
 #if VERTICES > 1 && LANES > 1
@@ -144,6 +150,7 @@ void fetch(uint from, uint count) {
   }
 }
 #endif
+#endif  // GIVEN_SUMS
 
 #if LANES == 1
 void finish(uint i, Share s, dvec3 force) {
@@ -183,6 +190,10 @@ void serve(Share s, bool sums) {
 #else
 shared double settled[3 * VERTICES * TEAMS];
 
+#ifdef GIVEN_SUMS
+void sum_over_threads(Share s, bool sums) {}
+dvec3 sum_of(Share s, uint place) { return LOAD3(spring_sum, force_of(s.first_vertex + place)); }
+#else
 void store_partial(uint at, vec3 sum) {
   const uint axis = VERTICES * TEAMS * LANES;
   partial_sum[at] = sum.x;
@@ -243,6 +254,9 @@ void sum_over_threads(Share s, bool sums) {
   barrier();
 }
 
+dvec3 sum_of(Share s, uint place) { return sum_of_runs(place * LANES); }
+#endif  // GIVEN_SUMS
+
 uint keeper() { return gl_LocalInvocationID.x - LANES * TEAMS; }  // of other threads it is large, because it wraps around
 bool keeps(Share s) { return keeper() < 3u * s.vertex_count; }
 #define EACH_KEPT(n) for (uint n = keeper(); n < 3u * s.vertex_count; n += KEEPERS)
@@ -263,7 +277,7 @@ void serve(Share s, bool sums) {
 #endif
   if (is_kept) {
     if (keeper() == 0u && i == s.body.first_vertex) count_force(s, sums);
-    dvec3 force = (-s.body.unit_force) * (sums ? sum_of_runs(place * LANES) : dvec3(0));
+    dvec3 force = (-s.body.unit_force) * (sums ? sum_of(s, place) : dvec3(0));
     double component = k == 0u ? force.x : k == 1u ? force.y : force.z;
     settled[keeper()] = after_force(i, k, s, component, damping_by(s, ordered_dot(force, force)), pending);
   }

@@ -113,7 +113,8 @@ class Device {
   /// Returns how many work groups of such a kernel are known to run at once, at least 1 and at most shares_at_once(). That
   /// depends on the memory that it takes. So a GPU lets groups wait for each other when it is first asked.
   [[nodiscard]] virtual std::uint32_t groups_at_once(KernelId round_kernel) = 0;
-  /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). Its items are shares of bodies. If it
+  /// Returns a variant of a kernel that sums springs (kernels/parts/force_kernel.glsl). It is one of force_variants(), or behind
+  /// them variant_for_given_sums(). Its items are shares of bodies. If it
   /// runs every stage of a step (kernels/parts/stages.glsl), it has at most shares_at_once() items, unless each body is one
   /// share. If it runs quiet steps (kernels/parts/quiet_steps.glsl), its items are work groups, at most quiet_groups of them.
   /// These take shares of bodies that move in turn if each body is one share, and else one each. If a device with
@@ -124,6 +125,8 @@ class Device {
   /// known. If they do not, they wait some seconds, and the simulation then throws.
   [[nodiscard]] virtual std::uint32_t shares_at_once() const = 0;
   [[nodiscard]] virtual std::span<const ForceVariant> force_variants() const = 0;
+  /// Returns the variant whose kernels sum no springs. Passes before them set `spring_sum`.
+  [[nodiscard]] virtual const ForceVariant& variant_for_given_sums() const = 0;
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;

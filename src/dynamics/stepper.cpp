@@ -10,6 +10,8 @@
 #include <span>
 
 #include "core/expect.hpp"
+#include "dynamics/clusters/cluster_pairs.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "physics/damping.glsl"
 #include "physics/layout.glsl"
 #include "physics/quiet.glsl"
@@ -75,6 +77,13 @@ void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
   arrays.make("tableau", rows);
 }
 
+std::vector<std::optional<double>> accuracies_of(const Model& model) {
+  std::vector<std::optional<double>> accuracies;
+  for (const ModelBody& body : model.bodies)
+    accuracies.push_back(body.is_clustered ? std::optional(accuracy_of(force_tolerance_of(body))) : std::nullopt);
+  return accuracies;
+}
+
 }  // namespace
 
 std::size_t Stepper::most_drags(const Integrator& integrator) {
@@ -92,6 +101,10 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   PLIANT_EXPECT(allows_damping(integrator, law));
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
+  if (std::ranges::any_of(model.bodies, &ModelBody::is_clustered))
+    cluster_forces_.emplace(bodies, model, accuracies_of(model));
+  else
+    bodies.arrays.make<double>("spring_sum", 1);                                   // kernels on a processor name it in any case
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
@@ -149,6 +162,10 @@ Pass Stepper::restating_pass(std::uint32_t from_half) const {
   return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
+std::vector<Pass> Stepper::cluster_passes(std::uint32_t slot, bool only_stale) const {
+  return cluster_forces_ ? cluster_forces_->passes(slot, only_stale) : std::vector<Pass>();
+}
+
 std::vector<Pass> Stepper::refresh_passes() const {
   std::vector<Pass> passes;
   for (const ForceGroup& group : bodies_.force_groups) {
@@ -156,7 +173,9 @@ std::vector<Pass> Stepper::refresh_passes() const {
     passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel, {{"first_share", group.first_share}}, group.share_count));
   }
   run_together(passes);
-  return passes;
+  std::vector<Pass> all = cluster_passes(physics::start_slot, true);
+  std::ranges::move(passes, std::back_inserter(all));
+  return all;
 }
 
 std::vector<Pass> Stepper::force_passes(const StageState& at) const {
@@ -191,7 +210,10 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
   std::vector<Pass> passes = passes_of({});
   for (std::uint32_t stage = 0; stage < stage_count_; ++stage) {
     std::vector<Pass> of_stage = passes_of(stage);
-    if (!of_stage.empty()) std::ranges::move(force_passes(state_of_stage(stage)), std::back_inserter(passes));
+    if (of_stage.empty()) continue;
+    const StageState state = state_of_stage(stage);
+    std::ranges::move(cluster_passes(state.slot, false), std::back_inserter(passes));
+    std::ranges::move(force_passes(state), std::back_inserter(passes));
     std::ranges::move(of_stage, std::back_inserter(passes));
   }
   return passes;

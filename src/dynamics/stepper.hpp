@@ -1,9 +1,11 @@
 // Records the dispatches of one step of an integrator, for every body together.
 #pragma once
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "device/pass.hpp"
+#include "dynamics/clusters/cluster_forces.hpp"
 #include "dynamics/forces/force.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/internal_damping.hpp"
@@ -49,6 +51,10 @@ class Stepper {
   /// Whether the method keeps spring forces for the next step.
   [[nodiscard]] bool keeps_force() const { return staged_method(integrator_) == nullptr; }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
+  /// Returns how many springs stand for all of a clustered body's. 0: it is not clustered.
+  [[nodiscard]] std::uint64_t clustered_springs(std::size_t body) const {
+    return cluster_forces_ ? cluster_forces_->springs_of(body) : 0;
+  }
 
  private:
   /// Makes the method's tableau, or one for each rate of damping among the bodies.
@@ -58,6 +64,8 @@ class Stepper {
   /// `of_all_stages` is for passes of the second kind.
   [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, const StateOfStage& state_of_stage,
                                                const Parameters& of_all_stages = {}) const;
+  /// Returns passes that sum the springs of clustered bodies. ClusterForces says what the arguments are.
+  [[nodiscard]] std::vector<Pass> cluster_passes(std::uint32_t slot, bool only_stale) const;
   /// Returns passes that set the forces beside the springs, for one stage.
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
@@ -67,6 +75,7 @@ class Stepper {
   [[nodiscard]] bool makes_a_step_in_one_pass() const;
 
   DeviceBodies& bodies_;
+  std::optional<ClusterForces> cluster_forces_;  // empty: no body is clustered
   AddedForces added_forces_;
   InternalDamping internal_damping_;
   const Integrator& integrator_;

@@ -68,7 +68,12 @@ ModelBody describe_body(const BodySetup& setup, const Model& model) {
   body.damping = description.damping;
   body.kind = description.kind;
   body.is_container = description.is_container;
-  if (body.is_rigid()) body.stiffness = body.damping = 0;
+  if (body.is_rigid())
+    body.stiffness = body.damping = 0;
+  else
+    body.forces = description.forces;
+  body.force_tolerance = description.force_tolerance;
+  body.is_clustered = body.forces == ForceSum::clustered;
   body.surface = description.surface;
   body.restitution = description.restitution;
   body.self_contact = description.self_contact;

@@ -42,10 +42,13 @@ struct ModelBody {
   bool is_container = false;  // as in a BodyDescription
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  double stiffness = 0;    // k of every pair's spring [N/m]
-  double vertex_mass = 1;  // [kg]
-  double damping = 0;      // c [kg/s]
-  double radius = 0;       // largest distance of a rest position from the centroid [m]
+  double stiffness = 0;                   // k of every pair's spring [N/m]
+  double vertex_mass = 1;                 // [kg]
+  double damping = 0;                     // c [kg/s]
+  double radius = 0;                      // largest distance of a rest position from the centroid [m]
+  ForceSum forces = ForceSum::direct;     // of a rigid body direct
+  std::optional<double> force_tolerance;  // as in a BodyDescription
+  bool is_clustered = false;              // whether `forces` come to be clustered, see choose_force_sums()
   Inflation inflation;
   SurfaceDescription surface;
   std::optional<double> restitution;

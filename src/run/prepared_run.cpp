@@ -11,6 +11,7 @@
 #include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/read_text.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "model/load_bodies.hpp"
 #include "run/reading_line.hpp"
 #include "scene/load_scene.hpp"
@@ -172,6 +173,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.load_time.stop();
   run.build_time.start();
   run.device = choose_device(options.device);
+  choose_force_sums(run.start.model, run.device->info().kind);
   expect_carried(run.scene, run.plan, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
   warn_of_idle_keys(run);

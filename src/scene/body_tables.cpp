@@ -45,14 +45,15 @@ void expect_keys_of_kind(const TableReader& table, const BodyDescription& body) 
     expect_none_of(table, {"velocity", "spin"}, "what has a path moves along it alone", "path");
 }
 
-constexpr const char* keys_of_some_bodies[] = {"stiffness", "total_stiffness", "vertex_mass", "total_mass",
-                                               "damping",   "pressure_law",    "subdivision"};
+constexpr const char* keys_of_some_bodies[] = {"stiffness", "total_stiffness", "vertex_mass",  "total_mass", "damping",
+                                               "forces",    "force_tolerance", "pressure_law", "subdivision"};
 
 // Returns why such a key changes nothing for the body, or nothing if it does.
 std::string_view why_idle(const BodyDescription& body, std::string_view key) {
   if (key == "subdivision") return body.subdivide == 0 ? "without subdivide" : "";
   if (body.kind == BodyKind::immovable) return "on a static body";
   if (body.kind == BodyKind::scripted) return "on a scripted body";
+  if (key == "force_tolerance" && body.forces == ForceSum::direct) return "with forces = \"direct\"";
   return key == "pressure_law" && body.pressure == 0 ? "without pressure" : "";
 }
 
@@ -70,7 +71,8 @@ void forget_motion_of_rows(TableReader& table, BodyKind kind) {
     table.forget_behind({"restitution"});
   if (kind != BodyKind::soft)
     table.forget_behind({"velocity", "spin", "stretch", "pressure", "pressure_law", "self_contact", "stiffness",
-                         "total_stiffness", "vertex_mass", "total_mass", "damping", "path", "repeats"});
+                         "total_stiffness", "vertex_mass", "total_mass", "damping", "forces", "force_tolerance", "path",
+                         "repeats"});
 }
 
 void read_path_key(TableReader& table, PathKeyDescription& key) {
@@ -142,6 +144,8 @@ void read_body(TableReader& table, BodyDescription& body) {
   table.read("vertex_mass", body.vertex_mass, positive);
   table.read("total_mass", body.total_mass, positive);
   table.read("damping", body.damping, not_negative);
+  table.read("forces", body.forces, words::force_sums);
+  table.read("force_tolerance", body.force_tolerance, force_tolerance);
   read_surface(table, body.surface);
   table.read("restitution", body.restitution, fraction);
   table.read("self_contact", body.self_contact);

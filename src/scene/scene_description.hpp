@@ -24,6 +24,8 @@ struct Named {
 
 enum class BodyKind { soft, immovable, scripted };
 enum class PressureLaw { gas, constant };
+/// How a body's springs are summed: one by one, or many at once by clusters of vertices (dynamics/clusters).
+enum class ForceSum { automatic, direct, clustered };
 enum class DampingLaw : unsigned { none = 0, constant = 1, adaptive = 2, internal = 3 };
 /// Returns the law's name in scenes and reports.
 constexpr const char* name_of(DampingLaw law) {
@@ -161,6 +163,8 @@ struct BodyDescription {
   double vertex_mass = 1.0;               // [kg]
   std::optional<double> total_mass;       // [kg], m = total / N
   double damping = 1.0;                   // c [kg/s]
+  ForceSum forces = ForceSum::automatic;  // automatic: clustered for a dense body that has a force_tolerance
+  std::optional<double> force_tolerance;  // relative error of clustered forces; 1e-3 if empty
   SurfaceDescription surface;
   std::optional<double> restitution = {};  // the scene's if empty; a static body then has none
   bool self_contact = false;               // whether contacts keep the body's own surface from passing through itself

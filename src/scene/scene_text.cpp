@@ -169,6 +169,8 @@ void write_material(TableText& table, const BodyDescription& body) {
   else
     table.write_other("vertex_mass", body.vertex_mass, standard.vertex_mass);
   table.write_other("damping", body.damping, standard.damping);
+  table.write_other("forces", body.forces, standard.forces, words::force_sums);
+  table.write("force_tolerance", body.force_tolerance);
 }
 
 std::string text_of_body(const BodyDescription& body, const std::string& mesh, std::size_t index) {

@@ -34,6 +34,7 @@ inline constexpr Range triangle_count{1, 1e6, "a whole number from 1 to 1000000"
 inline constexpr Range frames_per_second{1e-6, 1e6, "a number from 1e-6 to 1e6"};
 inline constexpr Range pixel_count{1, 16384, "a whole number from 1 to 16384"};
 inline constexpr Range row_length{1, 65535, "a whole number from 1 to 65535"};
+inline constexpr Range force_tolerance{1e-8, 0.1, "a number from 1e-8 to 0.1"};
 inline constexpr Range subdivisions{0, most_subdivisions, "a whole number from 0 to 15"};
 
 template <typename Enum>

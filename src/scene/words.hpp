@@ -13,6 +13,8 @@ inline const std::vector<Choice<DampingLaw>> damping_laws = {{name_of(DampingLaw
 inline const std::vector<Choice<BodyKind>> kinds = {
     {"soft", BodyKind::soft}, {"static", BodyKind::immovable}, {"scripted", BodyKind::scripted}};
 inline const std::vector<Choice<Subdivision>> subdivisions = {{"midpoint", Subdivision::midpoint}, {"loop", Subdivision::loop}};
+inline const std::vector<Choice<ForceSum>> force_sums = {
+    {"auto", ForceSum::automatic}, {"direct", ForceSum::direct}, {"clustered", ForceSum::clustered}};
 inline const std::vector<Choice<ContactSearch>> searches = {{"tree", ContactSearch::tree},
                                                             {"brute_force", ContactSearch::brute_force}};
 inline const std::vector<Choice<TriangleTest>> triangle_tests = {{"certified", TriangleTest::certified},

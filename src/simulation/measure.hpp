@@ -27,10 +27,10 @@ class Meter {
   /// `model` must outlive the meter.
   explicit Meter(const Model& model);
 
-  /// Visits every spring of bodies that have moved in their frames since the state before: N^2 / 2 for a body of N vertices. The
-  /// result has the same bits as that of another meter, on any number of threads.
-  /// Several threads call `stopped` at once. When it returns true, the remaining springs are left out and the elastic energy is
-  /// NaN. If `stopped` is null, nothing stops the measurement.
+  /// Visits every spring of bodies that have moved in their frames since the state before: N^2 / 2 for a body of N vertices. Of a
+  /// clustered body it visits those that stand for them. The result has the same bits as that of another meter, on any number of
+  /// threads. Several threads call `stopped` at once. When it returns true, the remaining springs are left out and the elastic
+  /// energy is NaN. If `stopped` is null, nothing stops the measurement.
   [[nodiscard]] Measurement measure(const State& state, const glm::dvec3& gravity, ThreadPool& pool,
                                     const std::function<bool()>& stopped = nullptr);
 

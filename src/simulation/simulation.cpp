@@ -36,15 +36,21 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.unsettled_contacts = total(control, physics::unsettled_contacts);
 }
 
-void add_force_counts(StepReport& report, const Model& model, const std::vector<physics::Tally>& tallies) {
+// Returns how many forces of one vertex on another, or on a node, a sum of the body's forces has.
+std::uint64_t interactions_of(const Stepper& stepper, const Model& model, std::size_t body) {
+  const std::uint64_t vertices = model.bodies[body].vertex_count;
+  return model.bodies[body].is_clustered ? 2 * stepper.clustered_springs(body) : vertices * (vertices - 1);
+}
+
+void add_force_counts(StepReport& report, const Model& model, const Stepper& stepper,
+                      const std::vector<physics::Tally>& tallies) {
   for (std::size_t b = 0; b < tallies.size(); ++b) {
-    const std::uint64_t vertices = model.bodies[b].vertex_count;
     report.force_evaluations += tallies[b].force_evaluations;
     report.forces_skipped += tallies[b].forces_skipped;
     report.frame_changes += tallies[b].frame_changes;
     report.steps_at_rest += tallies[b].steps_at_rest;
     report.steps_asleep += tallies[b].steps_asleep;
-    report.pair_interactions += tallies[b].force_evaluations * vertices * (vertices - 1);
+    report.pair_interactions += tallies[b].force_evaluations * interactions_of(stepper, model, b);
   }
 }
 
@@ -278,7 +284,7 @@ StepReport Simulation::report() {
   expect_groups_met(statuses);
   for (const physics::Status& status : statuses) report.bodies_asleep += status.asleep;
   add_slept(report, bodies_.arrays.get<double>("slept").download());
-  add_force_counts(report, model_, bodies_.tallies.download());
+  add_force_counts(report, model_, stepper_, bodies_.tallies.download());
   return report;
 }
 

@@ -60,7 +60,7 @@ struct StepReport {
   std::uint64_t unsettled_contacts = 0;  // sum over the run of those that still changed in a kick's last round
   ResponseReport response;               // what contacts gave and took
   std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body
-  std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation
+  std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation, fewer if the body is clustered
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
   std::uint64_t quiet_steps = 0;            // whole steps made many at once (quiet_steps.hpp)
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs that the list had no room for, so that trees were descended twice

@@ -37,11 +37,22 @@ bool moves(const Model& model, const State& state, std::size_t b) {
 std::vector<ForceBody> force_bodies_of(const Model& model, const State& state) {
   std::vector<ForceBody> bodies;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    bodies.push_back({model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), moves(model, state, b)});
+    bodies.push_back(
+        {model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), moves(model, state, b), model.bodies[b].is_clustered});
   return bodies;
 }
 
-ForceAbilities abilities_of(const Device& device) { return {device.force_variants(), device.shares_at_once()}; }
+ForceAbilities abilities_of(const Device& device) {
+  return {device.force_variants(), device.shares_at_once(), device.variant_for_given_sums()};
+}
+
+// Other passes sum the springs of clustered bodies.
+std::vector<std::size_t> variants_with(const Device& device, const Model& model, std::size_t force_variant) {
+  std::vector<std::size_t> variants;
+  for (const ModelBody& body : model.bodies)
+    variants.push_back(body.is_clustered ? device.force_variants().size() : force_variant);
+  return variants;
+}
 
 void add_shares(const Model& model, std::uint32_t b, std::uint32_t share_size, double strain_bias,
                 std::vector<physics::Share>& shares) {
@@ -60,7 +71,7 @@ std::vector<physics::Share> shares_of(Device& device, const Model& model, const 
   for (const ForceGroup& group : groups)
     for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
       if (!model.bodies[b].is_rigid() && variants[b] == group.variant)
-        add_shares(model, b, device.force_variants()[group.variant].share_size, device.strain_bias(), shares);
+        add_shares(model, b, abilities_of(device).variant(group.variant).share_size, device.strain_bias(), shares);
   return shares;
 }
 
@@ -118,7 +129,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
     : DeviceBodies(device, model, state, choose_force_variants(abilities_of(device), force_bodies_of(model, state))) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
-    : DeviceBodies(device, model, state, std::vector(model.bodies.size(), force_variant)) {}
+    : DeviceBodies(device, model, state, variants_with(device, model, force_variant)) {}
 
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants)
     : vertex_count(model.vertex_count()),
@@ -172,7 +183,8 @@ void DeviceBodies::make_paths(const Model& model, const State& start) {
 }
 
 void DeviceBodies::run_all_stages(bool at_once) {
-  for (ForceGroup& group : force_groups) group.all_stages = at_once && arrays.device().force_variants()[group.variant].all_stages;
+  const ForceAbilities device = abilities_of(arrays.device());
+  for (ForceGroup& group : force_groups) group.all_stages = at_once && device.variant(group.variant).all_stages;
 }
 
 // Only the slot of the step's start is carried: the slots of stages are written before they are read.

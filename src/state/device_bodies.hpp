@@ -15,7 +15,8 @@ namespace pliant {
 
 /// Motions and world positions have two halves of vertex_count vertices. A step reads one half and writes the other.
 struct DeviceBodies {
-  /// Cuts bodies into shares for the device's best force variants, for the given one, or for one for each body.
+  /// Cuts bodies into shares for the device's best force variants, for the given one (but for clustered bodies), or for one for
+  /// each body.
   DeviceBodies(Device& device, const Model& model, const State& state);
   DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant);
   DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants);

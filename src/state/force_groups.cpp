@@ -7,10 +7,11 @@ namespace {
 
 std::uint32_t share_count(std::uint32_t vertex_count, std::uint32_t share_size) { return (vertex_count - 1) / share_size + 1; }
 
+// Of bodies whose springs kernels sum themselves.
 std::uint32_t vertices_of(std::span<const ForceBody> bodies, bool ForceBody::*counted) {
   std::uint32_t count = 0;
   for (const ForceBody& body : bodies)
-    if (body.*counted) count += body.vertex_count;
+    if (body.*counted && !body.has_given_sums) count += body.vertex_count;
   return count;
 }
 
@@ -27,6 +28,15 @@ bool has_slow_stages(const ForceVariant& variant, const ForceGroup& group) {
   return variant.lanes == 1 && !group.has_whole_bodies;
 }
 
+std::vector<std::size_t> fastest_for_each(const ForceAbilities& device, std::span<const ForceBody> bodies) {
+  std::vector<std::size_t> variants;
+  const std::uint32_t soft_vertices = vertices_of(bodies, &ForceBody::is_soft);
+  for (const ForceBody& body : bodies)
+    variants.push_back(body.has_given_sums ? device.variants.size()
+                                           : fastest_force_variant(device.variants, soft_vertices, body.vertex_count));
+  return variants;
+}
+
 }  // namespace
 
 // Bodies of several shares wait for each other between stages, so that all shares have to run at once, and nothing beside them.
@@ -36,8 +46,8 @@ std::vector<ForceGroup> group_shares(const ForceAbilities& device, std::span<con
                                      std::span<const std::size_t> variants_of_bodies) {
   std::vector<ForceGroup> groups;
   std::uint32_t first_share = 0;
-  for (std::size_t v = 0; v < device.variants.size(); ++v) {
-    const ForceVariant& variant = device.variants[v];
+  for (std::size_t v = 0; v <= device.variants.size(); ++v) {
+    const ForceVariant& variant = device.variant(v);
     std::uint32_t count = 0, most_of_body = 0, of_moving_bodies = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (!bodies[b].is_soft || variants_of_bodies[b] != v) continue;
@@ -54,13 +64,14 @@ std::vector<ForceGroup> group_shares(const ForceAbilities& device, std::span<con
     first_share += count;
   }
   if (groups.size() == 1 && groups[0].share_count <= device.shares_at_once)
-    groups[0].all_stages = device.variants[groups[0].variant].all_stages;
+    groups[0].all_stages = device.variant(groups[0].variant).all_stages;
   return groups;
 }
 
 // In quiet steps groups of bodies at rest do nothing, so the fastest is that for the bodies that move. Else a stage starts groups
 // for all soft bodies, of which those at rest end at once, so the vertices of all count.
 std::vector<std::size_t> choose_force_variants(const ForceAbilities& device, std::span<const ForceBody> bodies) {
+  if (std::ranges::any_of(bodies, &ForceBody::has_given_sums)) return fastest_for_each(device, bodies);
   const std::uint32_t largest = largest_soft_body_of(bodies);
   const std::size_t fastest = fastest_force_variant(device.variants, vertices_of(bodies, &ForceBody::moves), largest);
   for (bool ForceGroup::*in_one_dispatch : {&ForceGroup::all_stages, &ForceGroup::quiet_steps})
@@ -73,11 +84,7 @@ std::vector<std::size_t> choose_force_variants(const ForceAbilities& device, std
       if (in_one_dispatch == &ForceGroup::all_stages && has_slow_stages(variant, groups[0])) continue;
       return same;
     }
-  std::vector<std::size_t> variants;
-  const std::uint32_t soft_vertices = vertices_of(bodies, &ForceBody::is_soft);
-  for (const ForceBody& body : bodies)
-    variants.push_back(fastest_force_variant(device.variants, soft_vertices, body.vertex_count));
-  return variants;
+  return fastest_for_each(device, bodies);
 }
 
 }  // namespace pliant

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "core/extension.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "mesh/generators.hpp"
 #include "model/load_bodies.hpp"
 #include "render/camera.hpp"
@@ -56,6 +57,11 @@ std::vector<PathKeyDescription> shake_of(const ModelBody& container) {
   return keys;
 }
 
+LoadedScene settled(LoadedScene scene, const Device& device) {
+  choose_force_sums(scene.start.model, device.info().kind);
+  return scene;
+}
+
 std::unique_ptr<Simulation> make_simulation(Device& device, const LoadedScene& scene, const State& from, const TimePlan& plan) {
   return std::make_unique<Simulation>(device, scene.start.model, from, plan, scene.description.collision);
 }
@@ -90,7 +96,7 @@ LoadedScene load(const std::filesystem::path& file, std::span<const std::string>
 
 Session::Session(Device& device, LoadedScene scene, std::size_t most_history_bytes)
     : device_(&device),
-      scene_(std::make_unique<const LoadedScene>(std::move(scene))),
+      scene_(std::make_unique<const LoadedScene>(settled(std::move(scene), device))),
       plan_(plan_time(scene_->description, scene_->start.model)),
       history_(most_history_bytes) {
   expect_carried(scene_->description, plan_, device.precision());
@@ -230,7 +236,7 @@ void Session::bodies_are_others() {
 }
 
 void Session::go_on_with(LoadedScene scene, const State& from, bool starts_anew) {
-  auto changed = std::make_unique<const LoadedScene>(std::move(scene));
+  auto changed = std::make_unique<const LoadedScene>(settled(std::move(scene), *device_));
   const TimePlan plan = plan_time(changed->description, changed->start.model);
   expect_carried(changed->description, plan, device_->precision());
   auto simulation = make_simulation(*device_, *changed, from, plan);
@@ -349,9 +355,12 @@ void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ =
 
 void Session::move_to(Device& device) {
   PLIANT_EXPECT(device.precision() == device_->precision());
-  std::unique_ptr<Simulation> moved = simulation_on(device, scene_->start.state);
+  auto scene = std::make_unique<const LoadedScene>(settled(*scene_, device));
+  std::unique_ptr<Simulation> moved = make_simulation(device, *scene, scene->start.state, plan_);
   moved->restore(simulation_->save());
   simulation_ = std::move(moved);
+  scene_ = std::move(scene);
+  if (before_edits_) before_edits_ = std::make_unique<const LoadedScene>(settled(*before_edits_, device));
   simulation_->time_passes(times_passes_);
   device_ = &device;
 }

@@ -68,6 +68,23 @@ TEST_CASE("there is a variant for every body in every scene") {
 }
 
 // Those of 49 to 64 vertices are whole among others, as another test says.
+TEST_CASE("a body whose sums are given has a variant of its own, and others have the fastest") {
+  for (const gpu::Processors& gpu : {h200, software}) {
+    std::vector<ForceBody> bodies = bodies_of(42, 3, 3) + bodies_of(40'962, 1, 1);
+    bodies.back().has_given_sums = true;
+    const std::vector<ForceVariant> variants = gpu::force_variants(gpu);
+    const ForceAbilities device{variants, gpu.multiprocessors, gpu::variant_for_given_sums()};
+    const std::vector<std::size_t> chosen = choose_force_variants(device, bodies);
+    for (std::size_t b = 0; b < 3; ++b) CHECK(chosen[b] == fastest_force_variant(variants, 3 * 42, 42));
+    CHECK(chosen[3] == variants.size());
+    const std::vector<ForceGroup> groups = group_shares(device, bodies, chosen);
+    REQUIRE(groups.size() == 2);
+    CHECK(groups[1].share_count == 641);
+    CHECK_FALSE((groups[1].all_stages || groups[1].quiet_steps));
+    CHECK(groups[1].first_share == groups[0].share_count);
+  }
+}
+
 TEST_CASE("many bodies at rest do not change which variant serves one that moves, unless it has 49 to 64 vertices") {
   for (const std::uint32_t vertices : {1u, 42u, 48u, 65u, 162u, 256u, 642u, 2562u}) {
     const Choice alone = choice_for(bodies_of(vertices, 1, 1));

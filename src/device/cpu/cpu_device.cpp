@@ -138,6 +138,7 @@ class CpuDevice final : public Device {
   }
   const KernelSignature& signature(KernelId kernel) const override { return signatures_[kernel % kernels_.size()]; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
+  const ForceVariant& variant_for_given_sums() const override { return for_given_sums_; }
   std::uint32_t shares_at_once() const override { return 0; }
 
   double strain_bias() override { return 0; }
@@ -208,7 +209,9 @@ class CpuDevice final : public Device {
     for (const cpu::ShareTask& task : tasks_) vertex_count += task.runs ? task.vertex_count : 0;
     if (vertex_count == 0) return;
     sums_.assign(vertex_count, glm::dvec3(0.0));
-    if (variant == 0)
+    if (variant == variants_.size())
+      take_given_sums();
+    else if (variant == 0)
       sum_plainly();
     else if (precision_ == 64)
       sum_in_vectors(sums_64_[variant - 1]);
@@ -238,6 +241,8 @@ class CpuDevice final : public Device {
     std::array<glm::dvec3, most_vertices_alone> sums;
     if (!task.deformed)
       std::fill_n(sums.begin(), task.vertex_count, glm::dvec3(0.0));
+    else if (variant == variants_.size())
+      store_given_sums(task, sums.data());
     else if (variant == 0)
       plain_sum()(task, sums.data(), 0, task.vertex_count);
     else if (precision_ == 64)
@@ -257,6 +262,17 @@ class CpuDevice final : public Device {
       visit(share, tasks_[share], sums);
       sums += tasks_[share].vertex_count;
     }
+  }
+
+  static void store_given_sums(const cpu::ShareTask& task, glm::dvec3* sums) {
+    const double* given = task.given_sums + std::size_t{3} * task.first_vertex;
+    for (std::uint32_t v = 0; v < task.vertex_count; ++v, given += 3) sums[v] = {given[0], given[1], given[2]};
+  }
+
+  void take_given_sums() {
+    for_shares([](std::uint32_t, const cpu::ShareTask& task, glm::dvec3* sums) {
+      if (task.deformed) store_given_sums(task, sums);
+    });
   }
 
   cpu::PlainSum plain_sum() const { return precision_ == 64 ? cpu::sum_plainly_64 : cpu::sum_plainly_32; }
@@ -320,6 +336,7 @@ class CpuDevice final : public Device {
   std::vector<KernelSignature> signatures_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_{{"plain", whole_bodies}};
+  ForceVariant for_given_sums_{"given sums", whole_bodies};
   std::vector<cpu::SpringSums<float>> sums_32_;  // one per instruction set, in this device's precision only
   std::vector<cpu::SpringSums<double>> sums_64_;
   std::vector<cpu::ShareTask> tasks_;  // of the shares of the force kernel that runs

@@ -67,6 +67,7 @@ struct ShareTask {
   std::uint32_t first_vertex = 0, vertex_count = 0;
   const void* positions = nullptr;      // real4 [vertex] of the share's body, from its first vertex on
   const void* displacements = nullptr;  // the same of displacements
+  const double* given_sums = nullptr;   // the array `spring_sum`
 };
 
 inline constexpr std::uint32_t longest_range = 64;  // most vertices that a force kernel finishes at once

@@ -128,7 +128,7 @@ class GpuDevice final : public Device {
     return kernels_[round_kernel].groups_at_once;
   }
   KernelId force_kernel(std::string_view name, std::size_t variant, ForceSpan span) override {
-    PLIANT_EXPECT(variant < variants_.size());
+    PLIANT_EXPECT(variant <= variants_.size());
     const gpu::Lanes& lanes = gpu::lanes_of(variant);
     PLIANT_EXPECT(span == ForceSpan::stage || lanes.tile != 0);
     std::vector<gl::Define> defines = {{"@kernel", "compute/kernels/" + std::string(name) + ".glsl"},
@@ -138,19 +138,21 @@ class GpuDevice final : public Device {
                                        {"KEEPERS", std::to_string(lanes.keepers())},
                                        {"UNROLL", std::to_string(lanes.unroll)},
                                        {"PLAINLY", std::to_string(lanes.plainly)}};
+    defines.push_back({lanes.lanes == 0 ? "GIVEN_SUMS" : "!GIVEN_SUMS", ""});
     defines.push_back({span == ForceSpan::stage ? "!TILE" : "TILE", std::to_string(lanes.tile)});
     const bool of_impulses = span == ForceSpan::quiet_steps_of_impulses;
     defines.push_back({of_impulses || span == ForceSpan::quiet_steps ? "QUIET" : "!QUIET", ""});
     defines.push_back({of_impulses ? "IMPULSES" : "!IMPULSES", ""});
     constexpr std::string_view names[] = {"a stage", "a step", "quiet steps", "quiet steps of impulses"};
-    return build(fmt::format("{}, {}, {}", name, variants_[variant].name, names[static_cast<std::size_t>(span)]), force_caller,
-                 defines);
+    const ForceVariant& way = variant == variants_.size() ? for_given_sums_ : variants_[variant];
+    return build(fmt::format("{}, {}, {}", name, way.name, names[static_cast<std::size_t>(span)]), force_caller, defines);
   }
   const KernelSignature& signature(KernelId kernel) const override { return kernels_[kernel].signature; }
   // Returns the number of multiprocessors. A group of a force kernel runs on each at once, however many registers and how much
   // shared memory it takes.
   std::uint32_t shares_at_once() const override { return context_.adapter().multiprocessors; }
   std::span<const ForceVariant> force_variants() const override { return variants_; }
+  const ForceVariant& variant_for_given_sums() const override { return for_given_sums_; }
 
   double strain_bias() override {
     if (!strain_bias_) strain_bias_ = gpu::measure_strain_bias();
@@ -309,6 +311,7 @@ class GpuDevice final : public Device {
   ItemOrder order_;
   DeviceInfo info_;
   std::vector<ForceVariant> variants_;
+  ForceVariant for_given_sums_ = gpu::variant_for_given_sums();
   std::vector<gl::ShaderFile> files_ = all_shader_files();
   std::vector<GLuint> marks_;
   std::optional<double> strain_bias_;

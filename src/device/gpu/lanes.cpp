@@ -44,6 +44,8 @@ constexpr Choice choices[] = {
     {.lanes = {.lanes = 64, .vertices = 4, .teams = 8, .unroll = 3, .plainly = 18, .tile = 0}, .most_vertices = any_number},
 };
 
+constexpr Lanes for_given_sums = {.lanes = 0, .vertices = 1, .teams = 64, .unroll = 0, .plainly = 0, .tile = 0};
+
 // A multiprocessor runs one large group. Of small ones an H100 runs four on each, and not eight.
 std::uint32_t quiet_groups(const Lanes& lanes, const Processors& gpu) {
   if (lanes.tile == 0) return 0;
@@ -69,9 +71,13 @@ std::vector<ForceVariant> force_variants(const Processors& gpu) {
   return variants;
 }
 
+ForceVariant variant_for_given_sums() {
+  return {.name = "given sums", .share_size = for_given_sums.teams * for_given_sums.vertices, .lanes = 0};
+}
+
 const Lanes& lanes_of(std::size_t variant) {
-  PLIANT_EXPECT(variant < std::size(choices));
-  return choices[variant].lanes;
+  PLIANT_EXPECT(variant <= std::size(choices));
+  return variant == std::size(choices) ? for_given_sums : choices[variant].lanes;
 }
 
 }  // namespace pliant::gpu

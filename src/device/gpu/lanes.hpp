@@ -10,7 +10,8 @@ namespace pliant::gpu {
 
 /// How force.comp divides its work.
 struct Lanes {
-  std::uint32_t lanes, vertices, teams, unroll;
+  std::uint32_t lanes;  // 0: the sums are given, and there are only keepers
+  std::uint32_t vertices, teams, unroll;
   std::uint32_t plainly;  // springs that a lane adds up plainly, before it adds this sum exactly
   std::uint32_t tile;     // vertices fetched at a time where groups run all stages, 0 if there is no room. It is what shared
                           // memory has room for, in multiples that keep the order of additions
@@ -27,7 +28,10 @@ struct Processors {
 
 [[nodiscard]] std::vector<ForceVariant> force_variants(const Processors& gpu);
 
-/// Returns how one of these variants divides its work. That is the same on every GPU.
+/// Returns the variant for sums that are given.
+[[nodiscard]] ForceVariant variant_for_given_sums();
+
+/// Returns how one of these variants divides its work, or behind them that for given sums. That is the same on every GPU.
 [[nodiscard]] const Lanes& lanes_of(std::size_t variant);
 
 }  // namespace pliant::gpu

@@ -55,6 +55,8 @@ class BodyTables {
     add_partners();
   }
 
+  [[nodiscard]] std::uint64_t spring_count() const { return count_springs(tree_, pairs_).all(); }
+
  private:
   void add_leaves() {
     for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
@@ -124,11 +126,11 @@ class BodyTables {
 }  // namespace
 
 ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<double>> accuracies)
-    : bodies_(bodies) {
+    : bodies_(bodies), springs_of_bodies_(model.bodies.size()) {
   PLIANT_EXPECT(accuracies.size() == model.bodies.size());
   Tables tables;
   for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
-    if (accuracies[b]) BodyTables(tables, model, b, *accuracies[b]);
+    if (accuracies[b]) springs_of_bodies_[b] = BodyTables(tables, model, b, *accuracies[b]).spring_count();
   leaf_count_ = static_cast<std::uint32_t>(tables.leaves.size());
   cluster_count_ = static_cast<std::uint32_t>(tables.clusters.size());
   const std::uint32_t place_count = leaf_size * leaf_count_;

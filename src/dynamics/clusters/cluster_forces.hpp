@@ -20,8 +20,12 @@ class ClusterForces {
   /// `only_stale` they leave out bodies whose kept forces still hold. Sums of all others are undefined.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t slot, bool only_stale) const;
 
+  /// Returns how many springs a sum of this body's has. 0: it is not clustered.
+  [[nodiscard]] std::uint64_t springs_of(std::size_t body) const { return springs_of_bodies_[body]; }
+
  private:
   const DeviceBodies& bodies_;
+  std::vector<std::uint64_t> springs_of_bodies_;
   std::uint32_t leaf_count_ = 0, cluster_count_ = 0;
 };
 

@@ -114,6 +114,24 @@ class Walk {
 
 ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy) { return Walk(tree, accuracy).take(); }
 
+SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs) {
+  SpringCounts counts;
+  for (std::uint32_t leaf = 0; leaf < tree.leaves.size(); ++leaf) {
+    const std::uint64_t own = tree.clusters[tree.leaves[leaf]].size();
+    for (std::uint32_t k = pairs.near_begin[leaf]; k < pairs.near_begin[leaf + 1]; ++k) {
+      if (pairs.near[k] == leaf) counts.near += own * (own - 1) / 2;
+      if (pairs.near[k] > leaf) counts.near += own * tree.clusters[tree.leaves[pairs.near[k]]].size();
+    }
+  }
+  for (std::uint32_t c = 0; c < tree.clusters.size(); ++c)
+    for (std::uint32_t k = pairs.far_begin[c]; k < pairs.far_begin[c + 1]; ++k) {
+      const FarCluster& far = pairs.far[k];
+      counts.far += std::uint64_t{tree.clusters[c].size()} * far.nodes;
+      if (far.cluster > c) counts.between_nodes += std::uint64_t{far.nodes} * far.nodes;
+    }
+  return counts;
+}
+
 double accuracy_of(double tolerance) { return 1e-7 * std::pow(tolerance / 1e-3, 1.75); }
 
 }  // namespace pliant

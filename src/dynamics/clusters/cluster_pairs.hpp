@@ -28,9 +28,19 @@ struct ClusterPairs {
   std::vector<FarCluster> far;            // in the order in which they were found
 };
 
+/// How many springs stand for those between all pairs of vertices.
+struct SpringCounts {
+  std::uint64_t near = 0;           // between two vertices
+  std::uint64_t far = 0;            // between a vertex and a node
+  std::uint64_t between_nodes = 0;  // which take off what counts twice
+  [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
+};
+
 /// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. Throws Error (input) if so many vertices share a
 /// place that lists would get too long.
 [[nodiscard]] ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy);
+
+[[nodiscard]] SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs);
 
 /// Returns the accuracy for forces with about this relative error. In smooth deformations it is a third of that. Where neighbours
 /// move apart by 0.01 of the body's radius it is as much for tolerances from 1e-3 on, and more for smaller ones. Rougher

@@ -64,22 +64,6 @@ std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const
   return forces;
 }
 
-SpringCounts ClusterSprings::counts() const {
-  SpringCounts counts;
-  for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf)
-    for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
-      const std::uint64_t own = tree_.clusters[tree_.leaves[leaf]].size();
-      if (pairs_.near[k] == leaf) counts.near += own * (own - 1) / 2;
-      if (pairs_.near[k] > leaf) counts.near += own * tree_.clusters[tree_.leaves[pairs_.near[k]]].size();
-    }
-  for (std::uint32_t c = 0; c < tree_.clusters.size(); ++c)
-    for (const FarCluster& far : far_of(c)) {
-      counts.far += std::uint64_t{tree_.clusters[c].size()} * far.nodes;
-      if (far.cluster > c) counts.between_nodes += std::uint64_t{far.nodes} * far.nodes;
-    }
-  return counts;
-}
-
 // Moments go up from leaves to the root: the sum of u, and that of u (X - centre)^T.
 ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> displacements) const {
   PLIANT_EXPECT(displacements.size() == rest_.size());

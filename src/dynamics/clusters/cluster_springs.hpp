@@ -13,14 +13,6 @@
 
 namespace pliant {
 
-/// How many springs stand for those between all pairs of vertices.
-struct SpringCounts {
-  std::uint64_t near = 0;           // between two vertices
-  std::uint64_t far = 0;            // between a vertex and a node
-  std::uint64_t between_nodes = 0;  // which take off what counts twice
-  [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
-};
-
 /// Sums have the same bits on any number of threads.
 class ClusterSprings {
  public:
@@ -32,7 +24,7 @@ class ClusterSprings {
   /// Returns the forces on the vertices over the stiffness [m]: the gradient of the energy with its sign changed.
   [[nodiscard]] std::vector<glm::dvec3> forces(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;
 
-  [[nodiscard]] SpringCounts counts() const;
+  [[nodiscard]] SpringCounts counts() const { return count_springs(tree_, pairs_); }
 
  private:
   static constexpr std::uint32_t node_count = 5;  // of a cluster

@@ -5,9 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/expect.hpp"
+#include "dynamics/clusters/cluster_springs.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "dynamics/forces/elongations.hpp"
 #include "physics/layout.glsl"
 
@@ -22,7 +25,8 @@ class SpringEnergies {
   explicit SpringEnergies(const Model& model)
       : sum_of_springs_(elongation_sum(cpu::available_isas().back())),
         energies_(model.vertex_count()),
-        is_known_(model.bodies.size()) {
+        is_known_(model.bodies.size()),
+        clustered_(model.bodies.size()) {
     for (int axis = 0; axis < 3; ++axis) {
       moved_[axis].resize(model.vertex_count() + elongation_lanes);
       rest_[axis].resize(model.vertex_count() + elongation_lanes);
@@ -39,6 +43,8 @@ class SpringEnergies {
     question.pool.for_ranges(static_cast<std::uint32_t>(tasks.size()), 4, [&](std::uint32_t first, std::uint32_t end) {
       for (; first < end; ++first) sum_rows(model, tasks[first], question.stopped && question.stopped());
     });
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      if (model.bodies[b].is_clustered && !is_known_[b]) sum_clusters(question, b);
     double sum = 0;
     for (const double energy : energies_) sum += energy;
     std::ranges::fill(is_known_, !std::isnan(sum));
@@ -74,7 +80,7 @@ class SpringEnergies {
     std::vector<Rows> tasks;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const ModelBody& body = model.bodies[b];
-      if (body.is_rigid() || is_known_[b]) continue;
+      if (body.is_rigid() || body.is_clustered || is_known_[b]) continue;
       const std::uint32_t end = body.first_vertex + body.vertex_count;
       for (std::uint32_t first = body.first_vertex; first < end; first = tasks.back().end)
         tasks.push_back({first, first + std::min(end - first, springs_of_task / (end - first) + 1)});
@@ -92,10 +98,26 @@ class SpringEnergies {
                                 : 0.5 * body.stiffness * sum_of_springs_(ends, i, body.first_vertex + body.vertex_count);
   }
 
+  // All of a clustered body's energy stands at its first vertex.
+  void sum_clusters(const EnergyQuestion& question, std::size_t b) {
+    const ModelBody& body = question.model.bodies[b];
+    double& energy = energies_[body.first_vertex];
+    energy = std::numeric_limits<double>::quiet_NaN();
+    if (question.stopped && question.stopped()) return;
+    std::vector<glm::dvec3> rest, displacements;
+    for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) {
+      rest.push_back(question.model.rest_position(i));
+      displacements.push_back(question.state.displacement(i));
+    }
+    if (!clustered_[b]) clustered_[b].emplace(rest, accuracy_of(force_tolerance_of(body)));
+    energy = body.stiffness * clustered_[b]->energy(question.pool, displacements);
+  }
+
   ElongationSum sum_of_springs_;
-  std::vector<double> rest_[3], moved_[3];  // as SpringEnds has them
-  std::vector<double> energies_;            // of each vertex's springs to later vertices of its body [J]
-  std::vector<std::uint8_t> is_known_;      // whether a body's energies are those of `moved_`
+  std::vector<double> rest_[3], moved_[3];                // as SpringEnds has them
+  std::vector<double> energies_;                          // of each vertex's springs to later vertices of its body [J]
+  std::vector<std::uint8_t> is_known_;                    // whether a body's energies are those of `moved_`
+  std::vector<std::optional<ClusterSprings>> clustered_;  // by bodies
 };
 
 double spring_energy(const EnergyQuestion& question) {

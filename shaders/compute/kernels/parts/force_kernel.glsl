@@ -4,6 +4,9 @@
 // - before_force(), whose loads hide behind the sum
 // - after_force(), which returns the coordinate it came to
 // - settle() with all three coordinates, if the kernel settles()
+#ifdef GIVEN_SUMS
+READ(spring_sum)
+#endif
 PARAMETER(uint, first_share)  // of those that this variant serves
 PARAMETER(uint, skips)
 
