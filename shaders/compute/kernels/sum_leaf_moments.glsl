@@ -1,4 +1,4 @@
-// One thread takes the vertices of one leaf into the tree's order, and sums their moments. It runs before a stage.
+// A group kernel. It takes the vertices of a tile of leaves into the tree's order, and sums the moments of each leaf. It runs before a stage.
 #include "../physics/body.glsl"
 #include "../physics/forces/clusters.glsl"
 #include "../physics/layout.glsl"
@@ -14,29 +14,34 @@ WRITE(leaf_moment)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, slot)
 #include "parts/sums_clusters.glsl"
+NEAR(double, part, bank_moments * places_of_tile)  // [place][12]
 
-void sum_leaf_moments(uint leaf) {
-  uint b = spring_leaf[leaf].x;
-  if (!sums_clusters(b)) return;
-  dvec3 centre = LOAD3(spring_cluster[spring_leaf[leaf].y].centre, 0u);
-  double inverse_unit = body[b].inverse_unit;
-  real3 sum = real3(0), x_sum = real3(0), y_sum = real3(0), z_sum = real3(0);
-  for (uint k = 0u; k < leaf_size; ++k) {
-    uint place = leaf_size * leaf + k, i = tree_vertex[place];
-    real weight = k < spring_leaf[leaf].w ? real(1) : real(0);
-    real3 x = real3(placed[position_at(slot, vertex_count, i)]), u = real3(placed[displacement_at(slot, vertex_count, i)]);
-    real3 arm = real3((dvec3(rest_position[i]) - centre) * inverse_unit);
-    point[place_of_point(place)] = real4(x, weight);
-    point[displacement_of_point(place)] = real4(u, real(0));
-    u *= weight;
-    sum += u;
-    x_sum += arm.x * u;
-    y_sum += arm.y * u;
-    z_sum += arm.z * u;
+// `near_at` says where its moments go.
+void take_place(uint leaf, uint place, uint near_at) {
+  uvec4 own = spring_leaf[leaf];
+  uint i = tree_vertex[place];
+  real weight = place - leaf_size * leaf < spring_cluster[own.y].vertex_count ? real(1) : real(0);
+  real3 x = real3(placed[position_at(slot, vertex_count, i)]), u = real3(placed[displacement_at(slot, vertex_count, i)]);
+  dvec3 rest = dvec3(rest_position[i]) * body[own.x].inverse_unit, moved = dvec3(weight * u);
+  point[place_of_point(place)] = real4(x, weight);
+  point[displacement_of_point(place)] = real4(u, real(0));
+  STORE3(part, near_at, moved)
+  STORE3(part, near_at + 3u, rest.x * moved)
+  STORE3(part, near_at + 6u, rest.y * moved)
+  STORE3(part, near_at + 9u, rest.z * moved)
+}
+
+void sum_leaf_moments(uint tile) {
+  for (uint k = THREAD; k < places_of_tile; k += THREADS) {
+    uint place = places_of_tile * tile + k;
+    if (sums_leaf(place / leaf_size)) take_place(place / leaf_size, place, bank_moments * k);
   }
-  uint at = moments_size * leaf;
-  STORE3(leaf_moment, at, sum)
-  STORE3(leaf_moment, at + 3u, x_sum)
-  STORE3(leaf_moment, at + 6u, y_sum)
-  STORE3(leaf_moment, at + 9u, z_sum)
+  MEET
+  for (uint k = THREAD; k < leaves_of_tile * moments_size; k += THREADS) {
+    uint leaf = leaves_of_tile * tile + k / moments_size, first = bank_moments * leaf_size * (k / moments_size) + k % moments_size;
+    if (!sums_leaf(leaf)) continue;
+    double sum = double(0);
+    for (uint v = 0u; v < leaf_size; ++v) sum += part[first + bank_moments * v];
+    leaf_moment[moments_size * leaf + k % moments_size] = sum;
+  }
 }

@@ -7,90 +7,133 @@
 READ(status)
 READ(spring_cluster)
 READ(spring_leaf)
-READ(near_begin)
 READ(near_leaf)
-READ(far_node)
+READ(above_cluster)
+READ(far_cluster)
 READ_AS(spring_point, real4, point)
 WRITE(leaf_pull)
 WRITE(node_pull)
+PARAMETER(uint, place_count)
 #include "parts/sums_clusters.glsl"
 
 #ifdef __cplusplus
 void sum_leaf_springs(uint leaf) {
-  const uvec4 own_leaf = spring_leaf[leaf];
-  if (!sums_clusters(own_leaf.x)) return;
-  std::array<cpu::SeenNodes<real>, 40> seen;  // for a tree of 2^32 vertices, and more
-  uint seen_count = 0u;
-  for (uint c = own_leaf.y; c != no_cluster; c = spring_cluster[c].parent) {
-    const SpringCluster& cluster = spring_cluster[c];
-    const uint leaf_count = cluster.end_leaf - cluster.first_leaf;
-    if (cluster.first_far < cluster.end_far)
-      seen[seen_count++] = {.points = far_node + cluster.first_far,
-                            .count = cluster.end_far - cluster.first_far,
-                            .stride = 3u * leaf_count,
-                            .pulls = node_pull + node_pull_of(cluster.first_node_pull, 0u, leaf_count, leaf - cluster.first_leaf)};
+  if (!sums_leaf(leaf)) return;
+  const uvec4 begin = spring_leaf[leaf], end = spring_leaf[leaf + 1u];
+  std::array<cpu::FarClusters, most_above> seen;
+  for (uint k = begin.w; k < end.w; ++k) {
+    const SpringCluster& cluster = spring_cluster[above_cluster[k]];
+    seen[k - begin.w] = {.clusters = &far_cluster->x + std::size_t{2} * cluster.first_far,
+                         .count = cluster.end_far - cluster.first_far,
+                         .one_count = cluster.first_far_four - cluster.first_far,
+                         .own_leaf = leaf - cluster.first_leaf};
   }
   sum_leaf({.points = &point->x,
+            .place_count = place_count,
             .leaf = leaf,
-            .near_leaves = near_leaf + near_begin[leaf],
-            .near_count = near_begin[leaf + 1u] - near_begin[leaf],
+            .near_leaves = near_leaf + begin.z,
+            .near_count = end.z - begin.z,
             .seen = seen.data(),
-            .seen_count = seen_count,
-            .pulls = leaf_pull + 3u * leaf_size * leaf});
+            .seen_count = end.w - begin.w,
+            .pulls = leaf_pull + 3u * leaf_size * leaf,
+            .node_pulls = node_pull});
 }
 
-const cpu::LeafFunction<real> sum_leaf = cpu::leaf_function<real>(cpu::available_isas().back());
+const cpu::LeafFunction<real> sum_leaf = cpu::cluster_functions<real>(cpu::available_isas().back()).sum_leaf;
 #else
-#define EACH_OWN(f) f(0) f(1) f(2) f(3) f(4) f(5) f(6) f(7) f(8) f(9) f(10) f(11) f(12) f(13) f(14) f(15)
-NEAR(real, part, 64u * 3u * leaf_size)  // [thread][vertex][3]
+const uint batch = 4u;                        // vertices of the leaf whose sums threads add up at a time: less memory lets more groups run
+const uint folded = places_of_tile / 2u;      // threads have sums there, after others have added theirs
+const uint row = folded + 1u;                 // so that rows begin in different banks
+NEAR(real4, own_point, 2u * leaf_size)
+NEAR(uvec4, seen, most_above)                 // of each cluster above: first_far, first_far_four, end_far, the leaf's place in it
+NEAR(real, part, row * 3u * batch)            // [vertex][3][thread]
+#define BATCH_0(f) f(0) f(1) f(2) f(3)
+#define BATCH_1(f) f(4) f(5) f(6) f(7)
+#define BATCH_2(f) f(8) f(9) f(10) f(11)
+#define BATCH_3(f) f(12) f(13) f(14) f(15)
+#define EACH_OWN(f) BATCH_0(f) BATCH_1(f) BATCH_2(f) BATCH_3(f)
 
-void store_pull(uint at, real3 pull) { STORE3(part, at, pull) }
+uint nodes_seen(uint level) { return (seen[level].y - seen[level].x) + 4u * (seen[level].z - seen[level].y); }
+
+void sum_parts(uint first) {
+  for (uint k = THREAD; k < 3u * batch; k += THREADS) {
+    real4 sums = real4(0);
+    for (uint thread = 0u; thread < folded; thread += 4u) {
+      uint at = row * k + thread;
+      sums += real4(part[at], part[at + 1u], part[at + 2u], part[at + 3u]);
+    }
+    leaf_pull[first + k] = (sums.x + sums.y) + (sums.z + sums.w);
+  }
+}
 
 void sum_leaf_springs(uint leaf) {
-  uvec4 own_leaf = spring_leaf[leaf];
-  if (!sums_clusters(own_leaf.x)) return;
-#define OWN(k)                                                                                            \
-  uint own##k = leaf_size * leaf + uint(k);                                                               \
-  real3 u##k = real3(point[displacement_of_point(own##k)]), x##k = real3(point[place_of_point(own##k)]), pull##k = real3(0); \
-  real weight##k = point[place_of_point(own##k)].w;
-  EACH_OWN(OWN)
-  for (uint k = THREAD; k < leaf_size * (near_begin[leaf + 1u] - near_begin[leaf]); k += THREADS) {
-    uint other = leaf_size * near_leaf[near_begin[leaf] + k / leaf_size] + k % leaf_size;
+  if (!sums_leaf(leaf)) return;
+  uvec4 begin = spring_leaf[leaf];
+  uint near_end = spring_leaf[leaf + 1u].z, levels = spring_leaf[leaf + 1u].w - begin.w;
+  for (uint k = THREAD; k < 2u * leaf_size; k += THREADS) own_point[k] = point[place_of_point(leaf_size * leaf) + k];
+  for (uint k = THREAD; k < levels; k += THREADS) {
+    uint c = above_cluster[begin.w + k];
+    seen[k] = uvec4(spring_cluster[c].first_far, spring_cluster[c].first_far_four, spring_cluster[c].end_far,
+                    leaf - spring_cluster[c].first_leaf);
+  }
+  MEET
+#define CLEAR(n) real3 pull##n = real3(0);
+  EACH_OWN(CLEAR)
+  for (uint k = THREAD; k < leaf_size * (near_end - begin.z); k += THREADS) {
+    uint other = leaf_size * near_leaf[begin.z + k / leaf_size] + k % leaf_size;
     real4 place = point[place_of_point(other)];
     real3 u = real3(point[displacement_of_point(other)]);
-#define SEE_VERTEX(n) pull##n += (place.w * spring_strain(x##n - real3(place), u##n - u)) * (x##n - real3(place));
+#define SEE_VERTEX(n)                                                                                          \
+  {                                                                                                            \
+    real3 x = real3(own_point[2 * n]) - real3(place);                                                          \
+    real strain = place.w * spring_strain(x, real3(own_point[2 * n + 1]) - u);                                 \
+    pull##n = real3(FUSED(strain, x.x, pull##n.x), FUSED(strain, x.y, pull##n.y), FUSED(strain, x.z, pull##n.z)); \
+  }
     EACH_OWN(SEE_VERTEX)
   }
-  uint passed = 0u;  // nodes that clusters below have seen
-  for (uint c = own_leaf.y, k = THREAD; c != no_cluster;) {
-    uint count = spring_cluster[c].end_far - spring_cluster[c].first_far;
-    if (k - passed >= count) {
-      passed += count;
-      c = spring_cluster[c].parent;
-      continue;
-    }
-    uint other = far_node[spring_cluster[c].first_far + (k - passed)];
+  uint node_count = 0u;
+  for (uint level = 0u; level < levels; ++level) node_count += nodes_seen(level);
+  for (uint k = THREAD, level = 0u, passed = 0u; k < node_count; k += THREADS) {  // `passed` counts nodes of levels below
+    while (k - passed >= nodes_seen(level)) passed += nodes_seen(level++);
+    uvec4 of_level = seen[level];
+    uint ones = of_level.y - of_level.x, place_in_level = k - passed;
+    bool is_one = place_in_level < ones;
+    uint node = is_one ? 0u : (place_in_level - ones) % 4u;
+    uvec2 far = far_cluster[is_one ? of_level.x + place_in_level : of_level.y + (place_in_level - ones) / 4u];
+    uint other = point_of_node(place_count, far.x, is_one ? 0u : 1u + node);
     real4 place = point[place_of_point(other)];
     real3 u = real3(point[displacement_of_point(other)]), back = real3(0);
-#define SEE_NODE(n)                                                                                 \
-  {                                                                                                  \
-    real3 pull = spring_strain(x##n - real3(place), u##n - u) * (x##n - real3(place));               \
-    pull##n += place.w * pull;                                                                       \
-    back += weight##n * pull;                                                                        \
+#define SEE_NODE(n)                                                                                            \
+  {                                                                                                            \
+    real4 own = own_point[2 * n];                                                                              \
+    real3 x = real3(own) - real3(place);                                                                       \
+    real strain = spring_strain(x, real3(own_point[2 * n + 1]) - u), weighed = place.w * strain, by_own = own.w * strain; \
+    pull##n = real3(FUSED(weighed, x.x, pull##n.x), FUSED(weighed, x.y, pull##n.y), FUSED(weighed, x.z, pull##n.z)); \
+    back = real3(FUSED(by_own, x.x, back.x), FUSED(by_own, x.y, back.y), FUSED(by_own, x.z, back.z));          \
   }
     EACH_OWN(SEE_NODE)
-    uint at = node_pull_of(spring_cluster[c].first_node_pull, k - passed, spring_cluster[c].end_leaf - spring_cluster[c].first_leaf,
-                           leaf - spring_cluster[c].first_leaf);
+    uint at = far.y + leaf_of_pull(is_one ? 1u : 4u) * of_level.w + 3u * node;
     STORE3(node_pull, at, back)
-    k += THREADS;
   }
-#define KEEP(n) store_pull(3u * (leaf_size * THREAD + uint(n)), pull##n);
-  EACH_OWN(KEEP)
-  MEET
-  for (uint k = THREAD; k < 3u * leaf_size; k += THREADS) {
-    real sum = real(0);
-    for (uint thread = 0u; thread < THREADS; ++thread) sum += part[3u * leaf_size * thread + k];
-    leaf_pull[3u * leaf_size * leaf + k] = sum;
-  }
+#define AT(n) (row * 3u * (uint(n) % batch) + THREAD % folded)
+#define KEEP(n)                       \
+  part[AT(n)] = pull##n.x;            \
+  part[AT(n) + row] = pull##n.y;      \
+  part[AT(n) + 2u * row] = pull##n.z;
+#define TAKE(n)                        \
+  part[AT(n)] += pull##n.x;            \
+  part[AT(n) + row] += pull##n.y;      \
+  part[AT(n) + 2u * row] += pull##n.z;
+#define ADD_UP(some, k)                  \
+  MEET                                   \
+  if (THREAD >= folded) { some(KEEP) }   \
+  MEET                                   \
+  if (THREAD < folded) { some(TAKE) }    \
+  MEET                                   \
+  sum_parts(3u * (leaf_size * leaf + k * batch));
+  ADD_UP(BATCH_0, 0u)
+  ADD_UP(BATCH_1, 1u)
+  ADD_UP(BATCH_2, 2u)
+  ADD_UP(BATCH_3, 3u)
 }
 #endif

@@ -6,14 +6,35 @@
 READ(body)
 READ(status)
 READ(spring_cluster)
+READ(spring_leaf)
 READ(far_cluster)
 READ_AS(spring_point, real4, point)
-READ(node_pull)
+READ_AS(node_pull, real4, pulls)
 WRITE(cluster_pull)
 PARAMETER(uint, place_count)
 #include "parts/sums_clusters.glsl"
-NEAR(real, part, 64u * pulls_size)  // [thread][node][3]
-NEAR(real, all, pulls_size)
+NEAR(real, all, pulls_size)  // [node][3]: what pulls them, with its sign changed
+
+#ifdef __cplusplus
+void sum_pulls(uint c) {
+  const SpringCluster& cluster = spring_cluster[c];
+  sum_nodes({.points = &point->x,
+             .place_count = place_count,
+             .cluster = c,
+             .far = {.clusters = &far_cluster->x + std::size_t{2} * cluster.first_far,
+                     .count = cluster.end_far - cluster.first_far,
+                     .one_count = cluster.first_far_four - cluster.first_far,
+                     .own_leaf = 0},
+             .node_pulls = &pulls->x + std::size_t{pull_row_size} * cluster.first_pull,
+             .row_count = cluster.end_pull - cluster.first_pull,
+             .one_row_count = cluster.first_pull_four - cluster.first_pull,
+             .sums = all});
+}
+
+const cpu::NodesFunction<real> sum_nodes = cpu::cluster_functions<real>(cpu::available_isas().back()).sum_nodes;
+#else
+NEAR(real, part, bank_row * pulls_size)  // [node][3][thread]
+NEAR(real, quarter, 4u * pulls_size)     // sums of 16 threads each
 
 real3 pull_between(uint own, uint other) {
   real4 place = point[place_of_point(other)];
@@ -22,76 +43,79 @@ real3 pull_between(uint own, uint other) {
   return (place.w * spring_strain(x, d)) * x;
 }
 
-void take_off(uint node, real3 pull) {
-  uint at = pulls_size * THREAD + 3u * node;
-  part[at] -= pull.x;
-  part[at + 1u] -= pull.y;
-  part[at + 2u] -= pull.z;
+void store_part(uint node, real3 sum) {
+  uint at = bank_row * 3u * node + THREAD;
+  part[at] = sum.x;
+  part[at + bank_row] = sum.y;
+  part[at + 2u * bank_row] = sum.z;
 }
 
-// What a node pulls vertices with, they pull it with the other way.
-void take_off_vertices(uint first, uint end) {
-  uint passed = 0u;  // pulls by clusters before
-  for (uint p = first, i = THREAD; p < end;) {
-    uvec4 far = far_cluster[p];
-    if (i - passed >= far.y * far.w) {
-      passed += far.y * far.w;
-      ++p;
-      continue;
+// A thread has one of a cluster's four nodes to itself, because there are 16 pairs of nodes for each far cluster.
+void sum_pulls(uint c) {
+  uint first_far = spring_cluster[c].first_far, first_four = spring_cluster[c].first_far_four, end_far = spring_cluster[c].end_far;
+  real3 sum0 = real3(0), sum1 = real3(0), sum2 = real3(0), sum3 = real3(0), sum4 = real3(0), of_own = real3(0);
+  // With a loop each for rows of node 0 and for others, llvmpipe of Mesa 22.3.6 adds to the wrong sums.
+  uint four = spring_cluster[c].first_pull_four, end = spring_cluster[c].end_pull;
+  for (uint r = spring_cluster[c].first_pull + THREAD; r < end; r += THREADS) {
+    real4 some = pulls[3u * r], more = pulls[3u * r + 1u], last = pulls[3u * r + 2u];
+    real3 first = real3(some), second = real3(some.w, more.x, more.y), third = real3(more.z, more.w, last.x);
+    real3 fourth = real3(last.y, last.z, last.w);
+    if (r < four) {
+      sum0 += (first + second) + (third + fourth);
+    } else {
+      sum1 += first;
+      sum2 += second;
+      sum3 += third;
+      sum4 += fourth;
     }
-    uint k = (i - passed) / far.w, at = node_pull_of(far.z, k, far.w, (i - passed) % far.w);
-    take_off(first_node(far.y) + k, real3(node_pull[at], node_pull[at + 1u], node_pull[at + 2u]));
-    i += THREADS;
   }
-}
-
-void take_off_nodes(uint c, uint first, uint end) {
-  uint passed = 0u;  // pairs of nodes before
-  for (uint p = first, i = THREAD; p < end;) {
-    uvec4 far = far_cluster[p];
-    if (i - passed >= far.y * far.y) {
-      passed += far.y * far.y;
-      ++p;
-      continue;
-    }
-    uint own = first_node(far.y) + (i - passed) / far.y, other = first_node(far.y) + (i - passed) % far.y;
-    take_off(own, pull_between(point_of_node(place_count, c, own), point_of_node(place_count, far.x, other)));
-    i += THREADS;
+  for (uint p = first_far + THREAD; p < first_four; p += THREADS)
+    sum0 += pull_between(point_of_node(place_count, c, 0u), point_of_node(place_count, far_cluster[p].x, 0u));
+  uint own = 1u + THREAD % 16u / 4u, other = 1u + THREAD % 4u;
+  for (uint i = THREAD; i < 16u * (end_far - first_four); i += THREADS)
+    of_own += pull_between(point_of_node(place_count, c, own), point_of_node(place_count, far_cluster[first_four + i / 16u].x, other));
+  if (own == 1u) sum1 += of_own;
+  if (own == 2u) sum2 += of_own;
+  if (own == 3u) sum3 += of_own;
+  if (own == 4u) sum4 += of_own;
+  store_part(0u, sum0);
+  store_part(1u, sum1);
+  store_part(2u, sum2);
+  store_part(3u, sum3);
+  store_part(4u, sum4);
+  MEET
+  for (uint k = THREAD; k < 4u * pulls_size; k += THREADS) {  // quarters of rows
+    uint first = bank_row * (k / 4u) + 16u * (k % 4u);
+    real4 sums = real4(0);
+    for (uint thread = first; thread < first + 16u; thread += 4u)
+      sums += real4(part[thread], part[thread + 1u], part[thread + 2u], part[thread + 3u]);
+    quarter[k] = (sums.x + sums.y) + (sums.z + sums.w);
   }
+  MEET
+  for (uint k = THREAD; k < pulls_size; k += THREADS)
+    all[k] = (quarter[4u * k] + quarter[4u * k + 1u]) + (quarter[4u * k + 2u] + quarter[4u * k + 3u]);
 }
+#endif
 
-void sum_parts() {
-  for (uint k = THREAD; k < pulls_size; k += THREADS) {
-    real sum = real(0);
-    for (uint thread = 0u; thread < THREADS; ++thread) sum += part[pulls_size * thread + k];
-    all[k] = sum;
-  }
-}
-
-void keep_pulls(uint c, double unit) {
-  dvec3 sum = LOAD3(all, 0u), x_sum = dvec3(0), y_sum = dvec3(0), z_sum = dvec3(0);
+// Returns a coordinate of what the nodes pull a vertex with, or of what they do for its place along the axis `row` - 1.
+double pull_by(uint c, uint row, uint axis, double unit) {
+  double sum = double(0);
   for (uint node = 1u; node < nodes_of_cluster; ++node) {
-    dvec3 pull = LOAD3(all, 3u * node) / double(4), slope = unit * LOAD3(spring_cluster[c].gradient, 3u * (node - 1u));
-    sum += pull;
-    x_sum += slope.x * pull;
-    y_sum += slope.y * pull;
-    z_sum += slope.z * pull;
+    dvec3 gradient = LOAD3(spring_cluster[c].gradient, 3u * (node - 1u));
+    double slope = double(1) - dot(gradient, LOAD3(spring_cluster[c].centre, 0u));
+    if (row > 0u) slope = unit * spring_cluster[c].gradient[3u * (node - 1u) + (row - 1u)];
+    sum += slope * double(all[3u * node + axis]);
   }
-  uint at = moments_size * c;
-  STORE3(cluster_pull, at, sum)
-  STORE3(cluster_pull, at + 3u, x_sum)
-  STORE3(cluster_pull, at + 6u, y_sum)
-  STORE3(cluster_pull, at + 9u, z_sum)
+  return sum / double(4) + (row == 0u ? double(all[axis]) : double(0));
 }
 
 void sum_node_pulls(uint c) {
-  uint b = spring_cluster[c].body_index, first = spring_cluster[c].first_partner, end = spring_cluster[c].end_partner;
-  if (!sums_clusters(b) || first == end) return;
-  for (uint k = 0u; k < pulls_size; ++k) part[pulls_size * THREAD + k] = real(0);
-  take_off_vertices(first, end);
-  take_off_nodes(c, first, end);
+  uint b = spring_cluster[c].body_index;
+  if (!sums_clusters(b) || spring_cluster[c].first_far == spring_cluster[c].end_far) return;
+  sum_pulls(c);
   MEET
-  sum_parts();
-  MEET
-  if (THREAD == 0u) keep_pulls(c, double(1) / body[b].inverse_unit);
+  for (uint k = THREAD; k < moments_size; k += THREADS) {
+    double pull = pull_by(c, k / 3u, k % 3u, double(1) / body[b].inverse_unit);
+    cluster_pull[moments_size * c + k] = -pull;
+  }
 }

@@ -107,6 +107,8 @@ class SumsOf {
     row.bytes_per_vertex = static_cast<double>(device_.allocated_bytes() - bytes_without_clusters_) / row.vertices;
     const std::vector<Pass> passes = forces.passes(physics::start_slot, false);
     row.seconds_per_sum = seconds_each(device_, effort_, [&] { device_.run(passes); }).median;
+    for (const Pass& pass : passes)  // each finds what those before it have left
+      row.pass_seconds.emplace_back(pass.name, seconds_each(device_, effort_, [&] { device_.run({&pass, 1}); }).median);
     const std::vector<double> sums = bodies_.arrays.get<double>("spring_sum").download();
     row.error = exact_.error_of([&](std::size_t i) {
       return -model_.bodies.front().unit_of_length() * glm::dvec3(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
@@ -172,7 +174,7 @@ class Suite {
     static_cast<void>(multiply_adds_per_second(device, place, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
   }
 
-  [[nodiscard]] std::vector<int> bodies_of_all_sizes() const { return quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7}; }
+  [[nodiscard]] std::vector<int> bodies_of_all_sizes() const { return quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8}; }
 
   void measure_sums(const Place& place) {
     if (result_.interrupted) return;

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/common/place.hpp"
@@ -30,8 +31,9 @@ struct DenseForceRow {
   unsigned threads = 1;  // of the CPU; null in the file for the GPU
   std::uint32_t vertices = 0;
   double tolerance = 0;
-  double list_seconds = 0;            // for tree and lists, on one thread of the CPU
-  double seconds_per_sum = 0;         // median over the batches
+  double list_seconds = 0;                                        // for tree and lists, on one thread of the CPU
+  double seconds_per_sum = 0;                                     // median over the batches
+  std::vector<std::pair<std::string, double>> pass_seconds = {};  // the same of each pass, which runs alone
   double direct_seconds_per_sum = 0;  // of all springs; 0, and null in the file, where that would take too long
   double bytes_per_vertex = 0;        // of tree, lists and sums on the device
   double error = 0;                   // as in a DenseErrorRow, of a body whose neighbours move apart by some percent of its size

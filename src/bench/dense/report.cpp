@@ -17,6 +17,8 @@ Json row_json(const DenseErrorRow& row) {
 }
 
 Json force_json(const DenseForceRow& row) {
+  Json passes = Json::object();
+  for (const auto& [name, seconds] : row.pass_seconds) passes.add(name, seconds);
   return {{"device", name_of(row.device)},
           {"precision", row.precision},
           {"threads", threads_json(row.device, row.threads)},
@@ -24,6 +26,7 @@ Json force_json(const DenseForceRow& row) {
           {"tolerance", row.tolerance},
           {"list_seconds", row.list_seconds},
           {"seconds_per_sum", row.seconds_per_sum},
+          {"pass_seconds", std::move(passes)},
           {"direct_seconds_per_sum", row.direct_seconds_per_sum > 0 ? Json(row.direct_seconds_per_sum) : Json()},
           {"bytes_per_vertex", row.bytes_per_vertex},
           {"error", row.error}};
@@ -55,10 +58,23 @@ std::string forces_table(const std::vector<DenseForceRow>& rows) {
   return table + '\n';
 }
 
+std::string passes_table(const std::vector<DenseForceRow>& rows) {
+  if (rows.empty()) return "";
+  std::string table = fmt::format("{:<6} {:>4} {:>8} {:>9}", "device", "bits", "vertices", "tolerance");
+  for (const auto& [name, seconds] : rows.front().pass_seconds) table += fmt::format(" {:>16}", name);
+  table += "  ms each, alone\n";
+  for (const DenseForceRow& row : rows) {
+    table += fmt::format("{:<6} {:>4} {:>8} {:>9.0e}", name_of(row.device), row.precision, row.vertices, row.tolerance);
+    for (const auto& [name, seconds] : row.pass_seconds) table += fmt::format(" {:>16.4g}", 1e3 * seconds);
+    table += '\n';
+  }
+  return table + '\n';
+}
+
 }  // namespace
 
 std::string to_table(const DenseResult& result) {
-  std::string table = errors_table(result.rows) + forces_table(result.forces);
+  std::string table = errors_table(result.rows) + forces_table(result.forces) + passes_table(result.forces);
   for (const std::string& note : result.notes) table += note + '\n';
   return table;
 }

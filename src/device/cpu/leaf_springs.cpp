@@ -7,19 +7,20 @@
 
 namespace pliant::cpu {
 
-static_assert(leaf_lanes == physics::leaf_size);
+static_assert(leaf_lanes == physics::leaf_size && points_of_cluster == physics::nodes_of_cluster);
+static_assert(pull_row == physics::pull_row_size);
 
 template <class Real>
-LeafFunction<Real> leaf_function(Isa isa) {
+ClusterFunctions<Real> cluster_functions(Isa isa) {
   PLIANT_EXPECT(std::ranges::find(available_isas(), isa) != available_isas().end());
 #ifdef PLIANT_X86_TILES
-  if (isa == Isa::avx512) return &sum_leaf_avx512;
-  if (isa == Isa::avx2) return &sum_leaf_avx2;
+  if (isa == Isa::avx512) return cluster_functions_avx512<Real>();
+  if (isa == Isa::avx2) return cluster_functions_avx2<Real>();
 #endif
-  return &sum_leaf_portable;
+  return cluster_functions_portable<Real>();
 }
 
-template LeafFunction<float> leaf_function(Isa isa);
-template LeafFunction<double> leaf_function(Isa isa);
+template ClusterFunctions<float> cluster_functions(Isa isa);
+template ClusterFunctions<double> cluster_functions(Isa isa);
 
 }  // namespace pliant::cpu

@@ -1,6 +1,5 @@
-// Sums the springs of a leaf of a clustered body, a vertex in each lane, once for each instruction set. Files that include this
-// header are compiled for different processors. So it holds only declarations: a linker could take an inline function from the
-// wrong file.
+// Sums the springs of a clustered body's leaves and nodes, once for each instruction set. Files that include this header are
+// compiled for different processors. So it holds only declarations: a linker could take an inline function from the wrong file.
 #pragma once
 #include <cstdint>
 
@@ -8,41 +7,62 @@
 
 namespace pliant::cpu {
 
-inline constexpr unsigned leaf_lanes = 16, point_size = 8;  // vertices of a leaf, and numbers of a point
+// As physics/forces/clusters.glsl has them. Points have point_size numbers: place, how many vertices it stands for, displacement,
+// 0.
+inline constexpr unsigned leaf_lanes = 16, point_size = 8, points_of_cluster = 5, pull_row = 12;
 
-/// Nodes that one of the clusters above a leaf sees.
-template <class Real>
-struct SeenNodes {
-  const std::uint32_t* points;
-  std::uint32_t count;
-  std::uint32_t stride;  // from what the leaf keeps for one node to what it keeps for the next [numbers]
-  Real* pulls;           // out: three numbers for each node
+/// Clusters that a cluster sees from far. Of the first ones it sees node 0, of the others nodes 1 to 4.
+struct FarClusters {
+  const std::uint32_t*
+      clusters;  // [count][2]: a cluster, and where the leaves of the one that sees it keep what they pull it with
+  std::uint32_t count, one_count;
+  std::uint32_t own_leaf;  // place of the leaf among those of the cluster that sees it
 };
 
-/// Points have point_size numbers: place, how many vertices it stands for, displacement, 0 (physics/forces/clusters.glsl).
 template <class Real>
 struct LeafSprings {
   const Real* points;
+  std::uint32_t place_count;         // points before the first node
   std::uint32_t leaf;                // whose vertices these are
   const std::uint32_t* near_leaves;  // whose vertices they see
   std::uint32_t near_count;
-  const SeenNodes<Real>* seen;  // by the leaf and by each cluster above
+  const FarClusters* seen;  // by the leaf and by clusters above
   std::uint32_t seen_count;
-  Real* pulls;  // out: [vertex][3]
+  Real* pulls;       // out: [vertex][3]
+  Real* node_pulls;  // out: three numbers for each node, from where FarClusters says
 };
 
 template <class Real>
-using LeafFunction = void (*)(const LeafSprings<Real>&);
+struct NodeSprings {
+  const Real* points;
+  std::uint32_t place_count;
+  std::uint32_t cluster;  // whose nodes these are
+  FarClusters far;
+  const Real* node_pulls;                  // [row][pull_row] of this cluster
+  std::uint32_t row_count, one_row_count;  // of all, and of those of node 0, which come first
+  Real* sums;                              // out: [node][3]
+};
 
-/// Returns the function of an instruction set that is available.
+/// `sum_leaf` gives the vertices of a leaf one lane each. `sum_nodes` has a pair of nodes in each lane.
 template <class Real>
-[[nodiscard]] LeafFunction<Real> leaf_function(Isa isa);
+struct ClusterFunctions {
+  void (*sum_leaf)(const LeafSprings<Real>&);
+  void (*sum_nodes)(const NodeSprings<Real>&);
+};
+template <class Real>
+using LeafFunction = decltype(ClusterFunctions<Real>::sum_leaf);
+template <class Real>
+using NodesFunction = decltype(ClusterFunctions<Real>::sum_nodes);
 
-void sum_leaf_portable(const LeafSprings<float>& leaf);
-void sum_leaf_portable(const LeafSprings<double>& leaf);
-void sum_leaf_avx2(const LeafSprings<float>& leaf);
-void sum_leaf_avx2(const LeafSprings<double>& leaf);
-void sum_leaf_avx512(const LeafSprings<float>& leaf);
-void sum_leaf_avx512(const LeafSprings<double>& leaf);
+/// Returns the functions of an instruction set that is available.
+template <class Real>
+[[nodiscard]] ClusterFunctions<Real> cluster_functions(Isa isa);
+
+template <class Real>
+ClusterFunctions<Real> cluster_functions_portable();
+template <class Real>
+ClusterFunctions<Real> cluster_functions_avx2();
+template <class Real>
+ClusterFunctions<Real> cluster_functions_avx512();
 
 }  // namespace pliant::cpu

@@ -35,8 +35,14 @@ PLIANT_INLINE __m256d square_root(__m256d v) { return _mm256_sqrt_pd(v); }
 
 void sum_tile_avx2(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_avx2(const SpringTile<double>& tile) { sum_tile(tile); }
-void sum_leaf_avx2(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
-void sum_leaf_avx2(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
+template <>
+ClusterFunctions<float> cluster_functions_avx2() {
+  return functions_of_clusters<float>;
+}
+template <>
+ClusterFunctions<double> cluster_functions_avx2() {
+  return functions_of_clusters<double>;
+}
 
 }  // namespace pliant::cpu
 #endif

@@ -54,8 +54,14 @@ PLIANT_INLINE __m512d quarter_strain(__m512d growth, __m512d now) {
 
 void sum_tile_avx512(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_avx512(const SpringTile<double>& tile) { sum_tile(tile); }
-void sum_leaf_avx512(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
-void sum_leaf_avx512(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
+template <>
+ClusterFunctions<float> cluster_functions_avx512() {
+  return functions_of_clusters<float>;
+}
+template <>
+ClusterFunctions<double> cluster_functions_avx512() {
+  return functions_of_clusters<double>;
+}
 
 }  // namespace pliant::cpu
 #endif

@@ -39,7 +39,13 @@ PLIANT_INLINE V square_root(V v) {
 
 void sum_tile_portable(const SpringTile<float>& tile) { sum_tile(tile); }
 void sum_tile_portable(const SpringTile<double>& tile) { sum_tile(tile); }
-void sum_leaf_portable(const LeafSprings<float>& leaf) { sum_leaf(leaf); }
-void sum_leaf_portable(const LeafSprings<double>& leaf) { sum_leaf(leaf); }
+template <>
+ClusterFunctions<float> cluster_functions_portable() {
+  return functions_of_clusters<float>;
+}
+template <>
+ClusterFunctions<double> cluster_functions_portable() {
+  return functions_of_clusters<double>;
+}
 
 }  // namespace pliant::cpu

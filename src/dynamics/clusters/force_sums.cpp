@@ -6,7 +6,7 @@ namespace {
 constexpr double standard_tolerance = 1e-3;
 
 // From so many vertices on clusters are faster, at the standard tolerance (docs/benchmarks/2026-11-29-dense.md).
-constexpr std::uint32_t fewest_vertices(DeviceKind device) { return device == DeviceKind::cpu ? 2500 : 8000; }
+constexpr std::uint32_t fewest_vertices(DeviceKind device) { return device == DeviceKind::cpu ? 1500 : 5000; }
 
 }  // namespace
 

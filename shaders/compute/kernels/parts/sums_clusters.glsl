@@ -2,9 +2,13 @@
 // deformed are zero, and nobody reads its sums.
 PARAMETER(uint, only_stale)
 PARAMETER(uint, skips)
+PARAMETER(uint, leaf_count)  // of all bodies
 
 bool sums_clusters(uint b) {
   bool is_deformed = status[b].deformed != 0u || (skips & skips_forces) == 0u;
   bool is_due = only_stale == 0u || status[b].force_stale != 0u;
   return status[b].activity == moving && !is_still(status[b]) && is_deformed && is_due;
 }
+
+// The same for a leaf of a tile, which may be none.
+bool sums_leaf(uint leaf) { return leaf < leaf_count && sums_clusters(spring_leaf[leaf].x); }

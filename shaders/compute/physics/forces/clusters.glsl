@@ -8,27 +8,26 @@
 SHARED_BEGIN
 
 const uint leaf_size = 16u;          // vertices, as many as the widest vectors have lanes
+const uint leaves_of_tile = 4u;      // which one group serves where there is little to do for each
+const uint places_of_tile = leaves_of_tile * leaf_size;
 const uint nodes_of_cluster = 5u;    // the first one can stand for all vertices, the other four together
-const uint no_cluster = 0xffffffffu;
+const uint most_above = 40u;         // clusters that hold a leaf, in a tree of 2^32 vertices, and more
 
 struct SpringCluster {
-  double centre[3];     // of its vertices at rest [m]
-  double offset[12];    // of nodes 1 to 4, from there [m]
-  double gradient[12];  // a node moves as the mean of (1 + gradient . (X - centre)) u over the vertices [1/m]
+  double centre[3];      // of its vertices at rest [m]
+  double offset[12];     // of nodes 1 to 4, from there [m]
+  double gradient[12];   // a node moves as the mean of (1 + gradient . (X - centre)) u over the vertices [1/m]
   uint body_index;
-  uint parent;          // no_cluster above the root
+  uint vertex_count;
   uint first_leaf;
   uint end_leaf;
-  uint first_far;       // in `far_node`: nodes that its vertices see
+  uint first_far;        // in `far_cluster`: clusters whose node 0 it sees
+  uint first_far_four;   // and those of which it sees nodes 1 to 4
   uint end_far;
-  uint first_partner;   // in `far_cluster`: whose nodes these are
-  uint end_partner;
-  uint first_node_pull; // of its leaves, in `node_pull`, counted in three numbers
-  uint vertex_count;
+  uint first_pull;       // in rows of `node_pull`: what pulls its node 0
+  uint first_pull_four;  // and what pulls its nodes 1 to 4
+  uint end_pull;
 };
-
-// Of the nodes that stand for a cluster, which are one or four.
-FN uint first_node(uint nodes) { return nodes == 1u ? 0u : 1u; }
 
 // `spring_point` has two vectors a point: its place and how many vertices it stands for, then its displacement. Points are places in
 // trees, then nodes.
@@ -36,14 +35,21 @@ FN uint place_of_point(uint point) { return 2u * point; }
 FN uint displacement_of_point(uint point) { return 2u * point + 1u; }
 FN uint point_of_node(uint place_count, uint cluster, uint node) { return place_count + nodes_of_cluster * cluster + node; }
 
-// `leaf_moment` has 12 numbers a leaf: the sum of u [body's unit], then those of X.x u, X.y u and X.z u, with X from the leaf's centre
-// [unit squared]. `cluster_pull` has as many: what every vertex of the cluster gets [unit], then what it gets for X.x, X.y and X.z, with
-// X from the cluster's centre [1].
+// `leaf_moment` has 12 numbers a leaf: the sum of u [body's unit], then those of X.x u, X.y u and X.z u [unit squared]. `cluster_pull` has
+// as many: what every vertex of the cluster gets [unit], then what it gets for X.x, X.y and X.z [1]. X is a vertex's place at rest.
 const uint moments_size = 12u;
 const uint pulls_size = 15u;  // of all nodes of a cluster
 
-// `node_pull` has three numbers for each node that a leaf sees. Those of one node stand one leaf after another.
-FN uint node_pull_of(uint first, uint node, uint leaf_count, uint leaf) { return 3u * (first + node * leaf_count + leaf); }
+// Of the nodes that stand for a cluster, which are one or four.
+FN uint first_node(uint nodes) { return nodes == 1u ? 0u : 1u; }
+
+// `node_pull` has rows of 12 numbers: what a leaf pulls the four nodes of a cluster with, or what four leaves pull its node 0 with.
+const uint pull_row_size = 12u;
+FN uint leaf_of_pull(uint nodes) { return nodes == 1u ? 3u : pull_row_size; }  // numbers from one leaf's to the next leaf's
+
+// Memory that a group has in common stands in banks. [number][thread] with so many numbers from one row to the next meets all of them.
+const uint bank_row = 65u;
+const uint bank_moments = moments_size + 1u;
 
 SHARED_END
 #endif
