@@ -77,11 +77,17 @@ void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
   arrays.make("tableau", rows);
 }
 
-std::vector<std::optional<double>> accuracies_of(const Model& model) {
-  std::vector<std::optional<double>> accuracies;
-  for (const ModelBody& body : model.bodies)
-    accuracies.push_back(body.is_clustered ? std::optional(accuracy_of(force_tolerance_of(body))) : std::nullopt);
-  return accuracies;
+std::vector<std::optional<ListBasis>> bases_of(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed) {
+  std::vector<std::optional<ListBasis>> bases(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ChangedSums* const sums = changed.empty() ? nullptr : changed[b].get();
+    if (!model.bodies[b].is_clustered || (sums != nullptr && sums->are_direct)) continue;
+    if (sums != nullptr)
+      bases[b] = {sums->accuracy, sums->displacements};
+    else
+      bases[b] = {accuracy_of(force_tolerance_of(model.bodies[b])), {}};
+  }
+  return bases;
 }
 
 }  // namespace
@@ -102,7 +108,7 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
   if (std::ranges::any_of(model.bodies, &ModelBody::is_clustered))
-    cluster_forces_.emplace(bodies, model, accuracies_of(model));
+    cluster_forces_.emplace(bodies, model, bases_of(model, {}));
   else
     bodies.arrays.make<double>("spring_sum", 1);                                   // kernels on a processor name it in any case
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
@@ -141,6 +147,14 @@ void Stepper::use_tableaus(Stages stages) {
   }
   make_tableau(bodies_.arrays, std::move(rows));
   bodies_.set_tableau_rows(row_of_body);
+}
+
+void Stepper::change_sums(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed) {
+  const std::vector<std::optional<ListBasis>> bases = bases_of(model, changed);
+  std::vector<bool> are_direct(model.bodies.size());
+  for (std::size_t b = 0; b < are_direct.size(); ++b) are_direct[b] = !bases[b];
+  cluster_forces_ = ClusterForces(bodies_, model, bases);  // the old ones stay if this throws
+  bodies_.sum_directly(model, are_direct);
 }
 
 std::vector<Pass> Stepper::first_passes() const {

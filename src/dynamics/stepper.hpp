@@ -1,7 +1,9 @@
 // Records the dispatches of one step of an integrator, for every body together.
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "device/pass.hpp"
@@ -28,6 +30,12 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
+  /// Sums the springs of clustered bodies from here on as these say, one for each body. Where it is null, as the model says.
+  /// Passes that were recorded before do not hold any more. Throws Error as pair_clusters does.
+  void change_sums(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed);
+  /// Returns the sums of clustered bodies, or null if there are none.
+  [[nodiscard]] const ClusterForces* cluster_forces() const { return cluster_forces_ ? &*cluster_forces_ : nullptr; }
+
   /// Returns the passes that run once, before the first step.
   [[nodiscard]] std::vector<Pass> first_passes() const;
   /// Returns the passes that take the state in `from_half` one step on, into the other half, and bound every body there.
@@ -51,10 +59,6 @@ class Stepper {
   /// Whether the method keeps spring forces for the next step.
   [[nodiscard]] bool keeps_force() const { return staged_method(integrator_) == nullptr; }
   [[nodiscard]] std::uint32_t stage_count() const { return stage_count_; }
-  /// Returns how many springs stand for all of a clustered body's. 0: it is not clustered.
-  [[nodiscard]] std::uint64_t clustered_springs(std::size_t body) const {
-    return cluster_forces_ ? cluster_forces_->springs_of(body) : 0;
-  }
 
  private:
   /// Makes the method's tableau, or one for each rate of damping among the bodies.

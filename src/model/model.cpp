@@ -230,6 +230,7 @@ void append_copy(const ModelAndState& from, std::size_t index, ModelAndState& to
   to.state.motion.insert(to.state.motion.end(), motion, motion + std::ptrdiff_t{physics::motion_size} * body.vertex_count);
   to.state.poses.push_back(from.state.poses[index]);
   to.state.path_times.push_back(from.state.path_times.empty() ? 0 : from.state.path_times[index]);
+  to.state.changed_sums.push_back(from.state.changed_sums.empty() ? nullptr : from.state.changed_sums[index]);
   to.model.bodies.push_back(std::move(body));
 }
 
@@ -248,6 +249,7 @@ ModelAndState with_body(const ModelAndState& bodies, std::size_t index, const Bo
   for (std::size_t b = 0; b < index; ++b) append_copy(bodies, b, result);
   append_body(setup, gravity, result);
   result.state.path_times.push_back(0);
+  result.state.changed_sums.push_back(nullptr);
   for (std::size_t b = index; b < bodies.model.bodies.size(); ++b) append_copy(bodies, b, result);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -92,11 +93,19 @@ struct Material {
 /// Returns the same bodies with other materials, one for each body.
 [[nodiscard]] Model with_materials(Model model, std::span<const Material> materials);
 
+/// How the springs of a clustered body are summed since a check has found its forces too inexact.
+struct ChangedSums {
+  bool are_direct = false;                // one by one. Nothing below is known then
+  double accuracy = 0;                    // of lists of clusters (dynamics/clusters/cluster_pairs.hpp)
+  std::vector<glm::dvec3> displacements;  // of a shape that lists suit beside the rest shape [m]
+};
+
 /// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.
 struct State {
   std::vector<physics::Pose> poses;  // one for each body
   std::vector<double> motion;        // 6 for each vertex: u [m], w [m/s]
   std::vector<double> path_times;    // of scripted bodies on their own clocks, one for each body [s]; empty: all are 0
+  std::vector<std::shared_ptr<const ChangedSums>> changed_sums;  // one for each body, null if none have changed; empty: all are
 
   /// Return u [m] and w [m/s] of a vertex.
   [[nodiscard]] glm::dvec3 displacement(std::size_t vertex) const {

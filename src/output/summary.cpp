@@ -49,13 +49,17 @@ Json scripts_json(const Summary& summary) {
   return json;
 }
 
+Json clusters_json(const Summary& summary) {
+  if (!summary.clusters) return nullptr;
+  const auto& [largest_error, lists_made, energy_change, direct] = *summary.clusters;
+  return {{"largest_error", largest_error}, {"lists_made", lists_made}, {"energy_change", energy_change}, {"direct", direct}};
+}
+
 Json work_json(const Summary& summary) {
-  const auto& [force_evaluations, pair_interactions, nodes_refitted, node_tests, triangle_tests] = summary.work;
-  return {{"force_evaluations", force_evaluations},
-          {"pair_interactions", pair_interactions},
-          {"nodes_refitted", nodes_refitted},
-          {"node_tests", node_tests},
-          {"triangle_tests", triangle_tests}};
+  const auto& [force_evaluations, pair_interactions, nodes_refitted, node_tests, triangle_tests, cluster_checks] = summary.work;
+  return {{"force_evaluations", force_evaluations}, {"pair_interactions", pair_interactions},
+          {"nodes_refitted", nodes_refitted},       {"node_tests", node_tests},
+          {"triangle_tests", triangle_tests},       {"cluster_checks", cluster_checks}};
 }
 
 Json timings_json(const Summary& summary) {
@@ -81,6 +85,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"energy", energy_json(summary)},
                      {"contacts", contacts_json(summary)},
                      {"scripts", scripts_json(summary)},
+                     {"clusters", clusters_json(summary)},
                      {"bodies_asleep", summary.bodies_asleep},
                      {"final_intersecting_pairs", summary.final_intersecting_pairs},
                      {"non_finite", summary.non_finite},

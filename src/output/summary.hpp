@@ -53,6 +53,13 @@ struct Summary {
     std::uint64_t waits = 0;      // parts of steps in which it waited
   };
   std::vector<Script> scripts;                            // of scripted bodies
+  struct Clusters {
+    double largest_error = 0;         // of forces, relative, that a check left
+    std::uint64_t lists_made = 0;     // beside those for the rest shape
+    double energy_change = 0;         // that came with them [J]
+    std::vector<std::string> direct;  // bodies that went over to direct sums
+  };
+  std::optional<Clusters> clusters;                       // empty: no body is clustered
   std::uint64_t bodies_asleep = 0;                        // at the end
   std::optional<std::uint64_t> final_intersecting_pairs;  // empty if the state is not finite
   bool non_finite = false;
@@ -63,6 +70,7 @@ struct Summary {
     std::uint64_t nodes_refitted = 0;
     std::uint64_t node_tests = 0;
     std::uint64_t triangle_tests = 0;
+    std::uint64_t cluster_checks = 0;  // of one clustered body each
   } work;
   std::vector<std::string> warnings;  // before and after the run
   std::vector<Count> skipped;

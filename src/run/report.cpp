@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/version.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "dynamics/forces/force.hpp"
 #include "run/interrupts.hpp"
 #include "run/progress_bar.hpp"
@@ -158,6 +159,19 @@ std::vector<std::string> contact_troubles_of(const RunStatus& status) {
   return told;
 }
 
+std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
+  std::vector<std::string> told;
+  if (!status.report.clusters) return told;
+  for (const std::uint32_t b : status.report.clusters->direct) {
+    const ModelBody& body = status.run.start.model.bodies[b];
+    told.push_back(
+        fmt::format("all springs of \"{}\" were summed from then on when clusters could not meet its force_tolerance of "
+                    "{:.3g} in the shape that it had come to; that takes longer, and a larger tolerance may do",
+                    body.name, force_tolerance_of(body)));
+  }
+  return told;
+}
+
 Summary summary_of(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   const RunTimes& times = progress.times;
@@ -190,13 +204,18 @@ Summary summary_of(const RunStatus& status) {
                 .work_of_scripts = report.response.work_of_scripts};
   for (const ScriptReport& script : report.response.scripts)
     s.scripts.push_back({run.start.model.bodies[script.body].name, script.time, script.waited, script.waits});
+  if (const auto& clusters = report.clusters) {
+    s.clusters = {clusters->largest_error, clusters->lists_made, clusters->energy_change, {}};
+    for (const std::uint32_t body : clusters->direct) s.clusters->direct.push_back(run.start.model.bodies[body].name);
+  }
   s.energy.slept = report.energy_slept;
   s.bodies_asleep = report.bodies_asleep;
   s.non_finite = report.breakdown && !report.breakdown->is_finite;
   if (s.non_finite) s.energy.final = std::nan("");  // a sum over a non-finite state could still be finite
   if (!report.breakdown) s.final_intersecting_pairs = intersecting_pairs(run);
   s.interrupted = is_interrupted();
-  s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted, report.node_tests, report.triangle_tests};
+  s.work = {report.force_evaluations, report.pair_interactions, report.nodes_refitted,
+            report.node_tests,        report.triangle_tests,    report.clusters ? report.clusters->checks : 0};
   s.skipped = {{"force_evaluations", report.forces_skipped}, {"bodies_at_rest", report.steps_at_rest},
                {"bodies_asleep", report.steps_asleep},       {"quiet_steps", report.quiet_steps},
                {"body_pairs", report.body_pairs_skipped},    {"tree_refits", report.refits_skipped}};
@@ -210,6 +229,7 @@ Summary summary_of(const RunStatus& status) {
     s.pass_timings_ms.emplace_back(std::string(pass), 1e3 * seconds);
   s.warnings = run.warnings;
   for (std::string& trouble : contact_troubles_of(status)) s.warnings.push_back(std::move(trouble));
+  for (std::string& trouble : cluster_troubles_of(status)) s.warnings.push_back(std::move(trouble));
   if (const auto what = instability_of(status)) s.warnings.push_back(*what);
   s.version = version();
   return s;
@@ -255,6 +275,12 @@ void show_end(const RunStatus& status) {
                contacts.friction_work > 0 ? fmt::format(", of which friction {:.4g} J", contacts.friction_work) : "",
                contacts.energy_given,
                contacts.scripts.empty() ? "" : fmt::format("; scripted bodies gave {:.4g} J", contacts.work_of_scripts));
+  if (const auto& clusters = report.clusters)
+    fmt::print("forces of clustered bodies err by at most {:.2g} in {} checks{}\n", clusters->largest_error, clusters->checks,
+               clusters->lists_made > 0
+                   ? fmt::format("; clusters were listed anew {} times, which changed the energy by {:.3g} J",
+                                 clusters->lists_made, clusters->energy_change)
+                   : "");
   if (options.timings && report.steps > 0) show_timings(*run.simulation, report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }

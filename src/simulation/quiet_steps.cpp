@@ -22,7 +22,7 @@ std::uint32_t most_moving_shares(const DeviceBodies& bodies, const Stepper& step
 // A work group that may have to serve several shares makes fewer steps, so that a dispatch takes no longer.
 std::uint32_t most_of_groups_that_wait(const DeviceBodies& bodies, const Stepper& stepper, const Collider& collider) {
   const std::uint32_t shares =
-      std::min(static_cast<std::uint32_t>(bodies.shares.size()), most_moving_shares(bodies, stepper, collider));
+      std::min(static_cast<std::uint32_t>(bodies.shares().size()), most_moving_shares(bodies, stepper, collider));
   const std::uint32_t shares_of_a_group = (shares - 1) / stepper.quiet_group_count() + 1;
   return std::max(physics::most_quiet_steps / shares_of_a_group, physics::fewest_quiet_steps);
 }
@@ -32,7 +32,7 @@ std::uint32_t most_at_once(const DeviceBodies& bodies, const Stepper& stepper, c
   if (bodies.arrays.device().shares_at_once() > 0) return most_of_groups_that_wait(bodies, stepper, collider);
   constexpr std::uint64_t most_turns = 16384, turns_beside_a_sum = 32;
   std::uint64_t turns = 0;  // of one thread in a step
-  for (const physics::Share& share : bodies.shares.download())
+  for (const physics::Share& share : bodies.shares().download())
     turns += stepper.stage_count() * (share.body.vertex_count + turns_beside_a_sum);
   return static_cast<std::uint32_t>(turns == 0 ? 0 : std::min(most_turns / turns, std::uint64_t{4}));
 }
@@ -61,7 +61,7 @@ std::vector<Pass> passes_from(std::uint32_t half, const DeviceBodies& bodies, co
   if (bounding.empty()) return {};
   std::vector<Pass> passes = {
       beside_next(make_pass(bodies.arrays, "list_moving_shares", {{"most_shares", most_moving_shares(bodies, stepper, collider)}},
-                            static_cast<std::uint32_t>(bodies.shares.size())))};
+                            static_cast<std::uint32_t>(bodies.shares().size())))};
   std::ranges::copy(bounding, std::back_inserter(passes));
   passes.push_back(stepper.quiet_pass(half, span_of(collider)));
   const std::uint32_t pairs = collider.response() != nullptr ? collider.pair_count() : 0;

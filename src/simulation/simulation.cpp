@@ -36,21 +36,16 @@ void add_collision_counts(StepReport& report, const Control& control) {
   report.unsettled_contacts = total(control, physics::unsettled_contacts);
 }
 
-// Returns how many forces of one vertex on another, or on a node, a sum of the body's forces has.
-std::uint64_t interactions_of(const Stepper& stepper, const Model& model, std::size_t body) {
-  const std::uint64_t vertices = model.bodies[body].vertex_count;
-  return model.bodies[body].is_clustered ? 2 * stepper.clustered_springs(body) : vertices * (vertices - 1);
-}
-
-void add_force_counts(StepReport& report, const Model& model, const Stepper& stepper,
+void add_force_counts(StepReport& report, const Model& model, const ClusterWatch* watch,
                       const std::vector<physics::Tally>& tallies) {
   for (std::size_t b = 0; b < tallies.size(); ++b) {
-    report.force_evaluations += tallies[b].force_evaluations;
+    const std::uint64_t evaluations = tallies[b].force_evaluations, vertices = model.bodies[b].vertex_count;
+    report.force_evaluations += evaluations;
     report.forces_skipped += tallies[b].forces_skipped;
     report.frame_changes += tallies[b].frame_changes;
     report.steps_at_rest += tallies[b].steps_at_rest;
     report.steps_asleep += tallies[b].steps_asleep;
-    report.pair_interactions += tallies[b].force_evaluations * interactions_of(stepper, model, b);
+    report.pair_interactions += watch != nullptr ? watch->interactions(b, evaluations) : evaluations * vertices * (vertices - 1);
   }
 }
 
@@ -107,15 +102,30 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
     known_pace_ = pacer_->pace();
   }
   device.run(stepper_.first_passes());
+  if (stepper_.cluster_forces() != nullptr) {
+    watch_.emplace(bodies_, model_, stepper_, stepper_.stage_count());
+    if (!start.changed_sums.empty()) watch_->use(start.changed_sums);
+  }
   skip({});
 }
 
 void Simulation::skip(const Skipping& what) {
   bodies_.arrays.set_parameter("skips", (what.forces ? physics::skips_forces : 0) | (what.rest ? physics::skips_rest : 0));
   if (!what.rest) bodies_.look_at_bodies_at_rest();
+  skipped_ = what;
+  record();
+}
+
+void Simulation::record() {
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
   quiet_.reset();
-  if (what == Skipping{} && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
+  if (skipped_ == Skipping{} && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
+}
+
+void Simulation::watch(std::uint64_t steps) {
+  if (!watch_ || steps < watch_->next_check() || control().non_finite_step != 0) return;
+  if (watch_->check(steps, [this] { return state(); })) record();
+  known_control_.reset();
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -151,8 +161,27 @@ void Simulation::run(std::span<const Pass> passes) {
     device_.run(passes);
 }
 
+// Steps up to the next check at a time.
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
+  if (!watch_) return advance_unwatched(steps, stops);
+  const std::uint64_t target = whole_steps() + steps;
+  for (std::uint64_t made = whole_steps(); made < target && control().non_finite_step == 0;) {
+    watch(made);
+    const std::uint64_t wanted = std::min(target, watch_->next_check());
+    advance_unwatched(wanted - made, stops);
+    made = whole_steps();
+    if (made < wanted || (made < target && stops && stops())) return;
+  }
+  watch(whole_steps());
+}
+
+void Simulation::advance_part() {
+  if (watch_) watch(whole_steps());
+  queue(1);
+}
+
+void Simulation::advance_unwatched(std::uint64_t steps, const std::function<bool()>& stops) {
   if (parts() == nullptr && (!tries_quiet_steps() || steps < physics::fewest_quiet_steps)) return queue_in_batches(steps, stops);
   const std::uint64_t target = whole_steps() + steps;
   for (std::uint64_t left = steps; left > 0 && control().non_finite_step == 0;) {
@@ -202,7 +231,12 @@ void Simulation::add_parts(StepReport& report) const {
 StepReport Simulation::advance_toward(double time, std::uint64_t most_steps) {
   PLIANT_EXPECT(pacer_.has_value());
   pacer_->aim_at(time);
-  queue(steps_toward(time, known_pace_, most_steps));
+  std::uint64_t most = most_steps;
+  if (watch_) {
+    watch(known_pace_.accepted);
+    most = std::min(most, watch_->next_check() - known_pace_.accepted);
+  }
+  queue(steps_toward(time, known_pace_, most));
   return report();
 }
 
@@ -284,13 +318,24 @@ StepReport Simulation::report() {
   expect_groups_met(statuses);
   for (const physics::Status& status : statuses) report.bodies_asleep += status.asleep;
   add_slept(report, bodies_.arrays.get<double>("slept").download());
-  add_force_counts(report, model_, stepper_, bodies_.tallies.download());
+  add_force_counts(report, model_, watch_ ? &*watch_ : nullptr, bodies_.tallies.download());
+  if (watch_) report.clusters = watch_->report();
   return report;
 }
 
-State Simulation::state() { return bodies_.download(half()); }
+State Simulation::state() {
+  State state;
+  read_state(state);
+  return state;
+}
 
-void Simulation::read_state(State& into) { bodies_.download(half(), into); }
+void Simulation::read_state(State& into) {
+  bodies_.download(half(), into);
+  if (watch_)
+    into.changed_sums = watch_->changed_sums();
+  else
+    into.changed_sums.clear();
+}
 
 std::vector<glm::vec4> Simulation::world_positions() {
   return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
@@ -301,6 +346,7 @@ std::string Simulation::save() {
   saved.put(queued_steps_);
   write_arrays(device_, bodies_.arrays.carried(), saved);
   if (collider_.response() != nullptr) saved.put(collider_.response()->save());
+  if (watch_) watch_->save(saved);
   return saved.take();
 }
 
@@ -312,6 +358,10 @@ void Simulation::restore(std::string_view saved) {
   read_arrays(device_, bodies_.arrays.carried(), from);
   bodies_.begin_anew();
   if (collider_.response() != nullptr) collider_.response()->restore(from.get<std::string>());
+  if (watch_) {
+    watch_->restore(from);
+    record();
+  }
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();
 }

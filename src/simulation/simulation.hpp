@@ -16,6 +16,7 @@
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "scene/scene_description.hpp"
+#include "simulation/cluster_watch.hpp"
 #include "simulation/quiet_steps.hpp"
 #include "simulation/skipping.hpp"
 #include "simulation/step_passes.hpp"
@@ -57,10 +58,11 @@ struct StepReport {
   std::uint64_t reverted_vertices = 0;
   std::uint64_t substeps = 0;    // parts that steps of a fixed length fell into, beyond one each
   std::uint64_t held_parts = 0;  // parts of steps in which no body moved, because contacts were too many or not proven apart
-  std::uint64_t unsettled_contacts = 0;  // sum over the run of those that still changed in a kick's last round
-  ResponseReport response;               // what contacts gave and took
-  std::uint64_t force_evaluations = 0;   // one evaluation is all forces of one body
-  std::uint64_t pair_interactions = 0;   // N (N - 1) for each force evaluation, fewer if the body is clustered
+  std::uint64_t unsettled_contacts = 0;   // sum over the run of those that still changed in a kick's last round
+  ResponseReport response;                // what contacts gave and took
+  std::uint64_t force_evaluations = 0;    // one evaluation is all forces of one body
+  std::uint64_t pair_interactions = 0;    // N (N - 1) for each force evaluation, fewer if the body is clustered
+  std::optional<ClusterReport> clusters;  // empty: no body is clustered
   std::uint64_t nodes_refitted = 0, node_tests = 0, triangle_tests = 0;
   std::uint64_t quiet_steps = 0;            // whole steps made many at once (quiet_steps.hpp)
   std::uint64_t pairs_beyond_capacity = 0;  // leaf pairs that the list had no room for, so that trees were descended twice
@@ -97,7 +99,7 @@ class Simulation {
   /// it, perhaps in the midst of a step, where another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
-  void advance_part() { queue(1); }
+  void advance_part();
   /// With a tolerance: queues enough steps to reach `time` [s] if possible, but at most `most_steps`. Then it waits and
   /// reports. The step that reaches `time` ends there exactly, and queued steps after it are empty. The bits do not depend on
   /// how many steps are queued at a time.
@@ -157,6 +159,9 @@ class Simulation {
   void queue(std::uint64_t steps);
   void queue_in_batches(std::uint64_t steps, const std::function<bool()>& stops);
   void run(std::span<const Pass> passes);
+  void advance_unwatched(std::uint64_t steps, const std::function<bool()>& stops);
+  void record();  // the passes of a step
+  void watch(std::uint64_t steps);
   [[nodiscard]] bool tries_quiet_steps() const { return quiet_ && quiet_->are_known(); }
   [[nodiscard]] std::uint64_t whole_steps();  // that stand, since the start
   [[nodiscard]] std::uint64_t make_quiet_steps(std::uint64_t most);
@@ -169,11 +174,13 @@ class Simulation {
   DeviceBodies bodies_;
   Stepper stepper_;
   Collider collider_;
-  std::optional<Grip> grip_;                       // of the latest pull
-  std::optional<Pacer> pacer_;                     // empty: steps have a fixed length
-  physics::Pace known_pace_{};                     // of the latest report
-  double fixed_step_;                              // length of a step without a pacer [s]
-  std::optional<QuietSteps> quiet_;                // empty: what is known beforehand is not left out
+  std::optional<Grip> grip_;           // of the latest pull
+  std::optional<Pacer> pacer_;         // empty: steps have a fixed length
+  physics::Pace known_pace_{};         // of the latest report
+  double fixed_step_;                  // length of a step without a pacer [s]
+  std::optional<QuietSteps> quiet_;    // empty: what is known beforehand is not left out
+  std::optional<ClusterWatch> watch_;  // empty: no body is clustered
+  Skipping skipped_;
   std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
   std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
   std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps

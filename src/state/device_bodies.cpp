@@ -136,7 +136,6 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
       force_groups(group_shares(abilities_of(device), force_bodies_of(model, state), force_variants)),
       arrays(device),
-      shares(arrays.make("share", shares_of(device, model, force_variants, force_groups))),
       poses(arrays.make("pose", state.poses)),
       statuses(arrays.make("status", first_statuses(model))),
       tallies(arrays.make<physics::Tally>("tally", body_count)),
@@ -147,6 +146,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);
   arrays.set_parameter("skips", physics::skips_forces | physics::skips_rest);
+  arrays.make("share", shares_of(device, model, force_variants, force_groups));
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make("place_box", std::vector(body_count, empty_box()));
@@ -233,9 +233,24 @@ void DeviceBodies::set_time_step(double time_step) {
 }
 
 void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
-  std::vector<physics::Share> changed = shares.download();
+  std::vector<physics::Share> changed = shares().download();
   for (physics::Share& share : changed) share.tableau_row = rows[share.body_index];
-  shares.upload(changed);
+  shares().upload(changed);
+  tableau_rows_.assign(rows.begin(), rows.end());
+}
+
+// Dense bodies do not fit into one dispatch, so it does not matter which bodies move from the start.
+void DeviceBodies::sum_directly(const Model& model, const std::vector<bool>& bodies) {
+  std::vector<ForceBody> all;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const ModelBody& body = model.bodies[b];
+    all.push_back({body.vertex_count, !body.is_rigid(), !body.is_rigid(), body.is_clustered && !bodies[b]});
+  }
+  const ForceAbilities abilities = abilities_of(arrays.device());
+  const std::vector<std::size_t> variants = choose_force_variants(abilities, all);
+  force_groups = group_shares(abilities, all, variants);
+  arrays.make("share", shares_of(arrays.device(), model, variants, force_groups));
+  if (!tableau_rows_.empty()) set_tableau_rows(std::vector(tableau_rows_));
 }
 
 State DeviceBodies::download(std::uint32_t half) const {

@@ -27,7 +27,6 @@ struct DeviceBodies {
   std::uint32_t vertex_count = 0, body_count = 0;
   std::vector<ForceGroup> force_groups;
   Arrays arrays;  // these, and those that others make for the same simulation
-  DeviceArray<physics::Share>& shares;
   DeviceArray<physics::Pose>& poses;
   DeviceArray<physics::Status>& statuses;
   DeviceArray<physics::Tally>& tallies;
@@ -36,6 +35,7 @@ struct DeviceBodies {
   DeviceArray<physics::Control>& control;
   DeviceArray<physics::PathState>* path_states = nullptr;  // null without scripted bodies
 
+  [[nodiscard]] DeviceArray<physics::Share>& shares() const { return arrays.get<physics::Share>("share"); }
   /// Returns the place of a half's first vertex in motions and in world positions.
   [[nodiscard]] std::uint32_t first_of_half(std::uint32_t half) const { return physics::in_half(half, vertex_count, 0); }
   /// Returns the state in a half, from which another run may start.
@@ -53,12 +53,18 @@ struct DeviceBodies {
   void set_time_step(double time_step);
   /// Sets where each body's own tableau begins.
   void set_tableau_rows(std::span<const std::uint32_t> rows);
+  /// Has the device sum the springs of these bodies itself, and cuts bodies into other shares. Passes that were recorded before
+  /// do not hold any more.
+  void sum_directly(const Model& model, const std::vector<bool>& bodies);
   /// Has every stage be a dispatch of its own, or all stages one, if the variants can.
   void run_all_stages(bool at_once);
   /// Gives scripted bodies their paths, from these times on.
   void make_paths(const Model& model, const State& start);
   /// Makes room for placements, as many slots as the method needs.
   void make_placements(std::uint32_t slots);
+
+ private:
+  std::vector<std::uint32_t> tableau_rows_;  // of bodies; empty: all are 0
 };
 
 }  // namespace pliant

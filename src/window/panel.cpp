@@ -186,6 +186,11 @@ void tell_of_work(const Facts& facts, Wishes& wishes) {
   say("bodies asleep {:>19} skipped", report.steps_asleep);
   say("body pairs {:>22} skipped", report.body_pairs_skipped);
   say("tree refits{:>22} skipped", report.refits_skipped);
+  if (const auto& clusters = report.clusters) {
+    say("clusters' error{:>18.2g}", clusters->largest_error);
+    say("clusters listed {:>17} times anew", clusters->lists_made);
+    say("bodies all summed {:>15}", clusters->direct.size());
+  }
 }
 
 void choose_level(unsigned deepest, std::optional<unsigned>& level) {

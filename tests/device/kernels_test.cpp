@@ -302,7 +302,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   }
   const auto passes_of = [](const Bench& bench) {
     std::vector<Pass> passes = {make_pass(bench.bodies.arrays, "list_moving_shares", {{"most_shares", 2u}},
-                                          static_cast<std::uint32_t>(bench.bodies.shares.size()))};
+                                          static_cast<std::uint32_t>(bench.bodies.shares().size()))};
     std::ranges::copy(bench.collider.response()->before_quiet_steps(1), std::back_inserter(passes));
     passes.push_back(make_pass(bench.bodies.arrays, "end_quiet_steps", {{"pair_count", 1u}}, 2));
     passes.push_back(bench.collider.bounding_pass(1));
@@ -331,8 +331,8 @@ void compare_cluster_passes(std::set<std::string_view>& seen) {
   Bench cpu(make_cpu_device(2, 32), start, method, none), gpu(make_gpu_device(0), start, method, none);
   const auto passes_of = [&](Bench& bench) {
     std::vector<Pass> passes = bench.stepper.first_passes();
-    const ClusterForces forces(bench.bodies, start.model, std::vector<std::optional<double>>{1e-7});
-    std::ranges::copy(forces.passes(physics::start_slot, false), std::back_inserter(passes));
+    const ClusterForces forces(bench.bodies, start.model, std::vector{std::optional(ListBasis{1e-7})});
+    std::ranges::copy(forces.measuring_passes(physics::start_slot), std::back_inserter(passes));
     return passes;
   };
   SharedPhases phases;

@@ -39,6 +39,7 @@ TEST_CASE("a summary has every key that scripts rely on") {
                              "energy",
                              "contacts",
                              "scripts",
+                             "clusters",
                              "bodies_asleep",
                              "final_intersecting_pairs",
                              "non_finite",
@@ -52,7 +53,8 @@ TEST_CASE("a summary has every key that scripts rely on") {
   CHECK(json["energy"].keys() == Names{"initial", "final", "max_drift", "slept"});
   CHECK(json["contacts"].keys() == Names{"steps", "pairs_max", "reverted_vertices", "substeps", "held_parts", "energy_given",
                                          "energy_taken", "friction_work", "work_of_scripts"});
-  CHECK(json["work"].keys() == Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests"});
+  CHECK(json["work"].keys() ==
+        Names{"force_evaluations", "pair_interactions", "nodes_refitted", "node_tests", "triangle_tests", "cluster_checks"});
   CHECK(json["skipped"].is_object());
   CHECK(json["timings_ms"].is_object());
 }
@@ -78,6 +80,8 @@ TEST_CASE("a summary's values read back as they were") {
                       .friction_work = 0.125,
                       .work_of_scripts = 1.5};
   summary.scripts = {{"plate", 1.25, 0.5, 9}};
+  summary.clusters = {0.125, 3, 0.5, {"sphere"}};
+  summary.work.cluster_checks = 12;
   summary.work.triangle_tests = 99;
   summary.skipped = {{"forces", 3}, {"collision", 4}};
   summary.timings_ms = {{"step", 1.25}};
@@ -100,6 +104,10 @@ TEST_CASE("a summary's values read back as they were") {
   const ReadJson plate = json["scripts"]["plate"];
   CHECK((plate["time"] == 1.25 && plate["waited"] == 0.5 && plate["waits"] == 9));
   CHECK(json["work"]["triangle_tests"] == 99);
+  CHECK(json["work"]["cluster_checks"] == 12);
+  const ReadJson clusters = json["clusters"];
+  CHECK((clusters["largest_error"] == 0.125 && clusters["lists_made"] == 3 && clusters["energy_change"] == 0.5));
+  CHECK((clusters["direct"].size() == 1 && clusters["direct"][0] == "sphere"));
   CHECK(json["skipped"].keys() == std::vector<std::string>{"forces", "collision"});
   CHECK(json["timings_ms"]["step"] == 1.25);
   CHECK(json["timings_ms"]["passes"]["refit"] == 0.25);

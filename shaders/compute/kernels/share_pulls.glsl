@@ -25,9 +25,8 @@ void share_out(uint leaf, uint place, uint at) {
 }
 
 void share_pulls(uint tile) {
-  uint first_leaf = leaves_of_tile * tile;
   for (uint k = THREAD; k < leaves_of_tile * moments_size; k += THREADS) {
-    uint leaf = first_leaf + k / moments_size;
+    uint leaf = first_leaf + leaves_of_tile * tile + k / moments_size;
     double sum = double(0);
     if (sums_leaf(leaf))
       for (uint j = spring_leaf[leaf].w; j < spring_leaf[leaf + 1u].w; ++j)
@@ -36,8 +35,8 @@ void share_pulls(uint tile) {
   }
   MEET
   for (uint k = THREAD; k < places_of_tile; k += THREADS) {
-    uint leaf = first_leaf + k / leaf_size;
+    uint leaf = first_leaf + leaves_of_tile * tile + k / leaf_size;
     if (sums_leaf(leaf) && k % leaf_size < spring_cluster[spring_leaf[leaf].y].vertex_count)
-      share_out(leaf, places_of_tile * tile + k, moments_size * (k / leaf_size));
+      share_out(leaf, leaf_size * leaf + k % leaf_size, moments_size * (k / leaf_size));
   }
 }

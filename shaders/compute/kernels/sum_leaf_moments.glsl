@@ -33,12 +33,12 @@ void take_place(uint leaf, uint place, uint near_at) {
 
 void sum_leaf_moments(uint tile) {
   for (uint k = THREAD; k < places_of_tile; k += THREADS) {
-    uint place = places_of_tile * tile + k;
+    uint place = leaf_size * first_leaf + places_of_tile * tile + k;
     if (sums_leaf(place / leaf_size)) take_place(place / leaf_size, place, bank_moments * k);
   }
   MEET
   for (uint k = THREAD; k < leaves_of_tile * moments_size; k += THREADS) {
-    uint leaf = leaves_of_tile * tile + k / moments_size, first = bank_moments * leaf_size * (k / moments_size) + k % moments_size;
+    uint leaf = first_leaf + leaves_of_tile * tile + k / moments_size, first = bank_moments * leaf_size * (k / moments_size) + k % moments_size;
     if (!sums_leaf(leaf)) continue;
     double sum = double(0);
     for (uint v = 0u; v < leaf_size; ++v) sum += part[first + bank_moments * v];

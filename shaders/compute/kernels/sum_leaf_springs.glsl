@@ -17,7 +17,8 @@ PARAMETER(uint, place_count)
 #include "parts/sums_clusters.glsl"
 
 #ifdef __cplusplus
-void sum_leaf_springs(uint leaf) {
+void sum_leaf_springs(uint item) {
+  uint leaf = first_leaf + item;
   if (!sums_leaf(leaf)) return;
   const uvec4 begin = spring_leaf[leaf], end = spring_leaf[leaf + 1u];
   std::array<cpu::FarClusters, most_above> seen;
@@ -66,7 +67,8 @@ void sum_parts(uint first) {
   }
 }
 
-void sum_leaf_springs(uint leaf) {
+void sum_leaf_springs(uint item) {
+  uint leaf = first_leaf + item;
   if (!sums_leaf(leaf)) return;
   uvec4 begin = spring_leaf[leaf];
   uint near_end = spring_leaf[leaf + 1u].z, levels = spring_leaf[leaf + 1u].w - begin.w;

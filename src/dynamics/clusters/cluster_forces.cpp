@@ -2,6 +2,7 @@
 #include "dynamics/clusters/cluster_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/expect.hpp"
 #include "dynamics/clusters/cluster_pairs.hpp"
@@ -28,7 +29,7 @@ void store(double* to, const glm::dvec3& from) {
 
 physics::SpringCluster table_row(const Cluster& cluster) {
   physics::SpringCluster row{};
-  store(row.centre, cluster.centre);
+  store(row.centre, cluster.rest.centre);
   for (std::size_t n = 0; n < 4; ++n) {
     store(row.offset + 3 * n, cluster.nodes[n + 1].offset);
     store(row.gradient + 3 * n, cluster.nodes[n + 1].gradient);
@@ -39,7 +40,7 @@ physics::SpringCluster table_row(const Cluster& cluster) {
 
 class BodyTables {
  public:
-  BodyTables(Tables& tables, const Model& model, std::uint32_t body_index, double accuracy)
+  BodyTables(Tables& tables, const Model& model, std::uint32_t body_index, const ListBasis& basis)
       : tables_(tables),
         body_(model.bodies[body_index]),
         body_index_(body_index),
@@ -48,13 +49,22 @@ class BodyTables {
     std::vector<glm::dvec3> rest;
     for (std::uint32_t i = 0; i < body_.vertex_count; ++i) rest.push_back(model.rest_position(body_.first_vertex + i));
     tree_ = make_cluster_tree(rest);
-    pairs_ = pair_clusters(tree_, accuracy);
+    pairs_ = pair_clusters(tree_, basis.accuracy, extents_moved_by(tree_, rest, basis.displacements));
     add_leaves();
     add_clusters();
     set_places_of_pulls();
   }
 
   [[nodiscard]] std::uint64_t spring_count() const { return count_springs(tree_, pairs_).all(); }
+
+  // Returns vertices from all over the body, the same ones each time.
+  [[nodiscard]] std::vector<std::uint32_t> samples() const {
+    const std::uint64_t count = std::min<std::uint64_t>(physics::most_samples, tree_.order.size());
+    std::vector<std::uint32_t> vertices;
+    for (std::uint64_t s = 0; s < count; ++s)
+      vertices.push_back(body_.first_vertex + tree_.order[(2 * s + 1) * tree_.order.size() / (2 * count)]);
+    return vertices;
+  }
 
  private:
   void add_leaves() {
@@ -137,45 +147,122 @@ class BodyTables {
   ClusterPairs pairs_;
 };
 
+// Adds leaves of samples. Each comes parts_of_sample times, and sees a part of the body's leaves one by one.
+void add_samples(Tables& tables, std::uint32_t body, std::span<const std::uint32_t> samples, std::uint32_t first_leaf,
+                 std::uint32_t end_leaf) {
+  for (std::size_t first = 0; first < samples.size(); first += leaf_size) {
+    const std::size_t count = std::min<std::size_t>(leaf_size, samples.size() - first);
+    physics::SpringCluster cluster{};
+    cluster.body_index = body;
+    cluster.vertex_count = static_cast<std::uint32_t>(count);
+    for (std::uint32_t part = 0; part < physics::parts_of_sample; ++part) {
+      tables.leaves.emplace_back(body, tables.clusters.size(), tables.near_leaves.size(), tables.above_clusters.size());
+      for (std::size_t k = 0; k < leaf_size; ++k) tables.tree_vertices.push_back(samples[first + std::min(k, count - 1)]);
+      const auto begin_of = [&](std::uint64_t p) {
+        return first_leaf + static_cast<std::uint32_t>(p * (end_leaf - first_leaf) / physics::parts_of_sample);
+      };
+      for (std::uint32_t leaf = begin_of(part); leaf < begin_of(part + 1); ++leaf) tables.near_leaves.push_back(leaf);
+    }
+    tables.clusters.push_back(cluster);
+  }
+}
+
+std::uint32_t tiles_of(std::uint32_t leaves) { return (leaves + physics::leaves_of_tile - 1) / physics::leaves_of_tile; }
+
 }  // namespace
 
-ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<double>> accuracies)
-    : bodies_(bodies), springs_of_bodies_(model.bodies.size()) {
-  PLIANT_EXPECT(accuracies.size() == model.bodies.size());
+double ClusterErrors::relative() const {
+  constexpr double least_part = 0.05;  // of what clusters hand down
+  const double sampled = sum > 0 ? error / sum : 0, indicated = sum_of_all > 0 ? handed_down / sum_of_all : 0;
+  return std::max(sampled, least_part * indicated);
+}
+
+ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases)
+    : bodies_(&bodies), springs_of_bodies_(model.bodies.size()) {
+  PLIANT_EXPECT(bases.size() == model.bodies.size());
   Tables tables;
-  for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
-    if (accuracies[b]) springs_of_bodies_[b] = BodyTables(tables, model, b, *accuracies[b]).spring_count();
-  const auto leaf_count = static_cast<std::uint32_t>(tables.leaves.size());
+  std::vector<std::vector<std::uint32_t>> samples;
+  const auto leaf_count = [&] { return static_cast<std::uint32_t>(tables.leaves.size()); };
+  for (std::uint32_t b = 0; b < model.bodies.size(); ++b) {
+    if (!bases[b]) continue;
+    Leaves leaves{
+        .body = b, .vertices = model.bodies[b].vertex_count, .first = leaf_count(), .end = 0, .first_sample = 0, .end_sample = 0};
+    const BodyTables added(tables, model, b, *bases[b]);
+    springs_of_bodies_[b] = added.spring_count();
+    leaves.end = leaf_count();
+    leaves_of_bodies_.push_back(leaves);
+    samples.push_back(added.samples());
+  }
+  leaf_count_ = leaf_count();
   cluster_count_ = static_cast<std::uint32_t>(tables.clusters.size());
-  leaf_count_ = leaf_count;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Leaves& leaves = leaves_of_bodies_[k];
+    leaves.first_sample = leaf_count();
+    add_samples(tables, leaves.body, samples[k], leaves.first, leaves.end);
+    leaves.end_sample = leaf_count();
+  }
+  leaves_and_samples_ = leaf_count();
   tables.leaves.emplace_back(0, 0, tables.near_leaves.size(), tables.above_clusters.size());
-  const std::uint32_t place_count = leaf_size * leaf_count;
+  const std::uint32_t place_count = leaf_size * leaves_and_samples_;
   Arrays& arrays = bodies.arrays;
   arrays.set_parameter("place_count", place_count);
-  arrays.set_parameter("leaf_count", leaf_count);
   arrays.make("tree_vertex", tables.tree_vertices);
   arrays.make("spring_cluster", tables.clusters);
   arrays.make("spring_leaf", tables.leaves);
   arrays.make("near_leaf", tables.near_leaves);
   arrays.make("above_cluster", tables.above_clusters);
   arrays.make("far_cluster", tables.far_clusters);
-  arrays.make_reals("spring_point", std::size_t{8} * (place_count + physics::nodes_of_cluster * cluster_count_));
-  arrays.make<double>("leaf_moment", std::size_t{physics::moments_size} * leaf_count);
+  arrays.make_reals("spring_point", std::size_t{8} * (place_count + std::size_t{physics::nodes_of_cluster} * cluster_count_));
+  arrays.make<double>("leaf_moment", std::size_t{physics::moments_size} * leaves_and_samples_);
   arrays.make_reals("leaf_pull", std::size_t{3} * place_count);
   arrays.make_reals("node_pull", std::size_t{physics::pull_row_size} * tables.pull_row_count);
   arrays.make<double>("cluster_pull", std::size_t{physics::moments_size} * cluster_count_);
+  arrays.make<double>("leaf_square", std::size_t{3} * leaves_and_samples_);
   arrays.make<double>("spring_sum", std::size_t{3} * bodies.vertex_count);
 }
 
 std::vector<Pass> ClusterForces::passes(std::uint32_t slot, bool only_stale) const {
-  const Arrays& arrays = bodies_.arrays;
-  const auto pass = [&](std::string_view name, std::uint32_t items, Parameters parameters = {}) {
-    parameters.emplace_back("only_stale", only_stale ? 1u : 0u);
+  const auto group_pass = [&](std::string_view name, std::uint32_t items, Parameters parameters = {}) {
+    parameters.insert(parameters.end(), {{"only_stale", only_stale ? 1u : 0u}, {"first_leaf", 0u}, {"end_leaf", leaf_count_}});
+    return make_pass(bodies_->arrays, name, bodies_->arrays.device().group_kernel(name, physics::group_size), parameters, items);
+  };
+  return {group_pass("sum_leaf_moments", tiles_of(leaf_count_), {{"slot", slot}}), group_pass("place_nodes", cluster_count_),
+          group_pass("sum_leaf_springs", leaf_count_), group_pass("sum_node_pulls", cluster_count_),
+          group_pass("share_pulls", tiles_of(leaf_count_))};
+}
+
+std::vector<Pass> ClusterForces::measuring_passes(std::uint32_t slot) const {
+  const Arrays& arrays = bodies_->arrays;
+  const auto of_samples = [&](std::string_view name, std::uint32_t items, Parameters parameters = {}) {
+    parameters.insert(parameters.end(), {{"only_stale", 0u}, {"first_leaf", leaf_count_}, {"end_leaf", leaves_and_samples_}});
     return make_pass(arrays, name, arrays.device().group_kernel(name, physics::group_size), parameters, items);
   };
-  const std::uint32_t tile_count = (leaf_count_ + physics::leaves_of_tile - 1) / physics::leaves_of_tile;
-  return {pass("sum_leaf_moments", tile_count, {{"slot", slot}}), pass("place_nodes", cluster_count_),
-          pass("sum_leaf_springs", leaf_count_), pass("sum_node_pulls", cluster_count_), pass("share_pulls", tile_count)};
+  std::vector<Pass> all = passes(slot, false);
+  all.push_back(of_samples("sum_leaf_moments", tiles_of(leaves_and_samples_ - leaf_count_), {{"slot", slot}}));
+  all.push_back(of_samples("sum_leaf_springs", leaves_and_samples_ - leaf_count_));
+  const Parameters parameters = {
+      {"only_stale", 0u}, {"first_leaf", 0u}, {"end_leaf", leaves_and_samples_}, {"first_sample", leaf_count_}};
+  all.push_back(make_pass(arrays, "square_sums", parameters, leaves_and_samples_));
+  return all;
+}
+
+std::vector<ClusterErrors> ClusterForces::errors() const {
+  const std::vector<double> squares = bodies_->arrays.get<double>("leaf_square").download();
+  const auto rms = [&](std::uint32_t first, std::uint32_t end, std::uint32_t which, std::size_t vertices) {
+    double sum = 0;
+    for (std::uint32_t leaf = first; leaf < end; ++leaf) sum += squares[std::size_t{3} * leaf + which];
+    return std::sqrt(sum / static_cast<double>(vertices));
+  };
+  std::vector<ClusterErrors> errors(springs_of_bodies_.size());
+  for (const Leaves& of : leaves_of_bodies_) {
+    const std::size_t vertices = of.vertices, samples = std::min<std::size_t>(physics::most_samples, vertices);
+    errors[of.body] = {.error = rms(of.first_sample, of.end_sample, 0, samples),
+                       .sum = rms(of.first_sample, of.end_sample, 1, samples),
+                       .size = rms(of.first_sample, of.end_sample, 2, samples),
+                       .handed_down = rms(of.first, of.end, 0, vertices),
+                       .sum_of_all = rms(of.first, of.end, 1, vertices)};
+  }
+  return errors;
 }
 
 }  // namespace pliant

@@ -1,6 +1,7 @@
 // Records the passes that sum the springs of clustered bodies on a device.
 #pragma once
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,22 +12,49 @@
 
 namespace pliant {
 
+/// What the lists of a clustered body are made for, as pair_clusters() has it.
+struct ListBasis {
+  double accuracy = 0;
+  std::span<const glm::dvec3> displacements = {};  // of a shape beside the rest shape [m]; empty: there is none
+};
+
+/// How inexact a body's sums are: root mean squares over vertices, in the body's unit.
+struct ClusterErrors {
+  double error = 0, sum = 0, size = 0;     // over sampled vertices: of the error, of the sum, of the sum of its parts' sizes
+  double handed_down = 0, sum_of_all = 0;  // over all vertices: of what clusters hand down, and of the sum
+
+  /// Returns the error over the sum. Where few vertices carry most of a force, no sample may show that. Then it is a twentieth of
+  /// what clusters hand down, for it has never been less where something was measured.
+  [[nodiscard]] double relative() const;
+};
+
 class ClusterForces {
  public:
-  /// Makes the arrays. `accuracies` has one for each body that is clustered (cluster_pairs.hpp). `bodies` must outlive this.
-  ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<double>> accuracies);
+  /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this.
+  ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases);
 
   /// Returns passes that set `spring_sum` at the placements in a slot, for clustered bodies that move and are deformed. With
   /// `only_stale` they leave out bodies whose kept forces still hold. Sums of all others are undefined.
   [[nodiscard]] std::vector<Pass> passes(std::uint32_t slot, bool only_stale) const;
 
+  /// Returns passes that do the same for a stage, and then measure errors.
+  [[nodiscard]] std::vector<Pass> measuring_passes(std::uint32_t slot) const;
+  /// Returns what those have measured, one for each body. It means nothing for bodies whose springs they have not summed.
+  [[nodiscard]] std::vector<ClusterErrors> errors() const;
+
   /// Returns how many springs a sum of this body's has. 0: it is not clustered.
   [[nodiscard]] std::uint64_t springs_of(std::size_t body) const { return springs_of_bodies_[body]; }
 
  private:
-  const DeviceBodies& bodies_;
+  // Leaves of samples stand behind all others.
+  struct Leaves {
+    std::uint32_t body, vertices, first, end, first_sample, end_sample;
+  };
+
+  const DeviceBodies* bodies_;
   std::vector<std::uint64_t> springs_of_bodies_;
-  std::uint32_t leaf_count_ = 0, cluster_count_ = 0;
+  std::vector<Leaves> leaves_of_bodies_;
+  std::uint32_t leaf_count_ = 0, leaves_and_samples_ = 0, cluster_count_ = 0;
 };
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -27,13 +28,14 @@ void flatten(const std::vector<std::vector<T>>& lists, std::vector<std::uint32_t
 
 class Walk {
  public:
-  Walk(const ClusterTree& tree, double accuracy)
+  Walk(const ClusterTree& tree, double accuracy, std::span<const Extent> shape)
       : clusters_(tree.clusters),
+        shape_(shape),
         accuracy_(accuracy),
         weight_of_one_node_(weight_of_one_node(accuracy)),
         near_(tree.leaves.size()),
         far_(tree.clusters.size()) {
-    PLIANT_EXPECT(accuracy > 0);
+    PLIANT_EXPECT(accuracy > 0 && (shape.empty() || shape.size() == clusters_.size()));
     meet_itself(0);
   }
 
@@ -59,7 +61,7 @@ class Walk {
 
   void meet(std::uint32_t a, std::uint32_t b) {
     const Cluster &first = clusters_[a], &second = clusters_[b];
-    if (const std::uint32_t nodes = nodes_between(first, second); nodes > 0) {
+    if (const std::uint32_t nodes = nodes_between(a, b); nodes > 0) {
       if (saves_work(first, second, nodes)) {
         far_[a].push_back({b, nodes});
         far_[b].push_back({a, nodes});
@@ -68,7 +70,7 @@ class Walk {
       }
     } else if (first.is_leaf() && second.is_leaf()) {
       meet_closely(first, second);
-    } else if (second.is_leaf() || (!first.is_leaf() && first.radius >= second.radius)) {
+    } else if (second.is_leaf() || (!first.is_leaf() && first.rest.radius >= second.rest.radius)) {
       meet(first.first_child, b);
       meet(first.first_child + 1, b);
     } else {
@@ -77,15 +79,25 @@ class Walk {
     }
   }
 
-  // Returns how many nodes a side are exact enough, or 0 if none are.
-  [[nodiscard]] std::uint32_t nodes_between(const Cluster& a, const Cluster& b) const {
+  // Returns the product of both spreads over the distance squared, or nothing if they reach each other.
+  static std::optional<double> spread_between(const Extent& a, const Extent& b) {
     const glm::dvec3 way = a.centre - b.centre;
     const double squared = glm::dot(way, way), radii = a.radius + b.radius;
-    if (squared == 0 || radii * radii > squared) return 0;
-    const double spread = a.spread_squared / squared * (b.spread_squared / squared);
-    const double share = static_cast<double>(std::max(a.size(), b.size())) / clusters_[0].size();
-    if (weight_of_one_node_ * share * spread <= accuracy_) return 1;
-    return share * spread * spread <= accuracy_ ? 4 : 0;
+    if (squared == 0 || radii * radii > squared) return {};
+    return a.spread_squared / squared * (b.spread_squared / squared);
+  }
+
+  // Returns how many nodes a side are exact enough, or 0 if none are.
+  [[nodiscard]] std::uint32_t nodes_between(std::uint32_t a, std::uint32_t b) const {
+    std::optional<double> spread = spread_between(clusters_[a].rest, clusters_[b].rest);
+    if (spread && !shape_.empty()) {
+      const std::optional<double> in_shape = spread_between(shape_[a], shape_[b]);
+      spread = in_shape ? std::optional(std::max(*spread, *in_shape)) : std::nullopt;
+    }
+    if (!spread) return 0;
+    const double share = static_cast<double>(std::max(clusters_[a].size(), clusters_[b].size())) / clusters_[0].size();
+    if (weight_of_one_node_ * share * *spread <= accuracy_) return 1;
+    return share * *spread * *spread <= accuracy_ ? 4 : 0;
   }
 
   static bool saves_work(const Cluster& a, const Cluster& b, std::uint32_t nodes) {
@@ -104,6 +116,7 @@ class Walk {
   }
 
   const std::vector<Cluster>& clusters_;
+  std::span<const Extent> shape_;
   double accuracy_, weight_of_one_node_;
   std::vector<std::vector<std::uint32_t>> near_;
   std::vector<std::vector<FarCluster>> far_;
@@ -112,7 +125,9 @@ class Walk {
 
 }  // namespace
 
-ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy) { return Walk(tree, accuracy).take(); }
+ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy, std::span<const Extent> shape) {
+  return Walk(tree, accuracy, shape).take();
+}
 
 SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs) {
   SpringCounts counts;

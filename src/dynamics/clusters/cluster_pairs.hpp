@@ -8,6 +8,7 @@
 // the exact gradient of that energy, so that they add up to no force and no torque. Nodes move as means of their vertices.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dynamics/clusters/cluster_tree.hpp"
@@ -36,9 +37,10 @@ struct SpringCounts {
   [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
 };
 
-/// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. Throws Error (input) if so many vertices share a
+/// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. With `shape`, clusters are far from each other
+/// only if they are in that shape, too. It has the extent of each cluster there. Throws Error (input) if so many vertices share a
 /// place that lists would get too long.
-[[nodiscard]] ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy);
+[[nodiscard]] ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy, std::span<const Extent> shape = {});
 
 [[nodiscard]] SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs);
 

@@ -27,8 +27,8 @@ void for_all(ThreadPool& pool, std::size_t count, const std::function<void(std::
 
 }  // namespace
 
-ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy)
-    : tree_(make_cluster_tree(rest)), pairs_(pair_clusters(tree_, accuracy)) {
+ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy, std::span<const glm::dvec3> shape)
+    : tree_(make_cluster_tree(rest)), pairs_(pair_clusters(tree_, accuracy, extents_moved_by(tree_, rest, shape))) {
   for (const std::uint32_t v : tree_.order) rest_.push_back(rest[v]);
 }
 
@@ -49,7 +49,7 @@ std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const
   for_all(pool, shared.size(), [&](std::uint32_t c) { shared[c] = shared_by(points, c); });
   for (std::size_t c = 1; c < shared.size(); ++c) {  // parents come first
     const Shared& above = shared[tree_.clusters[c].parent];
-    const glm::dvec3 way = tree_.clusters[c].centre - tree_.clusters[tree_.clusters[c].parent].centre;
+    const glm::dvec3 way = tree_.clusters[c].rest.centre - tree_.clusters[tree_.clusters[c].parent].rest.centre;
     shared[c].force += above.force + above.slope * way;
     shared[c].slope += above.slope;
   }
@@ -59,7 +59,7 @@ std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const
     const Shared& above = shared[tree_.leaves[leaf]];
     for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
       forces[tree_.order[place]] =
-          force_on_vertex(points, leaf, place) + above.force + above.slope * (rest_[place] - cluster.centre);
+          force_on_vertex(points, leaf, place) + above.force + above.slope * (rest_[place] - cluster.rest.centre);
   });
   return forces;
 }
@@ -76,16 +76,16 @@ ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> dis
     Shared& of_cluster = moments[c];
     const auto add = [&](const glm::dvec3& sum, const glm::dmat3& moment, const glm::dvec3& place) {
       of_cluster.force += sum;
-      of_cluster.slope += moment + glm::outerProduct(sum, place - cluster.centre);
+      of_cluster.slope += moment + glm::outerProduct(sum, place - cluster.rest.centre);
     };
     if (cluster.is_leaf())
       for (std::uint32_t p = cluster.first; p < cluster.end; ++p) add(points.vertices[p].displacement, glm::dmat3(0.0), rest_[p]);
     else
       for (const std::uint32_t child : {cluster.first_child, cluster.first_child + 1})
-        add(moments[child].force, moments[child].slope, tree_.clusters[child].centre);
+        add(moments[child].force, moments[child].slope, tree_.clusters[child].rest.centre);
     for (std::uint32_t n = 0; n < node_count; ++n) {
       const ClusterNode& node = cluster.nodes[n];
-      points.nodes[c][n] = {cluster.centre + node.offset,
+      points.nodes[c][n] = {cluster.rest.centre + node.offset,
                             (of_cluster.force + of_cluster.slope * node.gradient) / static_cast<double>(cluster.size())};
     }
   }

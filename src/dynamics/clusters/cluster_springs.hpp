@@ -16,8 +16,9 @@ namespace pliant {
 /// Sums have the same bits on any number of threads.
 class ClusterSprings {
  public:
-  /// `rest` are positions at rest [m], at least one. pair_clusters() says what `accuracy` is.
-  ClusterSprings(std::span<const glm::dvec3> rest, double accuracy);
+  /// `rest` are positions at rest [m], at least one. pair_clusters() says what `accuracy` is. With `shape`, lists suit a shape
+  /// with these displacements [m], too.
+  ClusterSprings(std::span<const glm::dvec3> rest, double accuracy, std::span<const glm::dvec3> shape = {});
 
   /// Returns the energy of the body over its stiffness [m^2]. `displacements` are those of the vertices [m].
   [[nodiscard]] double energy(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;

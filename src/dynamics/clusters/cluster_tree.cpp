@@ -17,6 +17,19 @@ struct Axes {
   std::array<double, 3> spread;         // root of the mean square along them [m]
 };
 
+Extent extent_of(std::span<const glm::dvec3> positions, std::span<const std::uint32_t> vertices) {
+  Extent extent;
+  for (const std::uint32_t v : vertices) extent.centre += positions[v];
+  extent.centre /= static_cast<double>(vertices.size());
+  for (const std::uint32_t v : vertices) {
+    const glm::dvec3 arm = positions[v] - extent.centre;
+    extent.radius = std::max(extent.radius, glm::length(arm));
+    extent.spread_squared += glm::dot(arm, arm);
+  }
+  extent.spread_squared /= static_cast<double>(vertices.size());
+  return extent;
+}
+
 class Builder {
  public:
   explicit Builder(std::span<const glm::dvec3> rest) : rest_(rest), keys_(rest.size()) {
@@ -33,7 +46,7 @@ class Builder {
   void serve(std::uint32_t c) {
     Cluster cluster = tree_.clusters[c];
     const std::span<std::uint32_t> vertices(tree_.order.data() + cluster.first, cluster.size());
-    measure(cluster, vertices);
+    cluster.rest = extent_of(rest_, vertices);
     const Axes axes = axes_of(cluster, vertices);
     place_nodes(cluster, axes);
     if (cluster.size() > leaf_size) {
@@ -54,21 +67,10 @@ class Builder {
     return leaves / 2 * leaf_size;
   }
 
-  void measure(Cluster& cluster, std::span<const std::uint32_t> vertices) const {
-    for (const std::uint32_t v : vertices) cluster.centre += rest_[v];
-    cluster.centre /= static_cast<double>(vertices.size());
-    for (const std::uint32_t v : vertices) {
-      const glm::dvec3 arm = rest_[v] - cluster.centre;
-      cluster.radius = std::max(cluster.radius, glm::length(arm));
-      cluster.spread_squared += glm::dot(arm, arm);
-    }
-    cluster.spread_squared /= static_cast<double>(vertices.size());
-  }
-
   Axes axes_of(const Cluster& cluster, std::span<const std::uint32_t> vertices) const {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (const std::uint32_t v : vertices) {
-      const glm::dvec3 arm = rest_[v] - cluster.centre;
+      const glm::dvec3 arm = rest_[v] - cluster.rest.centre;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j <= i; ++j) moment(i, j) += arm[i] * arm[j];
     }
@@ -86,7 +88,7 @@ class Builder {
     constexpr int corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     for (int a = 0; a < 4; ++a)
       for (int m = 0; m < 3; ++m) {
-        if (axes.spread[m] <= 1e-3 * cluster.radius) continue;
+        if (axes.spread[m] <= 1e-3 * cluster.rest.radius) continue;
         cluster.nodes[a + 1].offset += corners[a][m] * axes.spread[m] * axes.direction[m];
         cluster.nodes[a + 1].gradient += corners[a][m] / axes.spread[m] * axes.direction[m];
       }
@@ -107,6 +109,18 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<Extent> extents_moved_by(const ClusterTree& tree, std::span<const glm::dvec3> rest,
+                                     std::span<const glm::dvec3> displacements) {
+  if (displacements.empty()) return {};
+  PLIANT_EXPECT(displacements.size() == rest.size() && rest.size() == tree.order.size());
+  std::vector<glm::dvec3> positions(rest.begin(), rest.end());
+  for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += displacements[v];
+  std::vector<Extent> extents;
+  for (const Cluster& cluster : tree.clusters)
+    extents.push_back(extent_of(positions, std::span(tree.order).subspan(cluster.first, cluster.size())));
+  return extents;
+}
 
 ClusterTree make_cluster_tree(std::span<const glm::dvec3> rest) {
   PLIANT_EXPECT(!rest.empty());

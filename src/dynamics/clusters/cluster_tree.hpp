@@ -21,14 +21,19 @@ struct ClusterNode {
   glm::dvec3 gradient{0.0};  // [1/m]
 };
 
+/// Where vertices stand, and how far from each other.
+struct Extent {
+  glm::dvec3 centre{0.0};     // their mean [m]
+  double radius = 0;          // from there to the farthest one [m]
+  double spread_squared = 0;  // mean square of the distances from there [m^2]
+};
+
 /// Vertices that follow each other in a tree's order. They begin where a leaf begins.
 struct Cluster {
   std::uint32_t first = 0, end = 0;
   std::uint32_t parent = 0;            // the root is its own
   std::uint32_t first_child = 0;       // the other one follows. 0: it is a leaf
-  glm::dvec3 centre{0.0};              // of its vertices [m]
-  double radius = 0;                   // from there to the farthest vertex [m]
-  double spread_squared = 0;           // mean square of the distances from there [m^2]
+  Extent rest{};                       // of its vertices at rest
   std::array<ClusterNode, 5> nodes{};  // the centre, which can stand for all vertices, then four which can together
 
   [[nodiscard]] bool is_leaf() const { return first_child == 0; }
@@ -46,5 +51,10 @@ struct ClusterTree {
 
 /// `rest` are positions at rest [m], at least one.
 [[nodiscard]] ClusterTree make_cluster_tree(std::span<const glm::dvec3> rest);
+
+/// Returns the extent of each cluster of the tree where its vertices are moved by these displacements [m]. Returns nothing if
+/// there are none.
+[[nodiscard]] std::vector<Extent> extents_moved_by(const ClusterTree& tree, std::span<const glm::dvec3> rest,
+                                                   std::span<const glm::dvec3> displacements);
 
 }  // namespace pliant

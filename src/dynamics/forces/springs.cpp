@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,7 @@ class SpringEnergies {
       : sum_of_springs_(elongation_sum(cpu::available_isas().back())),
         energies_(model.vertex_count()),
         is_known_(model.bodies.size()),
+        changed_sums_(model.bodies.size()),
         clustered_(model.bodies.size()) {
     for (int axis = 0; axis < 3; ++axis) {
       moved_[axis].resize(model.vertex_count() + elongation_lanes);
@@ -44,7 +46,7 @@ class SpringEnergies {
       for (; first < end; ++first) sum_rows(model, tasks[first], question.stopped && question.stopped());
     });
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
-      if (model.bodies[b].is_clustered && !is_known_[b]) sum_clusters(question, b);
+      if (is_clustered(model, b) && !is_known_[b]) sum_clusters(question, b);
     double sum = 0;
     for (const double energy : energies_) sum += energy;
     std::ranges::fill(is_known_, !std::isnan(sum));
@@ -59,9 +61,24 @@ class SpringEnergies {
 
   void note_changes(const Model& model, const State& state, ThreadPool& pool) {
     pool.for_ranges(static_cast<std::uint32_t>(model.bodies.size()), 16, [&](std::uint32_t first, std::uint32_t end) {
-      for (std::uint32_t b = first; b < end; ++b)
-        if (move(model.bodies[b], state)) is_known_[b] = false;
+      for (std::uint32_t b = first; b < end; ++b) {
+        const bool has_moved = move(model.bodies[b], state), has_other_sums = note_sums(b, state);
+        if (has_moved || has_other_sums) is_known_[b] = false;
+      }
     });
+  }
+
+  // Returns whether springs are summed in another way.
+  bool note_sums(std::size_t b, const State& state) {
+    std::shared_ptr<const ChangedSums> sums = state.changed_sums.empty() ? nullptr : state.changed_sums[b];
+    if (sums == changed_sums_[b]) return false;
+    changed_sums_[b] = std::move(sums);
+    clustered_[b].reset();
+    return true;
+  }
+
+  bool is_clustered(const Model& model, std::size_t b) const {
+    return model.bodies[b].is_clustered && !(changed_sums_[b] && changed_sums_[b]->are_direct);
   }
 
   // Returns whether a bit has changed.
@@ -80,7 +97,7 @@ class SpringEnergies {
     std::vector<Rows> tasks;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       const ModelBody& body = model.bodies[b];
-      if (body.is_rigid() || body.is_clustered || is_known_[b]) continue;
+      if (body.is_rigid() || is_clustered(model, b) || is_known_[b]) continue;
       const std::uint32_t end = body.first_vertex + body.vertex_count;
       for (std::uint32_t first = body.first_vertex; first < end; first = tasks.back().end)
         tasks.push_back({first, first + std::min(end - first, springs_of_task / (end - first) + 1)});
@@ -109,15 +126,19 @@ class SpringEnergies {
       rest.push_back(question.model.rest_position(i));
       displacements.push_back(question.state.displacement(i));
     }
-    if (!clustered_[b]) clustered_[b].emplace(rest, accuracy_of(force_tolerance_of(body)));
+    if (!clustered_[b] && changed_sums_[b])
+      clustered_[b].emplace(rest, changed_sums_[b]->accuracy, changed_sums_[b]->displacements);
+    else if (!clustered_[b])
+      clustered_[b].emplace(rest, accuracy_of(force_tolerance_of(body)));
     energy = body.stiffness * clustered_[b]->energy(question.pool, displacements);
   }
 
   ElongationSum sum_of_springs_;
-  std::vector<double> rest_[3], moved_[3];                // as SpringEnds has them
-  std::vector<double> energies_;                          // of each vertex's springs to later vertices of its body [J]
-  std::vector<std::uint8_t> is_known_;                    // whether a body's energies are those of `moved_`
-  std::vector<std::optional<ClusterSprings>> clustered_;  // by bodies
+  std::vector<double> rest_[3], moved_[3];                        // as SpringEnds has them
+  std::vector<double> energies_;                                  // of each vertex's springs to later vertices of its body [J]
+  std::vector<std::uint8_t> is_known_;                            // whether a body's energies are those of `moved_`
+  std::vector<std::shared_ptr<const ChangedSums>> changed_sums_;  // by bodies, of the latest question
+  std::vector<std::optional<ClusterSprings>> clustered_;          // by bodies
 };
 
 double spring_energy(const EnergyQuestion& question) {

@@ -38,10 +38,10 @@ ModelAndState several_bodies() {
   return build_model(setups, glm::dvec3(0.0));
 }
 
-std::vector<std::optional<double>> accuracies_of(const Model& model) {
-  std::vector<std::optional<double>> accuracies(model.bodies.size(), tested_accuracy);
-  accuracies[1].reset();
-  return accuracies;
+std::vector<std::optional<ListBasis>> bases_of(const Model& model) {
+  std::vector<std::optional<ListBasis>> bases(model.bodies.size(), ListBasis{tested_accuracy});
+  bases[1].reset();
+  return bases;
 }
 
 std::vector<glm::dvec3> rest_positions_of(const Model& model, const ModelBody& body) {
@@ -77,7 +77,7 @@ struct Sums {
 Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false) {
   DeviceBodies bodies(device, start.model, start.state);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-  const ClusterForces forces(bodies, start.model, accuracies_of(start.model));
+  const ClusterForces forces(bodies, start.model, bases_of(start.model));
   device.run(stepper.first_passes());
   device.run(forces.passes(physics::start_slot, only_stale));
   return {bodies.arrays.get<double>("spring_sum").download()};
@@ -132,7 +132,7 @@ TEST_CASE("springs of clustered bodies are summed again if a stage asks for it, 
     CAPTURE(test.name);
     DeviceBodies bodies(*test.device, start.model, start.state);
     const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-    const ClusterForces forces(bodies, start.model, accuracies_of(start.model));
+    const ClusterForces forces(bodies, start.model, bases_of(start.model));
     test.device->run(stepper.first_passes());
     auto& sums = bodies.arrays.get<double>("spring_sum");
     const auto numbers_after = [&](bool only_stale) {

@@ -71,8 +71,8 @@ TEST_CASE("clusters cover every vertex once, and their nodes move with them in l
       for (const ClusterNode& node : cluster.nodes) {
         glm::dvec3 moved(0.0), mean(0.0);
         for (std::uint32_t place = cluster.first; place < cluster.end; ++place) {
-          const glm::dvec3 arm = rest[tree.order[place]] - cluster.centre;
-          CHECK(glm::length(arm) <= cluster.radius * (1 + 1e-12));
+          const glm::dvec3 arm = rest[tree.order[place]] - cluster.rest.centre;
+          CHECK(glm::length(arm) <= cluster.rest.radius * (1 + 1e-12));
           mean += arm;
           moved += (1 + glm::dot(node.gradient, arm)) * (motion * arm);
         }
@@ -104,7 +104,7 @@ TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides l
       for (std::uint32_t k = pairs.far_begin[c]; k < pairs.far_begin[c + 1]; ++k, ++far_pairs) {
         const Cluster &first = tree.clusters[c], &second = tree.clusters[pairs.far[k].cluster];
         cover(first, second);
-        CHECK(first.radius + second.radius <= glm::length(first.centre - second.centre));
+        CHECK(first.rest.radius + second.rest.radius <= glm::length(first.rest.centre - second.rest.centre));
         counts.far += std::uint64_t{first.size()} * pairs.far[k].nodes;
         counts.between_nodes += std::uint64_t{pairs.far[k].nodes} * pairs.far[k].nodes;
         far_springs += std::uint64_t{first.size()} * second.size();

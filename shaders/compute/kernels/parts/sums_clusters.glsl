@@ -2,7 +2,8 @@
 // deformed are zero, and nobody reads its sums.
 PARAMETER(uint, only_stale)
 PARAMETER(uint, skips)
-PARAMETER(uint, leaf_count)  // of all bodies
+PARAMETER(uint, first_leaf)
+PARAMETER(uint, end_leaf)  // of those that are served
 
 bool sums_clusters(uint b) {
   bool is_deformed = status[b].deformed != 0u || (skips & skips_forces) == 0u;
@@ -11,4 +12,4 @@ bool sums_clusters(uint b) {
 }
 
 // The same for a leaf of a tile, which may be none.
-bool sums_leaf(uint leaf) { return leaf < leaf_count && sums_clusters(spring_leaf[leaf].x); }
+bool sums_leaf(uint leaf) { return leaf < end_leaf && sums_clusters(spring_leaf[leaf].x); }

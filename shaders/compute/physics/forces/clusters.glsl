@@ -11,6 +11,8 @@ const uint leaf_size = 16u;          // vertices, as many as the widest vectors 
 const uint leaves_of_tile = 4u;      // which one group serves where there is little to do for each
 const uint places_of_tile = leaves_of_tile * leaf_size;
 const uint nodes_of_cluster = 5u;    // the first one can stand for all vertices, the other four together
+const uint most_samples = 256u;       // vertices of a body whose springs are all summed now and then
+const uint parts_of_sample = 16u;     // a leaf of them comes so often, each time with a part of the body's leaves near it
 const uint most_above = 40u;         // clusters that hold a leaf, in a tree of 2^32 vertices, and more
 
 struct SpringCluster {

@@ -1,0 +1,294 @@
+// Bodies whose springs are summed by clusters move as others do, and are watched.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "bench/dense/deformations.hpp"
+#include "bench/dense/exact_forces.hpp"
+#include "dynamics/clusters/cluster_pairs.hpp"
+#include "dynamics/clusters/cluster_springs.hpp"
+#include "dynamics/clusters/force_sums.hpp"
+#include "mesh/generators.hpp"
+#include "support/device_bench.hpp"
+#include "support/evolve.hpp"
+#include "support/impulse_scene.hpp"
+
+namespace pliant {
+namespace {
+
+constexpr double allowed_error = 1e-3;
+
+const CollisionDescription no_contacts = {.response = {"none"}};
+
+ModelAndState sphere_of(int level, const std::vector<glm::dvec3>& displacements = {}) {
+  ModelAndState start = build_model(std::vector{soft(generate_mesh("icosphere:" + std::to_string(level)), "sphere")}, {0, 0, 0});
+  for (std::uint32_t i = 0; i < displacements.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      start.state.motion[physics::displacement_of(i) + static_cast<std::size_t>(k)] = displacements[i][k];
+  return start;
+}
+
+std::vector<glm::dvec3> rest_of(const Model& model) {
+  std::vector<glm::dvec3> rest;
+  for (std::uint32_t i = 0; i < model.vertex_count(); ++i) rest.push_back(model.rest_position(i));
+  return rest;
+}
+
+// A sphere of radius 1 in one of the deformations of the suite `dense`.
+ModelAndState deformed_sphere(int level, std::string_view name) {
+  const ModelAndState sphere = sphere_of(level);
+  for (const bench::Deformation& deformation : bench::deformations_of(rest_of(sphere.model)))
+    if (deformation.name == name) return sphere_of(level, deformation.displacements);
+  throw std::logic_error("no such deformation");
+}
+
+ModelAndState clustered(ModelAndState start, std::size_t body = 0) {
+  start.model.bodies[body].forces = ForceSum::clustered;
+  start.model.bodies[body].force_tolerance = allowed_error;
+  start.model.bodies[body].is_clustered = true;
+  return start;
+}
+
+std::vector<glm::dvec3> displacements_of(const State& state) {
+  std::vector<glm::dvec3> displacements;
+  for (std::uint32_t i = 0; i < state.motion.size() / physics::motion_size; ++i) displacements.push_back(state.displacement(i));
+  return displacements;
+}
+
+double size_of(const std::vector<glm::dvec3>& vectors) { return distance(vectors, std::vector(vectors.size(), glm::dvec3(0.0))); }
+
+// As a rule 15 times the error of forces after 200 radians. These are far fewer.
+TEST_CASE("a clustered body moves as one with all springs, by every kind of method", "[gl]") {
+  const ModelAndState start = deformed_sphere(3, "dent");
+  for (const TestDevice& test : all_devices())
+    for (const Method& method :
+         {Method{"verlet", 0.2 / omega}, Method{"verlet", 0.2 / omega, DampingLaw::internal}, Method{"srkn11b", 0.2 / omega},
+          Method{"rk4", 0.2 / omega, DampingLaw::constant}, Method{"cv8", 0.5 / omega, DampingLaw::adaptive}}) {
+      CAPTURE(test.name, method.integrator);
+      ModelAndState damped = start;
+      if (method.law != DampingLaw::none) damped.model.bodies[0].damping = 1e-4;
+      const std::uint64_t steps = 10;
+      const State direct = evolve(*test.device, damped, method, steps);
+      const State by_clusters = evolve(*test.device, clustered(damped), method, steps);
+      const std::vector<glm::dvec3> exact = displacements_of(direct), near = displacements_of(by_clusters);
+      CHECK(distance(near, exact) > 0);
+      CHECK(distance(near, exact) < 5 * allowed_error * size_of(exact));
+      CHECK(distance(near, displacements_of(start.state)) > 0.1 * size_of(exact));  // it has moved
+    }
+}
+
+TEST_CASE("a clustered body goes on to the bit on any number of threads, and from a saved state", "[gl]") {
+  const ModelAndState start = clustered(deformed_sphere(3, "flat"));  // which needs other lists at once
+  const TimePlan plan = plan_of({"verlet", 0.1 / omega});
+  std::vector<std::vector<double>> motions;
+  for (const unsigned threads : {1u, 2u, 7u}) {
+    const auto device = make_cpu_device(threads, 32);
+    Simulation simulation(*device, start.model, start.state, plan, no_contacts);
+    simulation.advance(150);
+    motions.push_back(simulation.state().motion);
+  }
+  CHECK(std::ranges::count(motions, motions.front()) == 3);
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Simulation whole(*test.device, start.model, start.state, plan, no_contacts);
+    whole.advance(20);
+    whole.advance(130);
+    for (const std::uint64_t steps : {0u, 20u, 64u, 70u}) {
+      Simulation first(*test.device, start.model, start.state, plan, no_contacts);
+      first.advance(steps);
+      const std::string saved = first.save();
+      Simulation second(*test.device, start.model, start.state, plan, no_contacts);
+      second.restore(saved);
+      second.advance(150 - steps);
+      CHECK(second.state().motion == whole.state().motion);
+      CHECK(second.report() == whole.report());
+    }
+    REQUIRE(whole.report().clusters->lists_made > 0);
+  }
+}
+
+TEST_CASE("steps with a tolerance are checked after the same steps, however many are queued at a time") {
+  const ModelAndState start = clustered(deformed_sphere(3, "flat"));
+  Adaptive adaptive;
+  adaptive.integrator = "dprkn8";
+  const TimePlan plan = plan_of(adaptive, start.model);
+  const auto device = make_cpu_device(2, 64);
+  std::vector<std::vector<double>> motions;
+  for (const std::uint64_t at_once : {1u, 5u, 32u}) {
+    Simulation simulation(*device, start.model, start.state, plan, no_contacts);
+    while (simulation.report().time < 0.5) static_cast<void>(simulation.advance_toward(0.5, at_once));
+    motions.push_back(simulation.state().motion);
+    CHECK(simulation.report().clusters->checks > 1);
+  }
+  CHECK(std::ranges::count(motions, motions.front()) == 3);
+}
+
+// Both are undamped. Verlet's energy swings with the steps, whatever the springs.
+TEST_CASE("the energy of a clustered body drifts as that of all springs, and momenta are kept") {
+  const auto device = make_cpu_device(2, 64);
+  const ModelAndState start = deformed_sphere(4, "dent");
+  const TimePlan plan = plan_of({"verlet", 0.2 / omega});
+  ThreadPool pool(2);
+  const auto drift_of = [&](const ModelAndState& body) {
+    Simulation simulation(*device, body.model, body.state, plan, no_contacts);
+    Meter meter(body.model);
+    const double first = meter.measure(body.state, {0, 0, 0}, pool).energy();
+    double drift = 0;
+    for (int k = 0; k < 100; ++k) {
+      simulation.advance(10);
+      const Measurement now = meter.measure(simulation.state(), {0, 0, 0}, pool);
+      drift = std::max(drift, std::abs(now.energy() / first - 1));
+      CHECK(glm::length(now.momentum) < 1e-12 * omega);
+      CHECK(glm::length(now.angular_momentum) < 1e-12 * omega);
+    }
+    return std::pair(drift, simulation.report());
+  };
+  const auto [of_all, direct_report] = drift_of(start);
+  const auto [of_clusters, report] = drift_of(clustered(start));
+  CHECK(of_all > 1e-3);
+  CHECK(of_clusters == Approx(of_all).epsilon(0.1));
+  CHECK_FALSE(direct_report.clusters.has_value());
+  REQUIRE(report.clusters.has_value());
+  CHECK(report.clusters->checks == 16);
+  CHECK(report.clusters->largest_error < allowed_error);
+  CHECK(report.pair_interactions < direct_report.pair_interactions / 4);
+}
+
+// The clustered body's own solution is as smooth as that of all springs.
+TEST_CASE("a method of order 8 has it with clusters, too") {
+  const auto device = make_cpu_device(2, 64);
+  const auto order_for = [&](const ModelAndState& start) {
+    const auto at_end = [&](std::uint64_t steps) {
+      return displacements_of(evolve(*device, start, {"cv8", 4.0 / omega / static_cast<double>(steps)}, steps));
+    };
+    const std::vector<glm::dvec3> exact = at_end(64);
+    const double coarse = distance(at_end(8), exact), fine = distance(at_end(16), exact);
+    CHECK(coarse < 1e-6 * size_of(exact));
+    return std::log2(coarse / fine);
+  };
+  const ModelAndState start = deformed_sphere(3, "smooth 0.01");
+  const double of_all = order_for(start), of_clusters = order_for(clustered(start));
+  CHECK(of_all > 7.3);
+  CHECK(of_clusters == Approx(of_all).margin(0.1));
+}
+
+// A host sums with the same lists as the device, and all springs.
+TEST_CASE("a body that is crushed or poked through has small errors at every check, or goes over to all springs", "[gl]") {
+  const auto device = make_cpu_device(2, 32);
+  ThreadPool pool(2);
+  for (const char* name : {"flat", "poke"}) {
+    const ModelAndState start = clustered(deformed_sphere(4, name));
+    const ModelBody& body = start.model.bodies[0];
+    const std::vector<glm::dvec3> rest = rest_of(start.model);
+    Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 0.1 / omega}), no_contacts);
+    for (int check = 0; check < 12; ++check) {
+      simulation.advance(64);
+      const State state = simulation.state();
+      const std::shared_ptr<const ChangedSums> sums = state.changed_sums[0];
+      CAPTURE(name, check);
+      if (sums && sums->are_direct) {
+        CHECK(simulation.report().clusters->direct == std::vector<std::uint32_t>{0});
+        break;
+      }
+      const ClusterSprings springs = sums ? ClusterSprings(rest, sums->accuracy, sums->displacements)
+                                          : ClusterSprings(rest, accuracy_of(force_tolerance_of(body)));
+      const std::vector<glm::dvec3> displacements = displacements_of(state), forces = springs.forces(pool, displacements);
+      const bench::ExactForces exact(pool, rest, displacements, 300);
+      CHECK(exact.error_of([&](std::size_t i) { return forces[i]; }) < 3 * allowed_error);
+    }
+    CHECK(simulation.report().clusters->lists_made > 0);
+    CHECK(simulation.report().clusters->energy_change > 0);
+  }
+}
+
+// Neighbours that move apart at random leave an error that no lists take away.
+TEST_CASE("a body whose vertices scatter too much goes over to all springs, and then moves as one that had them", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    ModelAndState start = clustered(deformed_sphere(4, "dephased 0.1"));
+    start.model.bodies[0].force_tolerance = 1e-4;
+    const TimePlan plan = plan_of({"verlet", 0.1 / omega});
+    Simulation simulation(*test.device, start.model, start.state, plan, no_contacts);
+    simulation.advance(10);
+    REQUIRE(simulation.report().clusters->direct == std::vector<std::uint32_t>{0});
+    const State direct = evolve(*test.device, deformed_sphere(4, "dephased 0.1"), {"verlet", 0.1 / omega}, 10);
+    CHECK(distance(displacements_of(simulation.state()), displacements_of(direct)) <
+          1000 * test.rounding * size_of(displacements_of(direct)));
+    Simulation again(*test.device, start.model, start.state, plan, no_contacts);
+    again.restore(simulation.save());
+    simulation.advance(20);
+    again.advance(20);
+    CHECK(again.state().motion == simulation.state().motion);
+  }
+}
+
+TEST_CASE("a clustered body with pressure falls on others and the floor, which move as they do beside all springs", "[gl]") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:3"), "large"), soft(generate_mesh("icosphere:1"), "small"),
+                                   soft(generate_mesh("icosphere:2"), "far away")};
+  setups[0].description.position = {0, 1.05, 0};
+  setups[0].description.velocity = {0, -1, 0};
+  setups[0].description.pressure = 20;
+  setups[1].description.scale = 0.3;
+  setups[1].description.position = {0, 2.4, 0};
+  setups[1].description.velocity = {0, -2, 0};
+  setups[2].description.position = {9, 2, 0};
+  setups[2].description.stretch = {1.1, 1, 1};
+  const GroundDescription floor;
+  const ModelAndState start = build_model(setups, {0, -9.81, 0}, {&floor, 1});
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    const TimePlan plan = plan_of({"verlet", 0.05 / omega, DampingLaw::internal});
+    const ModelAndState with_clusters = clustered(start);
+    Simulation simulation(*test.device, with_clusters.model, with_clusters.state, plan, by_impulses);
+    Simulation all_springs(*test.device, start.model, start.state, plan, by_impulses);
+    for (Simulation* one : {&simulation, &all_springs}) one->advance(test.name == "gpu" ? 60 : 150);
+    CHECK_FALSE(simulation.report().breakdown.has_value());
+    CHECK(simulation.report().contact_steps > 0);
+    CHECK(simulation.intersections().pairs == 0);
+    const State state = simulation.state(), direct = all_springs.state();
+    for (const ModelBody& body : start.model.bodies) {
+      glm::dvec3 way(0.0);  // from one body's centre to the other's
+      for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
+        way += state.world_position(start.model, i) - direct.world_position(start.model, i);
+      CAPTURE(body.name);
+      CHECK(glm::length(way) / body.vertex_count < (body.name == "far away" ? 1e-6 : 0.01));
+    }
+  }
+}
+
+TEST_CASE("a clustered body at rest, or in rigid motion, sums no springs and is not checked", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    ModelAndState start = clustered(sphere_of(2));
+    set_velocities(start, [](const glm::dvec3&) { return glm::dvec3(1, 0, 0); });
+    Simulation simulation(*test.device, start.model, start.state, plan_of({"verlet", 0.1 / omega}), no_contacts);
+    simulation.advance(100);
+    CHECK(simulation.report().clusters->checks == 0);
+    CHECK(simulation.report().force_evaluations == 0);
+    CHECK(simulation.report().forces_skipped > 99);
+  }
+}
+
+TEST_CASE("which bodies are clustered follows from keys, size and device") {
+  BodySetup setup = soft(generate_mesh("icosphere:4"), "sphere");
+  const auto is_clustered = [&](ForceSum forces, std::optional<double> by, DeviceKind device) {
+    setup.description.forces = forces;
+    setup.description.force_tolerance = by;
+    Model model = build_model({&setup, 1}, {0, 0, 0}).model;
+    choose_force_sums(model, device);
+    return model.bodies[0].is_clustered;
+  };
+  for (const DeviceKind device : {DeviceKind::cpu, DeviceKind::gpu}) {
+    CHECK_FALSE(is_clustered(ForceSum::automatic, {}, device));
+    CHECK_FALSE(is_clustered(ForceSum::direct, 1e-3, device));
+    CHECK(is_clustered(ForceSum::clustered, {}, device));
+  }
+  CHECK(is_clustered(ForceSum::automatic, 1e-3, DeviceKind::cpu));
+  CHECK_FALSE(is_clustered(ForceSum::automatic, 1e-3, DeviceKind::gpu));  // 2,562 vertices are too few
+  setup.description.kind = BodyKind::immovable;
+  CHECK_FALSE(is_clustered(ForceSum::clustered, {}, DeviceKind::cpu));
+}
+
+}  // namespace
+}  // namespace pliant
