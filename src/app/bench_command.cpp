@@ -135,7 +135,8 @@ int measure_collision(const BenchOptions& options) {
 }
 
 int measure_dense(const BenchOptions& options) {
-  const bench::DenseOptions asked{.devices = selection_of(options), .quick = options.quick};
+  if (!options.quick) bench::expect_scenes(options.scenes);
+  const bench::DenseOptions asked{.devices = selection_of(options), .scenes = options.scenes, .quick = options.quick};
   return measure_and_write(options, asked, bench::bench_dense);
 }
 

@@ -271,8 +271,10 @@ void add_bench(CLI::App& program, app::BenchOptions& options) {
   add_device_suite(
       *bench, options, app::BenchSuite::collision, "collision",
       "Finding all pairs of triangles that touch, beside other libraries' trees, and steps in contact by their passes");
-  add_device_suite(*bench, options, app::BenchSuite::dense, "dense",
-                   "Springs of dense bodies by clusters: errors for how many springs, and times beside all springs");
+  CLI::App* dense =
+      add_device_suite(*bench, options, app::BenchSuite::dense, "dense",
+                       "Springs of dense bodies by clusters: errors for how many springs, and times beside all springs");
+  dense->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny beside it (default scenes)");
   CLI::App* drops = add_device_suite(*bench, options, app::BenchSuite::drops, "drops",
                                      "Soft bodies that fall on a floor, beside Bullet's: time, space, volume and energy");
   drops->add_option("--scenes", options.scenes, "Folder of scenes, for the bunny beside it (default scenes)");

@@ -15,8 +15,12 @@
 #include "core/stopwatch.hpp"
 #include "dynamics/clusters/cluster_forces.hpp"
 #include "dynamics/clusters/cluster_springs.hpp"
+#include "dynamics/stability.hpp"
 #include "dynamics/stepper.hpp"
 #include "mesh/generators.hpp"
+#include "mesh/obj.hpp"
+#include "mesh/subdivide.hpp"
+#include "simulation/simulation.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -24,13 +28,25 @@ namespace {
 constexpr double longest_direct_sum = 2;  // [s]
 constexpr std::uint32_t sample_count = 300;
 
-std::string sphere_name(int level) { return fmt::format("icosphere:{}", level); }
+struct Shape {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+Shape sphere(int level) {
+  const std::string name = fmt::format("icosphere:{}", level);
+  return {name, generate_mesh(name)};
+}
+
+Shape bunny_split_twice(const std::filesystem::path& scenes) {
+  return {"bunny split twice", subdivide(load_obj(scenes.parent_path() / "meshes" / "bunny.obj").mesh, 2)};
+}
 
 // Measures errors of one mesh.
 class ErrorsOf {
  public:
-  explicit ErrorsOf(std::string mesh)
-      : mesh_(std::move(mesh)), rest_(scaled_to_radius_1(generate_mesh(mesh_).positions)), deformations_(deformations_of(rest_)) {
+  explicit ErrorsOf(const Shape& shape)
+      : mesh_(shape.name), rest_(scaled_to_radius_1(shape.mesh.positions)), deformations_(deformations_of(rest_)) {
     for (const Deformation& deformation : deformations_)
       exact_.emplace_back(pool_, rest_, deformation.displacements, sample_count);
   }
@@ -71,8 +87,9 @@ std::vector<glm::dvec3> rest_of(const Model& model) {
 // Measures sums of one body's forces at one place, first of all springs.
 class SumsOf {
  public:
-  SumsOf(Device& device, const Place& place, const Effort& effort, const ModelAndState& body)
-      : device_(device),
+  SumsOf(Device& device, const Place& place, const Effort& effort, const ModelAndState& body, std::string mesh)
+      : mesh_(std::move(mesh)),
+        device_(device),
         place_(place),
         effort_(effort),
         model_(body.model),
@@ -97,6 +114,7 @@ class SumsOf {
     DenseForceRow row{.device = place_.device,
                       .precision = place_.precision,
                       .threads = place_.threads,
+                      .mesh = mesh_,
                       .vertices = model_.vertex_count(),
                       .tolerance = tolerance,
                       .direct_seconds_per_sum = direct_seconds_};
@@ -117,6 +135,7 @@ class SumsOf {
   }
 
  private:
+  std::string mesh_;
   Device& device_;
   const Place& place_;
   const Effort& effort_;
@@ -130,21 +149,14 @@ class SumsOf {
   double direct_seconds_ = 0;  // 0: not measured
 };
 
-struct ErrorCase {
-  int level;  // of the icosphere
-  double accuracy;
-};
-
-std::vector<ErrorCase> error_cases(bool quick) {
-  if (quick) return {{3, 1e-6}, {4, 1e-7}};
-  return {{6, 1e-6}, {6, 1e-7}, {6, 1e-8}, {6, 1e-9}, {7, 1e-7}};
-}
-
 class Suite {
  public:
   Suite(const DenseOptions& options, const Progress& progress)
       : quick_(options.quick), progress_(progress), places_(places_of(options.devices, std::array{32, 64})) {
-    steps_ = error_cases(quick_).size() + places_.size() * bodies_of_all_sizes().size();
+    for (const int level : quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8}) shapes_.push_back(sphere(level));
+    if (!quick_) shapes_.push_back(bunny_split_twice(options.scenes));
+    std::ranges::stable_sort(shapes_, {}, [](const Shape& shape) { return shape.mesh.positions.size(); });
+    steps_ = shapes_.size() * (1 + places_.size());
   }
 
   DenseResult run() {
@@ -160,13 +172,20 @@ class Suite {
     return !result_.interrupted;
   }
 
+  // Exact forces on a larger body would take minutes.
+  static std::vector<double> accuracies_for(const Shape& shape) {
+    const std::size_t vertices = shape.mesh.positions.size();
+    if (vertices > 200'000) return {};
+    return vertices > 20'000 && vertices < 100'000 ? std::vector{1e-6, 1e-7, 1e-8, 1e-9} : std::vector{1e-7};
+  }
+
   void measure_errors() {
-    int level = -1;
-    std::optional<ErrorsOf> errors;
-    for (const ErrorCase& next : error_cases(quick_)) {
-      if (!goes_on(fmt::format("errors of {}", sphere_name(next.level)))) return;
-      if (next.level != std::exchange(level, next.level)) errors.emplace(sphere_name(next.level));
-      errors->measure(next.accuracy, result_.rows);
+    for (const Shape& shape : shapes_) {
+      if (!goes_on("errors of " + shape.name)) return;
+      const std::vector<double> accuracies = accuracies_for(shape);
+      if (accuracies.empty()) continue;
+      ErrorsOf errors(shape);
+      for (const double accuracy : accuracies) errors.measure(accuracy, result_.rows);
     }
   }
 
@@ -174,31 +193,47 @@ class Suite {
     static_cast<void>(multiply_adds_per_second(device, place, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
   }
 
-  [[nodiscard]] std::vector<int> bodies_of_all_sizes() const { return quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8}; }
-
   void measure_sums(const Place& place) {
     if (result_.interrupted) return;
     const std::unique_ptr<Device> device = open(place);
     const Effort effort = quick_ ? quick_effort : Effort{};
     raise_clocks(*device, place);
     double seconds_per_pair = 0;  // of a sum of all springs, by the largest body so far
-    for (const int level : bodies_of_all_sizes()) {
-      const std::string what = fmt::format("{}, {}", name_of(place), sphere_name(level));
+    for (const Shape& shape : shapes_) {
+      const std::string what = fmt::format("{}, {}", name_of(place), shape.name);
       if (!goes_on(what)) return;
-      const ModelAndState body = deformed_body(generate_mesh(sphere_name(level)));
+      const ModelAndState body = deformed_body(shape.mesh);
       const double pairs = std::pow(body.model.vertex_count(), 2), expected = seconds_per_pair * pairs;
-      SumsOf sums(*device, place, effort, body);
+      SumsOf sums(*device, place, effort, body, shape.name);
       if (expected > longest_direct_sum)
         result_.notes.push_back(fmt::format("{}: all springs left out, as a sum would take about {:.2g} s", what, expected));
       else
         seconds_per_pair = sums.measure_direct() / pairs;
-      for (const double tolerance : quick_ ? std::vector{1e-3} : std::vector{1e-3, 1e-4})
-        result_.forces.push_back(sums.measure(tolerance));
+      const double direct_step = measured_step(*device, effort, body, {}, 11 * expected);
+      for (const double tolerance : quick_ ? std::vector{1e-3} : std::vector{1e-3, 1e-4}) {
+        DenseForceRow& row = result_.forces.emplace_back(sums.measure(tolerance));
+        row.direct_seconds_per_step = direct_step;
+        row.seconds_per_step = measured_step(*device, effort, body, tolerance, 11 * row.seconds_per_sum);
+      }
     }
+  }
+
+  // Returns the time of a step by cv8, or 0 if one would take long.
+  static double measured_step(Device& device, const Effort& effort, ModelAndState body, std::optional<double> tolerance,
+                              double expected) {
+    if (expected > longest_direct_sum) return 0;
+    ModelBody& only = body.model.bodies.front();
+    only.force_tolerance = tolerance;
+    only.is_clustered = tolerance.has_value();
+    const Integrator& cv8 = find_integrator("cv8");
+    const TimePlan plan{.integrator = &cv8, .time_step = 0.1 * step_bound(cv8, only, DampingLaw::none)};
+    Simulation simulation(device, body.model, body.state, plan, {.response = {"none"}});
+    return seconds_each(device, effort, [&] { simulation.advance(1); }).median;
   }
 
   bool quick_;
   const Progress& progress_;
+  std::vector<Shape> shapes_;
   std::vector<Place> places_;
   std::size_t steps_ = 0, done_ = 0;
   DenseResult result_;

@@ -2,6 +2,7 @@
 // of them takes, beside that of all springs.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ namespace pliant::bench {
 
 struct DenseOptions {
   Selection devices;
+  std::filesystem::path scenes = "scenes";  // the bunny lies beside this folder, in meshes
   bool quick = false;
 };
 
@@ -29,14 +31,17 @@ struct DenseForceRow {
   DeviceKind device = DeviceKind::cpu;
   int precision = 32;
   unsigned threads = 1;  // of the CPU; null in the file for the GPU
+  std::string mesh;
   std::uint32_t vertices = 0;
   double tolerance = 0;
   double list_seconds = 0;                                        // for tree and lists, on one thread of the CPU
   double seconds_per_sum = 0;                                     // median over the batches
   std::vector<std::pair<std::string, double>> pass_seconds = {};  // the same of each pass, which runs alone
-  double direct_seconds_per_sum = 0;  // of all springs; 0, and null in the file, where that would take too long
-  double bytes_per_vertex = 0;        // of tree, lists and sums on the device
-  double error = 0;                   // as in a DenseErrorRow, of a body whose neighbours move apart by some percent of its size
+  double direct_seconds_per_sum = 0;   // of all springs; 0, and null in the file, where that would take too long
+  double seconds_per_step = 0;         // by cv8, which sums 11 times, with checks; 0, and null in the file, as above
+  double direct_seconds_per_step = 0;  // the same with all springs
+  double bytes_per_vertex = 0;         // of tree, lists and sums on the device
+  double error = 0;                    // as in a DenseErrorRow, of a body whose neighbours move apart by some percent of its size
 };
 
 struct DenseResult {

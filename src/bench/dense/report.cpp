@@ -16,18 +16,25 @@ Json row_json(const DenseErrorRow& row) {
           {"error", row.error}};
 }
 
+Json if_measured(double seconds) { return seconds > 0 ? Json(seconds) : Json(); }
+
+std::string milliseconds_if_measured(double seconds) { return seconds > 0 ? fmt::format("{:.4g}", 1e3 * seconds) : "-"; }
+
 Json force_json(const DenseForceRow& row) {
   Json passes = Json::object();
   for (const auto& [name, seconds] : row.pass_seconds) passes.add(name, seconds);
   return {{"device", name_of(row.device)},
           {"precision", row.precision},
           {"threads", threads_json(row.device, row.threads)},
+          {"mesh", row.mesh},
           {"vertices", row.vertices},
           {"tolerance", row.tolerance},
           {"list_seconds", row.list_seconds},
           {"seconds_per_sum", row.seconds_per_sum},
           {"pass_seconds", std::move(passes)},
-          {"direct_seconds_per_sum", row.direct_seconds_per_sum > 0 ? Json(row.direct_seconds_per_sum) : Json()},
+          {"direct_seconds_per_sum", if_measured(row.direct_seconds_per_sum)},
+          {"seconds_per_step", if_measured(row.seconds_per_step)},
+          {"direct_seconds_per_step", if_measured(row.direct_seconds_per_step)},
           {"bytes_per_vertex", row.bytes_per_vertex},
           {"error", row.error}};
 }
@@ -44,17 +51,17 @@ std::string errors_table(const std::vector<DenseErrorRow>& rows) {
 
 std::string forces_table(const std::vector<DenseForceRow>& rows) {
   if (rows.empty()) return "";
-  std::string table =
-      fmt::format("{:<6} {:>4} {:>7} {:>8} {:>9} {:>9} {:>9} {:>11} {:>11} {:>7} {:>14}\n", "device", "bits", "threads",
-                  "vertices", "tolerance", "error", "list ms", "ms a sum", "direct ms", "times", "bytes a vertex");
-  for (const DenseForceRow& row : rows) {
-    const bool has_direct = row.direct_seconds_per_sum > 0;
+  std::string table = fmt::format("{:<6} {:>4} {:>7} {:>8} {:>9} {:>9} {:>8} {:>9} {:>10} {:>6} {:>9} {:>15} {:>14}\n", "device",
+                                  "bits", "threads", "vertices", "tolerance", "error", "list ms", "sum ms", "direct ms", "times",
+                                  "step ms", "direct step ms", "bytes a vertex");
+  for (const DenseForceRow& row : rows)
     table += fmt::format(
-        "{:<6} {:>4} {:>7} {:>8} {:>9.0e} {:>9.1e} {:>9.3g} {:>11.4g} {:>11} {:>7} {:>14.0f}\n", name_of(row.device),
+        "{:<6} {:>4} {:>7} {:>8} {:>9.0e} {:>9.1e} {:>8.3g} {:>9.4g} {:>10} {:>6} {:>9} {:>15} {:>14.0f}\n", name_of(row.device),
         row.precision, threads_text(row.device, row.threads), row.vertices, row.tolerance, row.error, 1e3 * row.list_seconds,
-        1e3 * row.seconds_per_sum, has_direct ? fmt::format("{:.4g}", 1e3 * row.direct_seconds_per_sum) : "-",
-        has_direct ? fmt::format("{:.3g}", row.direct_seconds_per_sum / row.seconds_per_sum) : "-", row.bytes_per_vertex);
-  }
+        1e3 * row.seconds_per_sum, milliseconds_if_measured(row.direct_seconds_per_sum),
+        row.direct_seconds_per_sum > 0 ? fmt::format("{:.3g}", row.direct_seconds_per_sum / row.seconds_per_sum) : "-",
+        milliseconds_if_measured(row.seconds_per_step), milliseconds_if_measured(row.direct_seconds_per_step),
+        row.bytes_per_vertex);
   return table + '\n';
 }
 
