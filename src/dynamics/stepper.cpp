@@ -77,16 +77,11 @@ void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
   arrays.make("tableau", rows);
 }
 
-std::vector<std::optional<ListBasis>> bases_of(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed) {
-  std::vector<std::optional<ListBasis>> bases(model.bodies.size());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const ChangedSums* const sums = changed.empty() ? nullptr : changed[b].get();
-    if (!model.bodies[b].is_clustered || (sums != nullptr && sums->are_direct)) continue;
-    if (sums != nullptr)
-      bases[b] = {sums->accuracy, sums->displacements};
-    else
-      bases[b] = {accuracy_of(force_tolerance_of(model.bodies[b])), {}};
-  }
+using AllChangedSums = std::vector<std::shared_ptr<const ChangedSums>>;
+
+std::vector<std::optional<ListBasis>> bases_of(const Model& model, const AllChangedSums& changed) {
+  std::vector<std::optional<ListBasis>> bases;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) bases.push_back(list_basis_of(model.bodies[b], changed[b].get()));
   return bases;
 }
 
@@ -108,7 +103,7 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
   if (std::ranges::any_of(model.bodies, &ModelBody::is_clustered))
-    cluster_forces_.emplace(bodies, model, bases_of(model, {}));
+    cluster_forces_.emplace(bodies, model, bases_of(model, AllChangedSums(model.bodies.size())));
   else
     bodies.arrays.make<double>("spring_sum", 1);                                   // kernels on a processor name it in any case
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
@@ -149,12 +144,12 @@ void Stepper::use_tableaus(Stages stages) {
   bodies_.set_tableau_rows(row_of_body);
 }
 
-void Stepper::change_sums(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed) {
+void Stepper::change_sums(const Model& model, const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
   const std::vector<std::optional<ListBasis>> bases = bases_of(model, changed);
-  std::vector<bool> are_direct(model.bodies.size());
-  for (std::size_t b = 0; b < are_direct.size(); ++b) are_direct[b] = !bases[b];
-  cluster_forces_ = ClusterForces(bodies_, model, bases);  // the old ones stay if this throws
-  bodies_.sum_directly(model, are_direct);
+  std::vector<bool> given;
+  for (const std::optional<ListBasis>& basis : bases) given.push_back(basis.has_value());
+  cluster_forces_ = ClusterForces(bodies_, model, bases);  // if lists are too long, this throws, and the old ones stay
+  bodies_.cut_into_shares(model, given);
 }
 
 std::vector<Pass> Stepper::first_passes() const {

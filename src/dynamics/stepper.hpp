@@ -3,7 +3,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "device/pass.hpp"
@@ -31,8 +30,9 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   /// Sums the springs of clustered bodies from here on as these say, one for each body. Where it is null, as the model says.
-  /// Passes that were recorded before do not hold any more. Throws Error as pair_clusters does.
-  void change_sums(const Model& model, std::span<const std::shared_ptr<const ChangedSums>> changed);
+  /// Passes that were recorded before do not hold any more. Throws Error (input), and changes nothing, if lists would be too
+  /// long.
+  void change_sums(const Model& model, const std::vector<std::shared_ptr<const ChangedSums>>& changed);
   /// Returns the sums of clustered bodies, or null if there are none.
   [[nodiscard]] const ClusterForces* cluster_forces() const { return cluster_forces_ ? &*cluster_forces_ : nullptr; }
 

@@ -49,7 +49,7 @@ struct ModelBody {
   double radius = 0;                      // largest distance of a rest position from the centroid [m]
   ForceSum forces = ForceSum::direct;     // of a rigid body direct
   std::optional<double> force_tolerance;  // as in a BodyDescription
-  bool is_clustered = false;              // whether `forces` come to be clustered, see choose_force_sums()
+  bool is_clustered = false;              // whether its springs are summed by clusters at first, see choose_force_sums()
   Inflation inflation;
   SurfaceDescription surface;
   std::optional<double> restitution;
@@ -95,9 +95,13 @@ struct Material {
 
 /// How the springs of a clustered body are summed since a check has found its forces too inexact.
 struct ChangedSums {
+  std::uint32_t changes = 0;              // so far
+  bool are_strained = false;              // no lists have met the tolerance, but they still beat sums of all springs
   bool are_direct = false;                // one by one. Nothing below is known then
   double accuracy = 0;                    // of lists of clusters (dynamics/clusters/cluster_pairs.hpp)
   std::vector<glm::dvec3> displacements;  // of a shape that lists suit beside the rest shape [m]
+
+  bool operator==(const ChangedSums&) const = default;
 };
 
 /// Positions and velocities at one instant. Displacement u and velocity w live in the body's frame.

@@ -165,8 +165,8 @@ std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
   for (const std::uint32_t b : status.report.clusters->direct) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(
-        fmt::format("all springs of \"{}\" were summed from then on when clusters could not meet its force_tolerance of "
-                    "{:.3g} in the shape that it had come to; that takes longer, and a larger tolerance may do",
+        fmt::format("\"{}\" went over to sums of all its springs, because clusters could not meet its force_tolerance of "
+                    "{:.3g}; that takes longer, and a larger tolerance may avoid it",
                     body.name, force_tolerance_of(body)));
   }
   return told;

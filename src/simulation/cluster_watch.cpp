@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "core/thread_pool.hpp"
 #include "dynamics/clusters/cluster_pairs.hpp"
+#include "dynamics/clusters/cluster_springs.hpp"
 #include "dynamics/clusters/force_sums.hpp"
-#include "dynamics/forces/force.hpp"
 #include "physics/layout.glsl"
 
 namespace pliant {
@@ -39,126 +41,149 @@ ClusterWatch::ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& st
       stepper_(stepper),
       interval_(std::max(forces_between_checks / forces_of_a_step, 1u)),
       changed_(model.bodies.size()),
-      changes_(model.bodies.size()),
-      is_strained_(model.bodies.size()),
       counted_(model.bodies.size()) {}
 
 bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& state) {
   next_check_ = (steps / interval_ + 1) * interval_;
   const auto before = changed_;
-  std::vector<std::optional<double>> errors = measure();
+  const std::vector<std::optional<double>> errors = measure();
   for (std::size_t b = 0; b < errors.size(); ++b) {
     if (!errors[b]) continue;
     ++report_.checks;
-    if (!(*errors[b] <= limit_of(b))) {
-      improve(b, state());
-      errors[b] = measure()[b];
-    }
-    if (errors[b]) report_.largest_error = std::max(report_.largest_error, *errors[b]);
+    const std::optional<double> left = *errors[b] <= limit_of(b) ? errors[b] : improve(b, state());
+    if (left) report_.largest_error = std::max(report_.largest_error, *left);
   }
   return changed_ != before;
 }
 
 double ClusterWatch::limit_of(std::size_t body) const {
-  return (is_strained_[body] != 0 ? most_strained : 1) * force_tolerance_of(model_.bodies[body]);
+  const bool is_strained = changed_[body] && changed_[body]->are_strained;
+  return (is_strained ? most_strained : 1) * force_tolerance_of(model_.bodies[body]);
 }
 
 std::vector<std::optional<double>> ClusterWatch::measure() {
   Device& device = bodies_.arrays.device();
   std::vector<std::optional<double>> relative(model_.bodies.size());
-  const ClusterForces* const forces = stepper_.cluster_forces();
-  if (forces == nullptr) return relative;
-  device.run(forces->measuring_passes(physics::start_slot));
+  const ClusterForces& forces = *stepper_.cluster_forces();
+  device.run(forces.measuring_passes(physics::start_slot));
   const std::vector<physics::Status> statuses = bodies_.statuses.download();
-  const std::vector<ClusterErrors> errors = forces->errors();
+  const std::vector<ClusterErrors> errors = forces.errors();
   for (std::size_t b = 0; b < relative.size(); ++b) {
-    if (forces->springs_of(b) == 0 || !sums_springs(statuses[b])) continue;
+    if (forces.springs_of(b) == 0 || !sums_springs(statuses[b])) continue;
     const bool is_rounding = errors[b].error <= rounding_of(device.precision()) * errors[b].size;
     relative[b] = is_rounding ? 0 : errors[b].relative();
   }
   return relative;
 }
 
-void ClusterWatch::improve(std::size_t body, const State& state) {
-  const double tolerance = force_tolerance_of(model_.bodies[body]), least = accuracy_of(tolerance) / 10;
-  const double accuracy = changed_[body] ? changed_[body]->accuracy : accuracy_of(tolerance);
-  const std::vector<glm::dvec3> displacements = displacements_of(model_.bodies[body], state);
-  double error = INFINITY;
-  for (const double next : {accuracy, least}) {
-    if (changes_[body] >= most_changes || (next == accuracy && std::isfinite(error))) break;
+std::optional<double> ClusterWatch::improve(std::size_t body, const State& state) {
+  const double tolerance = force_tolerance_of(model_.bodies[body]), standard = accuracy_of(tolerance);
+  ChangedSums next{.displacements = displacements_of(model_.bodies[body], state)};
+  double error = std::numeric_limits<double>::infinity(), last_accuracy = 0;
+  for (const double accuracy : {changed_[body] ? changed_[body]->accuracy : standard, standard / 10}) {
+    next.changes = 1 + (changed_[body] ? changed_[body]->changes : 0);
+    next.accuracy = accuracy;
+    if (next.changes > most_changes || accuracy == last_accuracy) break;
     try {
-      change(body, state, std::make_shared<const ChangedSums>(ChangedSums{false, next, displacements}));
-    } catch (const Error&) {  // so many vertices have come together that lists would be too long
-      break;
+      change(body, state, next);
+    } catch (const Error& problem) {
+      if (problem.kind() != ErrorKind::input) throw;
+      break;  // so many vertices have come together that lists would be too long
     }
     ++report_.lists_made;
+    last_accuracy = accuracy;
     error = measure()[body].value_or(0);
-    if (error <= tolerance) return;
+    if (error <= tolerance) return error;
   }
-  is_strained_[body] = 1;
-  if (error <= limit_of(body)) return;
-  change(body, state, std::make_shared<const ChangedSums>(ChangedSums{.are_direct = true, .accuracy = 0, .displacements = {}}));
-  report_.direct.push_back(static_cast<std::uint32_t>(body));
+  next = *changed_[body];
+  next.are_strained = true;
+  next.are_direct = !(error <= most_strained * tolerance);
+  if (next.are_direct) {
+    next.displacements.clear();
+    ++next.changes;
+    change(body, state, next);
+    return {};
+  }
+  changed_[body] = std::make_shared<const ChangedSums>(std::move(next));
+  return error;
 }
 
-void ClusterWatch::change(std::size_t body, const State& state, std::shared_ptr<const ChangedSums> sums) {
-  auto changed = changed_;
-  changed[body] = std::move(sums);
-  const double before = energy_of(state);
+void ClusterWatch::change(std::size_t body, const State& state, ChangedSums sums) {
+  const bool tells_energy = !sums.are_direct;  // that of all springs may take minutes
+  const double before = tells_energy ? energy_of(body, state) : 0;
   const std::uint64_t evaluations = bodies_.tallies.download()[body].force_evaluations;
   const Counted counted{evaluations, interactions(body, evaluations)};
+  auto changed = changed_;
+  changed[body] = std::make_shared<const ChangedSums>(std::move(sums));
   stepper_.change_sums(model_, changed);
   changed_ = std::move(changed);
   counted_[body] = counted;
-  ++changes_[body];
-  report_.energy_change += std::abs(energy_of(state) - before);
+  if (tells_energy) report_.energy_change += std::abs(energy_of(body, state) - before);
   std::vector<physics::Status> statuses = bodies_.statuses.download();
   statuses[body].force_stale = 1;
   bodies_.statuses.upload(statuses);
 }
 
-double ClusterWatch::energy_of(State state) {
-  state.changed_sums = changed_;
-  ThreadPool pool(0);
-  const std::function<bool()> nobody_stops;
-  return forces().front().energy({model_, state, pool, nobody_stops, energies_});
+double ClusterWatch::energy_of(std::size_t body, const State& state) const {
+  const ModelBody& of = model_.bodies[body];
+  const std::optional<ListBasis> basis = list_basis_of(of, changed_[body].get());
+  std::vector<glm::dvec3> rest;
+  for (std::uint32_t i = of.first_vertex; i < of.first_vertex + of.vertex_count; ++i) rest.push_back(model_.rest_position(i));
+  ThreadPool pool(bodies_.arrays.device().info().threads);
+  return of.stiffness * ClusterSprings(rest, basis->accuracy, basis->displacements).energy(pool, displacements_of(of, state));
+}
+
+ClusterReport ClusterWatch::report() const {
+  ClusterReport report = report_;
+  for (std::uint32_t b = 0; b < changed_.size(); ++b)
+    if (changed_[b] && changed_[b]->are_direct) report.direct.push_back(b);
+  return report;
 }
 
 std::uint64_t ClusterWatch::interactions(std::size_t body, std::uint64_t evaluations) const {
-  const std::uint64_t vertices = model_.bodies[body].vertex_count;
-  const std::uint64_t springs = stepper_.cluster_forces() != nullptr ? stepper_.cluster_forces()->springs_of(body) : 0;
+  const std::uint64_t vertices = model_.bodies[body].vertex_count, springs = stepper_.cluster_forces()->springs_of(body);
   const std::uint64_t each = springs > 0 ? 2 * springs : vertices * (vertices - 1);
   return counted_[body].interactions + (evaluations - counted_[body].evaluations) * each;
 }
 
-void ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
-  if (changed == changed_) return;
+bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
+  if (changed == changed_) return false;
   stepper_.change_sums(model_, changed);
   changed_ = changed;
+  return true;
 }
 
-void ClusterWatch::save(ByteWriter& to) const {
-  to(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, report_.direct, changes_,
-     is_strained_, counted_);
+std::string ClusterWatch::save() const {
+  ByteWriter to;
+  to(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, counted_);
   for (const std::shared_ptr<const ChangedSums>& sums : changed_) {
     to(sums != nullptr);
-    if (sums) to(sums->are_direct, sums->accuracy, sums->displacements);
+    if (sums) to(sums->changes, sums->are_strained, sums->are_direct, sums->accuracy, sums->displacements);
   }
+  return to.take();
 }
 
-void ClusterWatch::restore(ByteReader& from) {
-  from(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, report_.direct, changes_,
-       is_strained_, counted_);
+bool ClusterWatch::restore(std::string_view saved) {
   std::vector<std::shared_ptr<const ChangedSums>> changed(model_.bodies.size());
+  if (saved.empty()) {
+    report_ = {};
+    next_check_ = 0;
+    const std::vector<physics::Tally> tallies = bodies_.tallies.download();
+    for (std::size_t b = 0; b < changed.size(); ++b) {
+      const std::uint64_t vertices = model_.bodies[b].vertex_count, evaluations = tallies[b].force_evaluations;
+      counted_[b] = {evaluations, evaluations * vertices * (vertices - 1)};
+    }
+    return use(changed);
+  }
+  ByteReader from(saved);
+  from(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, counted_);
   for (std::size_t b = 0; b < changed.size(); ++b) {
     if (!from.get<bool>()) continue;
     ChangedSums sums;
-    from(sums.are_direct, sums.accuracy, sums.displacements);
-    const bool is_known = changed_[b] && changed_[b]->are_direct == sums.are_direct && changed_[b]->accuracy == sums.accuracy &&
-                          changed_[b]->displacements == sums.displacements;
-    changed[b] = is_known ? changed_[b] : std::make_shared<const ChangedSums>(std::move(sums));
+    from(sums.changes, sums.are_strained, sums.are_direct, sums.accuracy, sums.displacements);
+    changed[b] = changed_[b] && *changed_[b] == sums ? changed_[b] : std::make_shared<const ChangedSums>(std::move(sums));
   }
-  use(changed);
+  return use(changed);
 }
 
 }  // namespace pliant

@@ -2,14 +2,14 @@
 // together that are far from each other at rest. Then lists are made for the present shape, too, then more exact ones, and in the
 // end a body's springs are summed one by one.
 #pragma once
-#include <any>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/bytes.hpp"
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "state/device_bodies.hpp"
@@ -21,7 +21,7 @@ struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
   double largest_error = 0;           // that was left after a check, relative
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
-  double energy_change = 0;           // by what other lists, or direct sums, have made of the elastic energy, sum of sizes [J]
+  double energy_change = 0;           // of the elastic energy by other lists, sum of sizes; direct sums do not count [J]
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
 
   bool operator==(const ClusterReport&) const = default;
@@ -41,14 +41,17 @@ class ClusterWatch {
 
   /// Returns how springs are summed, one for each body, as a State has it.
   [[nodiscard]] const std::vector<std::shared_ptr<const ChangedSums>>& changed_sums() const { return changed_; }
-  /// Sums springs as in a State.
-  void use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
-  [[nodiscard]] const ClusterReport& report() const { return report_; }
-  /// Returns how many forces of vertices and nodes on a vertex so many evaluations of a body's forces had.
+  /// Sums springs as in a State. Returns whether passes that were recorded before do not hold any more.
+  bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
+  [[nodiscard]] ClusterReport report() const;
+  /// Returns how many forces of one point on another so many evaluations of a body's forces had.
   [[nodiscard]] std::uint64_t interactions(std::size_t body, std::uint64_t evaluations) const;
 
-  void save(ByteWriter& to) const;
-  void restore(ByteReader& from);
+  /// Returns as bytes all that later checks and reports depend on.
+  [[nodiscard]] std::string save() const;
+  /// Goes on from bytes of save(). Without any it goes on from a simulation that had no clusters. Returns whether passes that
+  /// were recorded before do not hold any more.
+  bool restore(std::string_view saved);
 
  private:
   // What a body's evaluations had before its springs came to be summed in another way.
@@ -58,10 +61,10 @@ class ClusterWatch {
 
   // Returns the errors of bodies whose springs are summed by clusters, and are to be summed at all. Others have none.
   [[nodiscard]] std::vector<std::optional<double>> measure();
-  void improve(std::size_t body, const State& state);
-  void change(std::size_t body, const State& state, std::shared_ptr<const ChangedSums> sums);
-  // Returns the energy of all springs with springs summed as they are now [J].
-  [[nodiscard]] double energy_of(State state);
+  // Returns the error that is left. A body with direct sums has none.
+  [[nodiscard]] std::optional<double> improve(std::size_t body, const State& state);
+  void change(std::size_t body, const State& state, ChangedSums sums);
+  [[nodiscard]] double energy_of(std::size_t body, const State& state) const;
   [[nodiscard]] double limit_of(std::size_t body) const;
 
   DeviceBodies& bodies_;
@@ -69,11 +72,8 @@ class ClusterWatch {
   Stepper& stepper_;
   std::uint64_t interval_, next_check_ = 0;
   std::vector<std::shared_ptr<const ChangedSums>> changed_;
-  std::vector<std::uint32_t> changes_;     // by bodies
-  std::vector<std::uint8_t> is_strained_;  // by bodies: no lists have met the tolerance, but all springs are not worth it yet
-  std::vector<Counted> counted_;           // by bodies
-  std::any energies_;
-  ClusterReport report_;
+  std::vector<Counted> counted_;  // by bodies
+  ClusterReport report_;          // but for `direct`
 };
 
 }  // namespace pliant

@@ -124,8 +124,13 @@ void Simulation::record() {
 
 void Simulation::watch(std::uint64_t steps) {
   if (!watch_ || steps < watch_->next_check() || control().non_finite_step != 0) return;
-  if (watch_->check(steps, [this] { return state(); })) record();
   known_control_.reset();
+  try {
+    if (watch_->check(steps, [this] { return state(); })) record();
+  } catch (...) {
+    record();  // a change may stand
+    throw;
+  }
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
@@ -346,7 +351,7 @@ std::string Simulation::save() {
   saved.put(queued_steps_);
   write_arrays(device_, bodies_.arrays.carried(), saved);
   if (collider_.response() != nullptr) saved.put(collider_.response()->save());
-  if (watch_) watch_->save(saved);
+  saved.put(watch_ ? watch_->save() : std::string());  // which bodies are clustered depends on the device
   return saved.take();
 }
 
@@ -358,10 +363,8 @@ void Simulation::restore(std::string_view saved) {
   read_arrays(device_, bodies_.arrays.carried(), from);
   bodies_.begin_anew();
   if (collider_.response() != nullptr) collider_.response()->restore(from.get<std::string>());
-  if (watch_) {
-    watch_->restore(from);
-    record();
-  }
+  const auto watched = from.get<std::string>();
+  if (watch_ && watch_->restore(watched)) record();
   if (!from.at_end()) throw Error(ErrorKind::input, "", "its state has more bytes than its scene needs", "");
   if (pacer_) known_pace_ = pacer_->pace();
 }

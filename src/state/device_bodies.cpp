@@ -68,10 +68,11 @@ void add_shares(const Model& model, std::uint32_t b, std::uint32_t share_size, d
 std::vector<physics::Share> shares_of(Device& device, const Model& model, const std::vector<std::size_t>& variants,
                                       std::span<const ForceGroup> groups) {
   std::vector<physics::Share> shares;
+  const ForceAbilities abilities = abilities_of(device);
   for (const ForceGroup& group : groups)
     for (std::uint32_t b = 0; b < model.bodies.size(); ++b)
       if (!model.bodies[b].is_rigid() && variants[b] == group.variant)
-        add_shares(model, b, abilities_of(device).variant(group.variant).share_size, device.strain_bias(), shares);
+        add_shares(model, b, abilities.variant(group.variant).share_size, device.strain_bias(), shares);
   return shares;
 }
 
@@ -239,13 +240,11 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
   tableau_rows_.assign(rows.begin(), rows.end());
 }
 
-// Dense bodies do not fit into one dispatch, so it does not matter which bodies move from the start.
-void DeviceBodies::sum_directly(const Model& model, const std::vector<bool>& bodies) {
+// Which bodies move from the start is forgotten, so all count as moving. That matters for bodies of one dispatch alone.
+void DeviceBodies::cut_into_shares(const Model& model, const std::vector<bool>& are_given) {
   std::vector<ForceBody> all;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const ModelBody& body = model.bodies[b];
-    all.push_back({body.vertex_count, !body.is_rigid(), !body.is_rigid(), body.is_clustered && !bodies[b]});
-  }
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    all.push_back({model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), !model.bodies[b].is_rigid(), are_given[b]});
   const ForceAbilities abilities = abilities_of(arrays.device());
   const std::vector<std::size_t> variants = choose_force_variants(abilities, all);
   force_groups = group_shares(abilities, all, variants);

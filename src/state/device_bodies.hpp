@@ -53,9 +53,9 @@ struct DeviceBodies {
   void set_time_step(double time_step);
   /// Sets where each body's own tableau begins.
   void set_tableau_rows(std::span<const std::uint32_t> rows);
-  /// Has the device sum the springs of these bodies itself, and cuts bodies into other shares. Passes that were recorded before
-  /// do not hold any more.
-  void sum_directly(const Model& model, const std::vector<bool>& bodies);
+  /// Cuts bodies into shares anew. Other passes sum the springs of those bodies whose sums are given. Passes that were recorded
+  /// before do not hold any more.
+  void cut_into_shares(const Model& model, const std::vector<bool>& are_given);
   /// Has every stage be a dispatch of its own, or all stages one, if the variants can.
   void run_all_stages(bool at_once);
   /// Gives scripted bodies their paths, from these times on.

@@ -64,9 +64,9 @@ void check_leaf(const ClusterFunctions<Real>& functions, double rounding) {
   // [cluster][what its nodes' pulls begin with]
   const std::array<std::uint32_t, 10> below = {3, 6, 0, 18, 5, 36, 1, 72, 8, 108};
   const std::array<std::uint32_t, 4> above = {7, 144, 2, 180};
-  const std::array<FarClusters, 2> seen = {
-      FarClusters{.clusters = below.data(), .count = 5, .one_count = 2, .own_leaf = own_leaf},
-      FarClusters{.clusters = above.data(), .count = 2, .one_count = 0, .own_leaf = own_leaf}};
+  const std::array<FarClusters, 2> seen = {FarClusters{.clusters = below.data(), .count = 5, .one_count = 2},
+                                           FarClusters{.clusters = above.data(), .count = 2, .one_count = 0}};
+  const std::array<std::uint32_t, 2> own_places = {own_leaf, own_leaf};
   std::vector<Real> pulls(3 * leaf_lanes), node_pulls(240, Real(-7));
   functions.sum_leaf({.points = points.data(),
                       .place_count = place_count,
@@ -74,6 +74,7 @@ void check_leaf(const ClusterFunctions<Real>& functions, double rounding) {
                       .near_leaves = near.data(),
                       .near_count = near.size(),
                       .seen = seen.data(),
+                      .own_places = own_places.data(),
                       .seen_count = seen.size(),
                       .pulls = pulls.data(),
                       .node_pulls = node_pulls.data()});
@@ -117,7 +118,7 @@ void check_nodes(const ClusterFunctions<Real>& functions, std::uint32_t one_coun
   functions.sum_nodes({.points = points.data(),
                        .place_count = place_count,
                        .cluster = own,
-                       .far = {.clusters = far.data(), .count = one_count + four_count, .one_count = one_count, .own_leaf = 0},
+                       .far = {.clusters = far.data(), .count = one_count + four_count, .one_count = one_count},
                        .node_pulls = node_pulls.data(),
                        .row_count = rows,
                        .one_row_count = one_rows,

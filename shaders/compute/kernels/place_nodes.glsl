@@ -4,7 +4,6 @@
 READ(body)
 READ(status)
 READ(spring_cluster)
-READ(spring_leaf)
 READ(leaf_moment)
 WRITE(spring_point)
 PARAMETER(uint, place_count)

@@ -13,7 +13,7 @@ READ(tree_vertex)
 READ(leaf_pull)
 READ(cluster_pull)
 WRITE(spring_sum)
-#include "parts/sums_clusters.glsl"
+#include "parts/sums_leaf.glsl"
 NEAR(double, all, moments_size * leaves_of_tile)  // [leaf][12]: what clusters above hand down
 
 void share_out(uint leaf, uint place, uint at) {

@@ -11,7 +11,7 @@ READ(leaf_pull)
 READ(spring_sum)
 WRITE(leaf_square)
 PARAMETER(uint, first_sample)  // leaf
-#include "parts/sums_clusters.glsl"
+#include "parts/sums_leaf.glsl"
 
 void square_sums(uint leaf) {
   dvec3 squares = dvec3(0);

@@ -13,7 +13,7 @@ WRITE_AS(spring_point, real4, point)
 WRITE(leaf_moment)
 PARAMETER(uint, vertex_count)
 PARAMETER(uint, slot)
-#include "parts/sums_clusters.glsl"
+#include "parts/sums_leaf.glsl"
 NEAR(double, part, bank_moments * places_of_tile)  // [place][12]
 
 // `near_at` says where its moments go.

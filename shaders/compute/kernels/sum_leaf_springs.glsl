@@ -14,7 +14,7 @@ READ_AS(spring_point, real4, point)
 WRITE(leaf_pull)
 WRITE(node_pull)
 PARAMETER(uint, place_count)
-#include "parts/sums_clusters.glsl"
+#include "parts/sums_leaf.glsl"
 
 #ifdef __cplusplus
 void sum_leaf_springs(uint item) {
@@ -22,25 +22,27 @@ void sum_leaf_springs(uint item) {
   if (!sums_leaf(leaf)) return;
   const uvec4 begin = spring_leaf[leaf], end = spring_leaf[leaf + 1u];
   std::array<cpu::FarClusters, most_above> seen;
+  std::array<std::uint32_t, most_above> own_places;
   for (uint k = begin.w; k < end.w; ++k) {
     const SpringCluster& cluster = spring_cluster[above_cluster[k]];
     seen[k - begin.w] = {.clusters = &far_cluster->x + std::size_t{2} * cluster.first_far,
                          .count = cluster.end_far - cluster.first_far,
-                         .one_count = cluster.first_far_four - cluster.first_far,
-                         .own_leaf = leaf - cluster.first_leaf};
+                         .one_count = cluster.first_far_four - cluster.first_far};
+    own_places[k - begin.w] = leaf - cluster.first_leaf;
   }
-  sum_leaf({.points = &point->x,
-            .place_count = place_count,
-            .leaf = leaf,
-            .near_leaves = near_leaf + begin.z,
-            .near_count = end.z - begin.z,
-            .seen = seen.data(),
-            .seen_count = end.w - begin.w,
-            .pulls = leaf_pull + 3u * leaf_size * leaf,
-            .node_pulls = node_pull});
+  functions.sum_leaf({.points = &point->x,
+                      .place_count = place_count,
+                      .leaf = leaf,
+                      .near_leaves = near_leaf + begin.z,
+                      .near_count = end.z - begin.z,
+                      .seen = seen.data(),
+                      .own_places = own_places.data(),
+                      .seen_count = end.w - begin.w,
+                      .pulls = leaf_pull + 3u * leaf_size * leaf,
+                      .node_pulls = node_pull});
 }
 
-const cpu::LeafFunction<real> sum_leaf = cpu::cluster_functions<real>(cpu::available_isas().back()).sum_leaf;
+const cpu::ClusterFunctions<real> functions = cpu::cluster_functions<real>(cpu::available_isas().back());
 #else
 const uint batch = 4u;                        // vertices of the leaf whose sums threads add up at a time: less memory lets more groups run
 const uint folded = places_of_tile / 2u;      // threads have sums there, after others have added theirs

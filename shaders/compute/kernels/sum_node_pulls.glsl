@@ -6,7 +6,6 @@
 READ(body)
 READ(status)
 READ(spring_cluster)
-READ(spring_leaf)
 READ(far_cluster)
 READ_AS(spring_point, real4, point)
 READ_AS(node_pull, real4, pulls)
@@ -18,20 +17,19 @@ NEAR(real, all, pulls_size)  // [node][3]: what pulls them, with its sign change
 #ifdef __cplusplus
 void sum_pulls(uint c) {
   const SpringCluster& cluster = spring_cluster[c];
-  sum_nodes({.points = &point->x,
-             .place_count = place_count,
-             .cluster = c,
-             .far = {.clusters = &far_cluster->x + std::size_t{2} * cluster.first_far,
-                     .count = cluster.end_far - cluster.first_far,
-                     .one_count = cluster.first_far_four - cluster.first_far,
-                     .own_leaf = 0},
-             .node_pulls = &pulls->x + std::size_t{pull_row_size} * cluster.first_pull,
-             .row_count = cluster.end_pull - cluster.first_pull,
-             .one_row_count = cluster.first_pull_four - cluster.first_pull,
-             .sums = all});
+  functions.sum_nodes({.points = &point->x,
+                       .place_count = place_count,
+                       .cluster = c,
+                       .far = {.clusters = &far_cluster->x + std::size_t{2} * cluster.first_far,
+                               .count = cluster.end_far - cluster.first_far,
+                               .one_count = cluster.first_far_four - cluster.first_far},
+                       .node_pulls = &pulls->x + std::size_t{pull_row_size} * cluster.first_pull,
+                       .row_count = cluster.end_pull - cluster.first_pull,
+                       .one_row_count = cluster.first_pull_four - cluster.first_pull,
+                       .sums = all});
 }
 
-const cpu::NodesFunction<real> sum_nodes = cpu::cluster_functions<real>(cpu::available_isas().back()).sum_nodes;
+const cpu::ClusterFunctions<real> functions = cpu::cluster_functions<real>(cpu::available_isas().back());
 #else
 NEAR(real, part, bank_row * pulls_size)  // [node][3][thread]
 NEAR(real, quarter, 4u * pulls_size)     // sums of 16 threads each

@@ -53,6 +53,13 @@ std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions
   return scaled;
 }
 
+std::vector<glm::dvec3> smooth_displacements_of(std::span<const glm::dvec3> rest, double size) {
+  const SmoothField smooth;
+  std::vector<glm::dvec3> displacements;
+  for (const glm::dvec3& p : rest) displacements.push_back(size * smooth(p));
+  return displacements;
+}
+
 std::vector<Deformation> deformations_of(std::span<const glm::dvec3> rest) {
   const SmoothField smooth;
   std::vector<Deformation> all;

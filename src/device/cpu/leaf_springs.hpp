@@ -16,7 +16,6 @@ struct FarClusters {
   const std::uint32_t*
       clusters;  // [count][2]: a cluster, and where the leaves of the one that sees it keep what they pull it with
   std::uint32_t count, one_count;
-  std::uint32_t own_leaf;  // place of the leaf among those of the cluster that sees it
 };
 
 template <class Real>
@@ -26,7 +25,8 @@ struct LeafSprings {
   std::uint32_t leaf;                // whose vertices these are
   const std::uint32_t* near_leaves;  // whose vertices they see
   std::uint32_t near_count;
-  const FarClusters* seen;  // by the leaf and by clusters above
+  const FarClusters* seen;          // by the leaf and by clusters above
+  const std::uint32_t* own_places;  // of the leaf among those of each of these
   std::uint32_t seen_count;
   Real* pulls;       // out: [vertex][3]
   Real* node_pulls;  // out: three numbers for each node, from where FarClusters says
@@ -49,10 +49,6 @@ struct ClusterFunctions {
   void (*sum_leaf)(const LeafSprings<Real>&);
   void (*sum_nodes)(const NodeSprings<Real>&);
 };
-template <class Real>
-using LeafFunction = decltype(ClusterFunctions<Real>::sum_leaf);
-template <class Real>
-using NodesFunction = decltype(ClusterFunctions<Real>::sum_nodes);
 
 /// Returns the functions of an instruction set that is available.
 template <class Real>

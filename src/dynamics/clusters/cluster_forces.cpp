@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 #include "dynamics/clusters/cluster_pairs.hpp"
 #include "dynamics/clusters/cluster_tree.hpp"
@@ -20,7 +22,7 @@ struct Tables {
   std::vector<glm::uvec4> leaves;
   std::vector<std::uint32_t> near_leaves, above_clusters;
   std::vector<glm::uvec2> far_clusters;
-  std::uint32_t pull_row_count = 0;
+  std::uint64_t pull_row_count = 0;
 };
 
 void store(double* to, const glm::dvec3& from) {
@@ -92,13 +94,13 @@ class BodyTables {
       row.first_leaf = first_leaf_ + cluster.first_leaf();
       row.end_leaf = first_leaf_ + cluster.end_leaf();
       row.first_far = static_cast<std::uint32_t>(tables_.far_clusters.size());
-      row.first_pull = tables_.pull_row_count;
+      row.first_pull = static_cast<std::uint32_t>(tables_.pull_row_count);
       tables_.pull_row_count += (list_far(c, 1) + 3) / 4;
       row.first_far_four = static_cast<std::uint32_t>(tables_.far_clusters.size());
-      row.first_pull_four = tables_.pull_row_count;
+      row.first_pull_four = static_cast<std::uint32_t>(tables_.pull_row_count);
       tables_.pull_row_count += list_far(c, 4);
       row.end_far = static_cast<std::uint32_t>(tables_.far_clusters.size());
-      row.end_pull = tables_.pull_row_count;
+      row.end_pull = static_cast<std::uint32_t>(tables_.pull_row_count);
       tables_.clusters.push_back(row);
     }
   }
@@ -167,14 +169,23 @@ void add_samples(Tables& tables, std::uint32_t body, std::span<const std::uint32
   }
 }
 
+// Numbers of `node_pull`, and of the two vectors of each point, are counted in 32 bits.
+void expect_countable(const Tables& tables) {
+  constexpr std::uint64_t most = 0xffffffffu;
+  const std::uint64_t points = leaf_size * tables.leaves.size() + physics::nodes_of_cluster * tables.clusters.size();
+  if (physics::pull_row_size * tables.pull_row_count > most || 8 * points > most || tables.near_leaves.size() > most)
+    throw Error(ErrorKind::input, "", "lists of clusters would be too long", "take a larger force_tolerance, or coarser meshes");
+}
+
 std::uint32_t tiles_of(std::uint32_t leaves) { return (leaves + physics::leaves_of_tile - 1) / physics::leaves_of_tile; }
 
 }  // namespace
 
 double ClusterErrors::relative() const {
   constexpr double least_part = 0.05;  // of what clusters hand down
-  const double sampled = sum > 0 ? error / sum : 0, indicated = sum_of_all > 0 ? handed_down / sum_of_all : 0;
-  return std::max(sampled, least_part * indicated);
+  if (error == 0 && handed_down == 0) return 0;
+  const double larger = std::max(error / sum, least_part * handed_down / sum_of_all);
+  return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
 ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases)
@@ -202,6 +213,7 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
     leaves.end_sample = leaf_count();
   }
   leaves_and_samples_ = leaf_count();
+  expect_countable(tables);
   tables.leaves.emplace_back(0, 0, tables.near_leaves.size(), tables.above_clusters.size());
   const std::uint32_t place_count = leaf_size * leaves_and_samples_;
   Arrays& arrays = bodies.arrays;
@@ -222,28 +234,31 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
 }
 
 std::vector<Pass> ClusterForces::passes(std::uint32_t slot, bool only_stale) const {
-  const auto group_pass = [&](std::string_view name, std::uint32_t items, Parameters parameters = {}) {
-    parameters.insert(parameters.end(), {{"only_stale", only_stale ? 1u : 0u}, {"first_leaf", 0u}, {"end_leaf", leaf_count_}});
-    return make_pass(bodies_->arrays, name, bodies_->arrays.device().group_kernel(name, physics::group_size), parameters, items);
-  };
-  return {group_pass("sum_leaf_moments", tiles_of(leaf_count_), {{"slot", slot}}), group_pass("place_nodes", cluster_count_),
-          group_pass("sum_leaf_springs", leaf_count_), group_pass("sum_node_pulls", cluster_count_),
-          group_pass("share_pulls", tiles_of(leaf_count_))};
+  const Parameters of_clusters = {{"only_stale", only_stale ? 1u : 0u}};
+  const Parameters of_leaves = {{"only_stale", only_stale ? 1u : 0u}, {"first_leaf", 0u}, {"end_leaf", leaf_count_}};
+  Parameters in_slot = of_leaves;
+  in_slot.emplace_back("slot", slot);
+  return {group_pass("sum_leaf_moments", tiles_of(leaf_count_), in_slot), group_pass("place_nodes", cluster_count_, of_clusters),
+          group_pass("sum_leaf_springs", leaf_count_, of_leaves), group_pass("sum_node_pulls", cluster_count_, of_clusters),
+          group_pass("share_pulls", tiles_of(leaf_count_), of_leaves)};
 }
 
 std::vector<Pass> ClusterForces::measuring_passes(std::uint32_t slot) const {
-  const Arrays& arrays = bodies_->arrays;
-  const auto of_samples = [&](std::string_view name, std::uint32_t items, Parameters parameters = {}) {
-    parameters.insert(parameters.end(), {{"only_stale", 0u}, {"first_leaf", leaf_count_}, {"end_leaf", leaves_and_samples_}});
-    return make_pass(arrays, name, arrays.device().group_kernel(name, physics::group_size), parameters, items);
-  };
+  const std::uint32_t sample_count = leaves_and_samples_ - leaf_count_;
+  const Parameters of_samples = {{"only_stale", 0u}, {"first_leaf", leaf_count_}, {"end_leaf", leaves_and_samples_}};
+  Parameters in_slot = of_samples;
+  in_slot.emplace_back("slot", slot);
   std::vector<Pass> all = passes(slot, false);
-  all.push_back(of_samples("sum_leaf_moments", tiles_of(leaves_and_samples_ - leaf_count_), {{"slot", slot}}));
-  all.push_back(of_samples("sum_leaf_springs", leaves_and_samples_ - leaf_count_));
-  const Parameters parameters = {
+  all.push_back(group_pass("sum_leaf_moments", tiles_of(sample_count), in_slot));  // which takes samples into their order
+  all.push_back(group_pass("sum_leaf_springs", sample_count, of_samples));
+  const Parameters of_all = {
       {"only_stale", 0u}, {"first_leaf", 0u}, {"end_leaf", leaves_and_samples_}, {"first_sample", leaf_count_}};
-  all.push_back(make_pass(arrays, "square_sums", parameters, leaves_and_samples_));
+  all.push_back(make_pass(bodies_->arrays, "square_sums", of_all, leaves_and_samples_));
   return all;
+}
+
+Pass ClusterForces::group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters) const {
+  return make_pass(bodies_->arrays, name, bodies_->arrays.device().group_kernel(name, physics::group_size), parameters, items);
 }
 
 std::vector<ClusterErrors> ClusterForces::errors() const {

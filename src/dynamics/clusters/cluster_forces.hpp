@@ -4,19 +4,15 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "device/pass.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "model/model.hpp"
 #include "state/device_bodies.hpp"
 
 namespace pliant {
-
-/// What the lists of a clustered body are made for, as pair_clusters() has it.
-struct ListBasis {
-  double accuracy = 0;
-  std::span<const glm::dvec3> displacements = {};  // of a shape beside the rest shape [m]; empty: there is none
-};
 
 /// How inexact a body's sums are: root mean squares over vertices, in the body's unit.
 struct ClusterErrors {
@@ -30,7 +26,8 @@ struct ClusterErrors {
 
 class ClusterForces {
  public:
-  /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this.
+  /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this. Throws Error (input) if lists
+  /// would be too long, before it makes any.
   ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases);
 
   /// Returns passes that set `spring_sum` at the placements in a slot, for clustered bodies that move and are deformed. With
@@ -46,6 +43,8 @@ class ClusterForces {
   [[nodiscard]] std::uint64_t springs_of(std::size_t body) const { return springs_of_bodies_[body]; }
 
  private:
+  [[nodiscard]] Pass group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters) const;
+
   // Leaves of samples stand behind all others.
   struct Leaves {
     std::uint32_t body, vertices, first, end, first_sample, end_sample;

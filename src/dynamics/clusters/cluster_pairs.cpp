@@ -107,7 +107,8 @@ class Walk {
   void meet_closely(const Cluster& a, const Cluster& b) {
     near_count_ += 2 * std::uint64_t{a.end_leaf() - a.first_leaf()} * (b.end_leaf() - b.first_leaf());
     if (near_count_ > most_near)
-      throw Error(ErrorKind::input, "", "too many vertices share a place for clusters to be told apart", "weld them");
+      throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
+                  "weld them, or take a larger force_tolerance");
     for (std::uint32_t i = a.first_leaf(); i < a.end_leaf(); ++i)
       for (std::uint32_t j = b.first_leaf(); j < b.end_leaf(); ++j) {
         near_[i].push_back(j);

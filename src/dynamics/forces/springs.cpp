@@ -78,7 +78,7 @@ class SpringEnergies {
   }
 
   bool is_clustered(const Model& model, std::size_t b) const {
-    return model.bodies[b].is_clustered && !(changed_sums_[b] && changed_sums_[b]->are_direct);
+    return list_basis_of(model.bodies[b], changed_sums_[b].get()).has_value();
   }
 
   // Returns whether a bit has changed.
@@ -118,6 +118,7 @@ class SpringEnergies {
   // All of a clustered body's energy stands at its first vertex.
   void sum_clusters(const EnergyQuestion& question, std::size_t b) {
     const ModelBody& body = question.model.bodies[b];
+    std::fill_n(energies_.begin() + body.first_vertex, body.vertex_count, 0.0);
     double& energy = energies_[body.first_vertex];
     energy = std::numeric_limits<double>::quiet_NaN();
     if (question.stopped && question.stopped()) return;
@@ -126,10 +127,10 @@ class SpringEnergies {
       rest.push_back(question.model.rest_position(i));
       displacements.push_back(question.state.displacement(i));
     }
-    if (!clustered_[b] && changed_sums_[b])
-      clustered_[b].emplace(rest, changed_sums_[b]->accuracy, changed_sums_[b]->displacements);
-    else if (!clustered_[b])
-      clustered_[b].emplace(rest, accuracy_of(force_tolerance_of(body)));
+    if (!clustered_[b]) {
+      const ListBasis basis = *list_basis_of(body, changed_sums_[b].get());
+      clustered_[b].emplace(rest, basis.accuracy, basis.displacements);
+    }
     energy = body.stiffness * clustered_[b]->energy(question.pool, displacements);
   }
 

@@ -2,9 +2,11 @@
 #include "dynamics/clusters/cluster_forces.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "bench/dense/deformations.hpp"
+#include "bench/dense/exact_forces.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "dynamics/clusters/cluster_springs.hpp"
 #include "dynamics/stepper.hpp"
@@ -123,6 +125,45 @@ TEST_CASE("springs of clustered bodies have the same bits on any number of threa
   for (const unsigned threads : {2u, 7u}) CHECK(numbers_on(make_cpu_device(threads, 32)) == one);
   if (test::lacks_gl()) return;
   CHECK(numbers_on(make_gpu_device(0, ItemOrder::ascending)) == numbers_on(make_gpu_device(0, ItemOrder::descending)));
+}
+
+TEST_CASE("errors that a device measures are those of samples beside all springs", "[gl]") {
+  ModelAndState start = several_bodies();
+  std::vector<std::optional<ListBasis>> bases = bases_of(start.model);
+  for (std::optional<ListBasis>& basis : bases)
+    if (basis) basis->accuracy = 1e-6;
+  for (const TestDevice& test : all_devices())
+    for (const std::size_t d : {1u, 7u}) {  // smooth, and neighbours that move apart
+      deform(start.state, start.model, d);
+      DeviceBodies bodies(*test.device, start.model, start.state);
+      const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
+      const ClusterForces forces(bodies, start.model, bases);
+      test.device->run(stepper.first_passes());
+      test.device->run(forces.measuring_passes(physics::start_slot));
+      const std::vector<ClusterErrors> errors = forces.errors();
+      const std::vector<double> sums = bodies.arrays.get<double>("spring_sum").download();
+      for (std::size_t b = 0; b < start.model.bodies.size(); ++b) {
+        if (!bases[b]) continue;
+        const ModelBody& body = start.model.bodies[b];
+        ThreadPool pool(1);
+        const std::vector<glm::dvec3> rest = rest_positions_of(start.model, body), moved = displacements_of(start.state, body);
+        const bench::ExactForces exact(pool, rest, moved, body.vertex_count);
+        const double error = exact.error_of([&](std::size_t i) {
+          const double* const sum = &sums[3 * (body.first_vertex + i)];
+          return -body.unit_of_length() * glm::dvec3(sum[0], sum[1], sum[2]);
+        });
+        CAPTURE(test.name, d, b, error);
+        CHECK(errors[b].error / errors[b].sum < 2 * error + 1e-5);
+        CHECK(errors[b].error / errors[b].sum > 0.5 * error - 1e-5);
+        CHECK(errors[b].size > errors[b].sum * (1 - 1e-6));
+        CHECK(errors[b].sum_of_all == Approx(errors[b].sum).epsilon(0.3));
+        CHECK(errors[b].relative() >= errors[b].error / errors[b].sum);
+      }
+    }
+  CHECK(ClusterErrors{}.relative() == 0);
+  CHECK(std::isinf(ClusterErrors{.error = std::nan(""), .sum = 1, .size = 1, .handed_down = 1, .sum_of_all = 1}.relative()));
+  CHECK(std::isinf(ClusterErrors{.error = 1, .sum = 0, .size = 1, .handed_down = 0, .sum_of_all = 1}.relative()));
+  CHECK(ClusterErrors{.error = 1, .sum = 100, .size = 1, .handed_down = 1, .sum_of_all = 1}.relative() == 0.05);
 }
 
 TEST_CASE("springs of clustered bodies are summed again if a stage asks for it, or kept forces are stale", "[gl]") {

@@ -2,14 +2,9 @@
 // deformed are zero, and nobody reads its sums.
 PARAMETER(uint, only_stale)
 PARAMETER(uint, skips)
-PARAMETER(uint, first_leaf)
-PARAMETER(uint, end_leaf)  // of those that are served
 
 bool sums_clusters(uint b) {
   bool is_deformed = status[b].deformed != 0u || (skips & skips_forces) == 0u;
   bool is_due = only_stale == 0u || status[b].force_stale != 0u;
   return status[b].activity == moving && !is_still(status[b]) && is_deformed && is_due;
 }
-
-// The same for a leaf of a tile, which may be none.
-bool sums_leaf(uint leaf) { return leaf < end_leaf && sums_clusters(spring_leaf[leaf].x); }
