@@ -166,19 +166,20 @@ void Simulation::run(std::span<const Pass> passes) {
     device_.run(passes);
 }
 
-// Steps up to the next check at a time.
+// Steps up to the next check at a time. It reads nothing to know how many there are, unless steps fall into parts.
 void Simulation::advance(std::uint64_t steps, const std::function<bool()>& stops) {
   PLIANT_EXPECT(!pacer_);
   if (!watch_) return advance_unwatched(steps, stops);
-  const std::uint64_t target = whole_steps() + steps;
-  for (std::uint64_t made = whole_steps(); made < target && control().non_finite_step == 0;) {
-    watch(made);
+  const auto made = [this] { return parts() != nullptr ? whole_steps() : queued_steps_; };
+  const std::uint64_t target = made() + steps;
+  for (std::uint64_t now = made(); now < target;) {
+    watch(now);
     const std::uint64_t wanted = std::min(target, watch_->next_check());
-    advance_unwatched(wanted - made, stops);
-    made = whole_steps();
-    if (made < wanted || (made < target && stops && stops())) return;
+    advance_unwatched(wanted - now, stops);
+    now = made();
+    if (now < wanted || (now < target && stops && stops())) return;
   }
-  watch(whole_steps());
+  watch(made());
 }
 
 void Simulation::advance_part() {

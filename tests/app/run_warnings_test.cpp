@@ -365,6 +365,8 @@ TEST_CASE("keys that change nothing are named in warnings, and no others") {
   const std::string still = told(" --set body.wall.kind=static --set body.wall.total_mass=2");
   CHECK_THAT(still, Catch::Contains("body.wall.total_mass has no effect on a static body"));
   CHECK(count(still) == 1);  // the file's vertex_mass is replaced
+  CHECK_THAT(told(" --set body.soft.force_tolerance=1e-3 --set body.soft.forces=direct"),
+             Catch::Contains("force_tolerance has no effect with forces = \"direct\""));
   CHECK_THAT(told(" --set body.soft.subdivision=loop"), Catch::Contains("subdivision has no effect without subdivide"));
   CHECK_THAT(told(" --set body.soft.pressure_law=constant"), Catch::Contains("pressure_law has no effect without pressure"));
   const std::string of_rows =

@@ -99,6 +99,8 @@ stretch = [0.5, 1, 2]
 total_stiffness = 1000
 total_mass = 10
 damping = 0
+forces = "clustered"
+force_tolerance = 2e-3
 pressure = 2.5
 pressure_law = "constant"
 color = [0.1, 0.2, 0.3]
@@ -133,6 +135,7 @@ color = [0.1, 0.2, 0.3]
   CHECK((body.spin == glm::dvec3(1.5, 2.5, 3.5) && body.stretch == glm::dvec3(0.5, 1, 2) &&
          body.color == glm::dvec3(0.1, 0.2, 0.3)));
   CHECK((body.total_stiffness == 1000 && body.total_mass == 10 && body.damping == 0));
+  CHECK((body.forces == ForceSum::clustered && body.force_tolerance == 2e-3));
   CHECK((body.pressure == 2.5 && body.pressure_law == PressureLaw::constant));
 }
 
@@ -253,6 +256,9 @@ TEST_CASE("a word that is no choice is an error that lists the choices") {
   for (const char* fan_out : {"1", "3", "6", "16", "4.0"})
     check_input_error(std::string("[collision.tree]\nfan_out = ") + fan_out + "\n" + smallest, 2, {"fan_out", "2, 4 or 8"});
   check_input_error(smallest + "subdivision = \"butterfly\"\n", 3, {"midpoint, loop"});
+  check_input_error(smallest + "forces = \"fast\"\n", 3, {"auto, direct, clustered"});
+  for (const char* beyond : {"0", "-1e-3", "0.2", "1e-9", "\"auto\""})
+    check_input_error(smallest + "force_tolerance = " + beyond + "\n", 3, {"force_tolerance", "1e-8 to 0.1"});
   check_input_error("[output]\ncoloring = \"rainbow\"\n" + smallest, 2, {"body, deformation"});
   check_input_error("[output]\nmarks = \"boxes\"\n" + smallest, 2, {"none, contacts"});
 }

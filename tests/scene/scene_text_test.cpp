@@ -29,6 +29,7 @@ void check_same(const BodyDescription& a, const BodyDescription& b) {
   CHECK((a.position == b.position && a.rotation == b.rotation && a.velocity == b.velocity && a.spin == b.spin));
   CHECK((a.path == b.path && a.repeats == b.repeats && a.stretch == b.stretch));
   CHECK((a.stiffness == b.stiffness && a.total_stiffness == b.total_stiffness));
+  CHECK((a.forces == b.forces && a.force_tolerance == b.force_tolerance));
   CHECK((a.vertex_mass == b.vertex_mass && a.total_mass == b.total_mass && a.damping == b.damping));
   CHECK((a.surface == b.surface && a.restitution == b.restitution && a.self_contact == b.self_contact));
   CHECK((a.pressure == b.pressure && a.pressure_law == b.pressure_law && a.color == b.color));
@@ -98,6 +99,8 @@ velocity = [7, 8, 9]
 spin = [1.5, 2.5, 3.5]
 stretch = [0.5, 1, 2]
 total_stiffness = 1000
+forces = "clustered"
+force_tolerance = 2e-3
 total_mass = 10
 damping = 0
 elasticity = 0.4

@@ -180,5 +180,28 @@ TEST_CASE("dented bodies of every scene with reflection move as in fp64 to 1e-5 
   }
 }
 
+// As they ship they take a GPU. Coarser ones show that they begin well.
+TEST_CASE("the dense scenes have clustered bodies that fall and meet") {
+  for (const auto& [name, coarser] : {std::pair{"bunny", "body.bunny.subdivide=0"}, {"sphere", "body.large.mesh=icosphere:4"}}) {
+    CAPTURE(name);
+    const SceneDescription shipped = test::load_shipped_scene(std::string("dense/") + name);
+    CHECK(shipped.bodies[0].force_tolerance == 1e-3);
+    const SceneDescription scene = test::load_shipped_scene(
+        std::string("dense/") + name, std::vector<std::string>{coarser, "body." + shipped.bodies[0].name + ".forces=clustered"});
+    const ModelAndState start = build_model(load_bodies(scene), scene.simulation.gravity, scene.grounds);
+    const auto device = make_cpu_device(2, 32);
+    const TimePlan plan = plan_time(scene, start.model);
+    Simulation simulation(*device, start.model, start.state, plan, scene.collision);
+    simulation.advance(static_cast<std::uint64_t>(0.8 / plan.time_step));
+    const StepReport report = simulation.report();
+    CHECK_FALSE(report.breakdown.has_value());
+    CHECK(report.contact_steps > 0);
+    REQUIRE(report.clusters.has_value());
+    CHECK(report.clusters->checks > 0);
+    CHECK(report.clusters->largest_error < 3e-3);
+    CHECK(simulation.intersections().pairs == 0);
+  }
+}
+
 }  // namespace
 }  // namespace pliant

@@ -98,6 +98,44 @@ TEST_CASE("going back restores the very bits, in contact too", "[gl]") {
   }
 }
 
+// A pressed sphere, whose clusters are listed anew soon, and again later.
+LoadedScene clustered_sphere() {
+  const test::ScratchFolder folder;
+  const auto file = folder.path / "dense.toml";
+  std::ofstream(file) << "[simulation]\nintegrator = \"verlet\"\ntime_step = 0.002\n"
+                         "[[body]]\nmesh = \"icosphere:3\"\nstretch = [1, 1, 0.1]\ntotal_stiffness = 2000\ntotal_mass = 1\n"
+                         "damping = 0\nforces = \"clustered\"\n";
+  return load(file);
+}
+
+TEST_CASE("a session with a clustered body goes back to the bit across new lists, and keeps them when settings change", "[gl]") {
+  on_every_device([](Device& device) {
+    Session session(device, clustered_sphere());
+    std::vector<std::vector<double>> motions{motion_of(session)};
+    for (int k = 0; k < 70; ++k) {
+      session.step_once();
+      session.record();
+      motions.push_back(motion_of(session));
+    }
+    REQUIRE(session.simulation().report().clusters->lists_made > 0);
+    for (std::size_t step = 70; step-- > 0;) {
+      REQUIRE(session.step_back());
+      CHECK(same_bits(motion_of(session), motions[step]));
+    }
+    for (int k = 0; k < 70; ++k) session.step_once();
+    CHECK(same_bits(motion_of(session), motions.back()));
+    const auto lists = session.simulation().state().changed_sums;
+    REQUIRE(lists[0] != nullptr);
+    Settings settings = session.settings();
+    settings.time_step = 0.001;
+    session.change(settings);
+    CHECK(session.simulation().state().changed_sums == lists);
+    session.step_once();
+    session.restart();
+    CHECK(same_bits(motion_of(session), motions.front()));
+  });
+}
+
 TEST_CASE("where pictures were further apart than steps, going back still goes by one step, to the very bits", "[gl]") {
   on_every_device([](Device& device) {
     Session direct(device, colliding()), session(device, colliding());
