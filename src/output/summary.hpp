@@ -52,9 +52,9 @@ struct Summary {
     double time = 0, waited = 0;  // on its own clock, and what that is behind [s]
     std::uint64_t waits = 0;      // parts of steps in which it waited
   };
-  std::vector<Script> scripts;                            // of scripted bodies
+  std::vector<Script> scripts;  // of scripted bodies
   struct Clusters {
-    double largest_error = 0;         // of forces, relative, that a check left
+    double largest_error = 0;         // of forces, relative, that a check found
     std::uint64_t lists_made = 0;     // beside those for the rest shape
     double energy_change = 0;         // that came with them [J]
     std::vector<std::string> direct;  // bodies that went over to direct sums

@@ -74,6 +74,15 @@ std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
                      report.adaptive->largest_step, report.adaptive->rejected, report.adaptive->rejected_in_contact);
 }
 
+std::string told_checks(const ClusterReport& clusters) {
+  if (clusters.checks == 0) return "forces of clustered bodies were never checked: none was deformed when a check was due";
+  const std::string lists = clusters.lists_made == 0   ? ""
+                            : clusters.lists_made == 1 ? "; clusters were listed anew once"
+                                                       : fmt::format("; clusters were listed anew {} times", clusters.lists_made);
+  return fmt::format("forces of clustered bodies erred by at most {:.2g} in {} checks{}", clusters.largest_error, clusters.checks,
+                     lists);
+}
+
 void show_timings(const Simulation& simulation, std::uint64_t steps) {
   const std::map<std::string_view, double>& pass_seconds = simulation.pass_seconds();
   double all = 0;
@@ -160,8 +169,14 @@ std::vector<std::string> contact_troubles_of(const RunStatus& status) {
 }
 
 std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
+  constexpr double told_excess = 10;
   std::vector<std::string> told;
   if (!status.report.clusters) return told;
+  if (const double excess = status.report.clusters->largest_excess; excess > told_excess)
+    told.push_back(
+        fmt::format("forces of a clustered body were off by {:.3g} times its force_tolerance at a check, and maybe for some "
+                    "steps before; try a shorter time step, which is checked more often, or forces = \"direct\"",
+                    excess));
   for (const std::uint32_t b : status.report.clusters->direct) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(
@@ -275,12 +290,7 @@ void show_end(const RunStatus& status) {
                contacts.friction_work > 0 ? fmt::format(", of which friction {:.4g} J", contacts.friction_work) : "",
                contacts.energy_given,
                contacts.scripts.empty() ? "" : fmt::format("; scripted bodies gave {:.4g} J", contacts.work_of_scripts));
-  if (const auto& clusters = report.clusters)
-    fmt::print("forces of clustered bodies err by at most {:.2g} in {} checks{}\n", clusters->largest_error, clusters->checks,
-               clusters->lists_made > 0
-                   ? fmt::format("; clusters were listed anew {} times, which changed the energy by {:.3g} J",
-                                 clusters->lists_made, clusters->energy_change)
-                   : "");
+  if (report.clusters) fmt::print("{}\n", told_checks(*report.clusters));
   if (options.timings && report.steps > 0) show_timings(*run.simulation, report.steps);
   fmt::print("summary: {}\n", (folder_of(options) / summary_name).string());
 }

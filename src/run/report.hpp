@@ -35,6 +35,8 @@ struct RunStatus {
 [[nodiscard]] std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices,
                                                            int precision);
 [[nodiscard]] std::vector<std::string> contact_troubles_of(const RunStatus& status);
+/// Tells of clustered bodies whose forces were far off, and of those that went over to sums of all springs.
+[[nodiscard]] std::vector<std::string> cluster_troubles_of(const RunStatus& status);
 
 /// Returns the summary. Unless there was a breakdown, it searches for the triangles that intersect at the end.
 [[nodiscard]] Summary summary_of(const RunStatus& status);

@@ -289,6 +289,7 @@ class Run {
     if (!options_.quiet && leaves_checkpoint_)
       fmt::print("checkpoint: {0} (go on with: pliant run --resume '{0}')\n", options_.checkpoint.string());
     for (const std::string& trouble : contact_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
+    for (const std::string& trouble : cluster_troubles_of(status())) fmt::print(stderr, "pliant: warning: {}\n", trouble);
     if (const auto what = instability_of(status())) fmt::print(stderr, "pliant: {}{}\n", has_failed() ? "" : "warning: ", *what);
     if (lost) throw *lost;
   }

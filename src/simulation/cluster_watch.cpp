@@ -10,17 +10,33 @@
 #include "dynamics/clusters/cluster_pairs.hpp"
 #include "dynamics/clusters/cluster_springs.hpp"
 #include "dynamics/clusters/force_sums.hpp"
+#include "dynamics/stability.hpp"
 #include "physics/layout.glsl"
 
 namespace pliant {
 namespace {
 
-constexpr std::uint32_t forces_between_checks = 64;
-constexpr std::uint32_t most_changes = 8;  // of how a body's springs are summed: each changes its energy
-constexpr double most_strained = 2;        // error over the tolerance up to which lists still beat direct sums
+constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
+constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
+constexpr double most_strained = 2;           // error over the tolerance up to which lists still beat direct sums
 
-// Sums of fp32 or fp64 are as inexact as that, over the sum of what they add up.
-double rounding_of(int precision) { return precision == 64 ? 0x1p-47 : 0x1p-18; }
+double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
+
+// Sums are as inexact as 32 roundings of what they add up. Where a body is hardly deformed, rounding of placements is all that
+// there is. It is 4 roundings of each spring's length, which is about 1 in the body's unit.
+bool is_rounding(const ClusterErrors& errors, std::uint32_t vertex_count, int precision) {
+  return errors.error <= epsilon_of(precision) * std::max(32 * errors.size, 4.0 * vertex_count);
+}
+
+// Returns after how many steps a check follows the last one.
+std::uint64_t interval_of(const Model& model, std::optional<double> time_step) {
+  if (!time_step) return 3;
+  double fastest = 0;
+  for (const ModelBody& body : model.bodies)
+    if (body.is_clustered) fastest = std::max(fastest, stiffest_frequency(body));
+  const double steps = radians_between_checks / (fastest * *time_step);
+  return static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
+}
 
 std::vector<glm::dvec3> displacements_of(const ModelBody& body, const State& state) {
   std::vector<glm::dvec3> displacements;
@@ -35,11 +51,11 @@ bool sums_springs(const physics::Status& status) {
 
 }  // namespace
 
-ClusterWatch::ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& stepper, std::uint32_t forces_of_a_step)
+ClusterWatch::ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& stepper, std::optional<double> time_step)
     : bodies_(bodies),
       model_(model),
       stepper_(stepper),
-      interval_(std::max(forces_between_checks / forces_of_a_step, 1u)),
+      interval_(interval_of(model, time_step)),
       changed_(model.bodies.size()),
       counted_(model.bodies.size()) {}
 
@@ -50,8 +66,9 @@ bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& stat
   for (std::size_t b = 0; b < errors.size(); ++b) {
     if (!errors[b]) continue;
     ++report_.checks;
-    const std::optional<double> left = *errors[b] <= limit_of(b) ? errors[b] : improve(b, state());
-    if (left) report_.largest_error = std::max(report_.largest_error, *left);
+    report_.largest_error = std::max(report_.largest_error, *errors[b]);
+    report_.largest_excess = std::max(report_.largest_excess, *errors[b] / force_tolerance_of(model_.bodies[b]));
+    if (!(*errors[b] <= limit_of(b))) improve(b, state());
   }
   return changed_ != before;
 }
@@ -70,13 +87,12 @@ std::vector<std::optional<double>> ClusterWatch::measure() {
   const std::vector<ClusterErrors> errors = forces.errors();
   for (std::size_t b = 0; b < relative.size(); ++b) {
     if (forces.springs_of(b) == 0 || !sums_springs(statuses[b])) continue;
-    const bool is_rounding = errors[b].error <= rounding_of(device.precision()) * errors[b].size;
-    relative[b] = is_rounding ? 0 : errors[b].relative();
+    relative[b] = is_rounding(errors[b], model_.bodies[b].vertex_count, device.precision()) ? 0 : errors[b].relative();
   }
   return relative;
 }
 
-std::optional<double> ClusterWatch::improve(std::size_t body, const State& state) {
+void ClusterWatch::improve(std::size_t body, const State& state) {
   const double tolerance = force_tolerance_of(model_.bodies[body]), standard = accuracy_of(tolerance);
   ChangedSums next{.displacements = displacements_of(model_.bodies[body], state)};
   double error = std::numeric_limits<double>::infinity(), last_accuracy = 0;
@@ -93,19 +109,18 @@ std::optional<double> ClusterWatch::improve(std::size_t body, const State& state
     ++report_.lists_made;
     last_accuracy = accuracy;
     error = measure()[body].value_or(0);
-    if (error <= tolerance) return error;
+    if (error <= tolerance) return;
   }
-  next = *changed_[body];
+  if (changed_[body]) next = *changed_[body];
   next.are_strained = true;
   next.are_direct = !(error <= most_strained * tolerance);
   if (next.are_direct) {
     next.displacements.clear();
     ++next.changes;
     change(body, state, next);
-    return {};
+  } else {
+    changed_[body] = std::make_shared<const ChangedSums>(std::move(next));
   }
-  changed_[body] = std::make_shared<const ChangedSums>(std::move(next));
-  return error;
 }
 
 void ClusterWatch::change(std::size_t body, const State& state, ChangedSums sums) {
@@ -155,7 +170,8 @@ bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& ch
 
 std::string ClusterWatch::save() const {
   ByteWriter to;
-  to(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, counted_);
+  to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, report_.energy_change,
+     counted_);
   for (const std::shared_ptr<const ChangedSums>& sums : changed_) {
     to(sums != nullptr);
     if (sums) to(sums->changes, sums->are_strained, sums->are_direct, sums->accuracy, sums->displacements);
@@ -176,7 +192,8 @@ bool ClusterWatch::restore(std::string_view saved) {
     return use(changed);
   }
   ByteReader from(saved);
-  from(next_check_, report_.checks, report_.largest_error, report_.lists_made, report_.energy_change, counted_);
+  from(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, report_.energy_change,
+       counted_);
   for (std::size_t b = 0; b < changed.size(); ++b) {
     if (!from.get<bool>()) continue;
     ChangedSums sums;

@@ -19,7 +19,8 @@ namespace pliant {
 /// What checks have found and done since the start.
 struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
-  double largest_error = 0;           // that was left after a check, relative
+  double largest_error = 0;           // that a check has found, over the force
+  double largest_excess = 0;          // of those errors over their body's tolerance
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
   double energy_change = 0;           // of the elastic energy by other lists, sum of sizes; direct sums do not count [J]
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
@@ -29,8 +30,9 @@ struct ClusterReport {
 
 class ClusterWatch {
  public:
-  /// All must outlive the watch. `forces_of_a_step` says how often a step sums springs.
-  ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& stepper, std::uint32_t forces_of_a_step);
+  /// All must outlive the watch. It checks each half period of the fastest vibration by steps of this length [s], or after each
+  /// third step if they have no fixed length.
+  ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& stepper, std::optional<double> time_step);
 
   /// Returns the number of steps after which the next check is due. There is one before the first step.
   [[nodiscard]] std::uint64_t next_check() const { return next_check_; }
@@ -61,8 +63,7 @@ class ClusterWatch {
 
   // Returns the errors of bodies whose springs are summed by clusters, and are to be summed at all. Others have none.
   [[nodiscard]] std::vector<std::optional<double>> measure();
-  // Returns the error that is left. A body with direct sums has none.
-  [[nodiscard]] std::optional<double> improve(std::size_t body, const State& state);
+  void improve(std::size_t body, const State& state);
   void change(std::size_t body, const State& state, ChangedSums sums);
   [[nodiscard]] double energy_of(std::size_t body, const State& state) const;
   [[nodiscard]] double limit_of(std::size_t body) const;

@@ -103,7 +103,7 @@ Simulation::Simulation(Device& device, const Model& model, const State& start, c
   }
   device.run(stepper_.first_passes());
   if (stepper_.cluster_forces() != nullptr) {
-    watch_.emplace(bodies_, model_, stepper_, stepper_.stage_count());
+    watch_.emplace(bodies_, model_, stepper_, plan.tolerance ? std::nullopt : std::optional(plan.time_step));
     if (!start.changed_sums.empty()) watch_->use(start.changed_sums);
   }
   skip({});

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <random>
 #include <utility>
 #include <vector>

@@ -1,6 +1,6 @@
 """Picture of the suite dense: milliseconds of a sum of forces over vertices, by clusters and of all springs."""
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator
 
 from plots.speed import by_place, color_of, label_of, marker_of
 from plots.style import FAINT, fail, leave_room, make_axes, plain_number
@@ -27,9 +27,11 @@ def draw_dense(data):
                   markerfacecolor="white", **style)
         handles.append(Line2D([], [], linewidth=2, label=label_of(key, data["machine"]), **style))
     for tolerance, line in zip(tolerances, LINES):
-        handles.append(Line2D([], [], color=FAINT, linestyle=line, linewidth=2, label=f"by clusters, tolerance {tolerance:.0e}"))
+        handles.append(Line2D([], [], color=FAINT, linestyle=line, linewidth=2, label=f"by clusters, tolerance {plain_number(tolerance)}"))
     handles.append(Line2D([], [], color=FAINT, linestyle="--", linewidth=1.2, label="all springs"))
     axes.yaxis.set_major_formatter(FuncFormatter(plain_number))
     leave_room(axes)
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+    axes.set_xlim(right=1.5e6)
     axes.legend(handles=handles, loc="upper left", frameon=False, fontsize=8.5)
     return figure
