@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "dynamics/clusters/force_sums.hpp"
 #include "run/step_cost.hpp"
 
 namespace pliant {
@@ -68,15 +69,20 @@ std::string time_of_steps(const Estimate& estimate) {
   return fmt::format("{} {:.3g} s, and more once bodies meet", estimate.is_least ? "at least" : "about", estimate.seconds);
 }
 
+std::string sums_of(const ModelBody& body) {
+  return body.is_clustered ? fmt::format(", springs by clusters to {:.3g}", force_tolerance_of(body)) : "";
+}
+
 // Bodies in rows that have equally many vertices and triangles share a line.
 void show_bodies(std::span<const ModelBody> bodies) {
   for (auto first = bodies.begin(); first != bodies.end();) {
     const auto next = std::find_if(first, bodies.end(), [&](const ModelBody& body) {
       return body.name_of_rows() != first->name_of_rows() || body.vertex_count != first->vertex_count ||
-             body.triangle_count != first->triangle_count;
+             body.triangle_count != first->triangle_count || sums_of(body) != sums_of(*first);
     });
     const auto count = next - first;
-    const std::string size = fmt::format("{} vertices, {} triangles", first->vertex_count, first->triangle_count);
+    const std::string size =
+        fmt::format("{} vertices, {} triangles{}", first->vertex_count, first->triangle_count, sums_of(*first));
     if (count == 1)
       fmt::print("body:             {} ({})\n", first->name, size);
     else
