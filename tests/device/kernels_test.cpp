@@ -323,7 +323,7 @@ void compare_quiet_passes(std::set<std::string_view>& seen) {
   }
 }
 
-// Springs of a clustered body, which no step sums yet.
+// Springs of a clustered body, and what a check measures of them.
 void compare_cluster_passes(std::set<std::string_view>& seen) {
   const ModelAndState start = bench::deformed_body(generate_mesh("icosphere:3"));
   const Method method{"verlet", 0.01};

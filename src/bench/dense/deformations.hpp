@@ -16,7 +16,7 @@ struct Deformation {
 /// Returns positions about their mean, scaled so that the farthest is 1 away.
 [[nodiscard]] std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions);
 
-/// Returns displacements of about `size`, of a body of radius 1 or near, as in the deformation "smooth" below.
+/// Returns displacements of about `size`, of a body that scaled_to_radius_1() has scaled, as in the deformation "smooth" below.
 [[nodiscard]] std::vector<glm::dvec3> smooth_displacements_of(std::span<const glm::dvec3> rest, double size);
 
 /// Returns all of them, of a body that scaled_to_radius_1() has scaled:

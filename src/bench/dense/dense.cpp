@@ -223,10 +223,11 @@ class Suite {
   static double measured_step(Device& device, const Effort& effort, ModelAndState body, std::optional<double> tolerance,
                               double expected) {
     if (expected > longest_direct_sum) return 0;
-    const std::vector<glm::dvec3> smooth = smooth_displacements_of(rest_of(body.model), 0.01);
-    for (std::uint32_t i = 0; i < smooth.size(); ++i)
-      for (int k = 0; k < 3; ++k) body.state.motion[physics::displacement_of(i) + static_cast<std::size_t>(k)] = smooth[i][k];
     ModelBody& only = body.model.bodies.front();
+    const std::vector<glm::dvec3> smooth = smooth_displacements_of(scaled_to_radius_1(rest_of(body.model)), 0.01);
+    for (std::uint32_t i = 0; i < smooth.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        body.state.motion[physics::displacement_of(i) + static_cast<std::size_t>(k)] = only.radius * smooth[i][k];
     only.force_tolerance = tolerance;
     only.is_clustered = tolerance.has_value();
     const Integrator& cv8 = find_integrator("cv8");
