@@ -15,9 +15,11 @@ using Phases = std::uint32_t;
 constexpr Phases restoring = 1,  // restore_impacts
     searching = 2,               // from expect_motion or a refit to find_contacts, meet_grounds and test_unlisted_pairs
     kicking = 4,                 // take_up_impulses and solve_contacts
-    at_stages = 8,               // the passes of forces before a stage, and the stage
+    at_stages = 8,               // share_pulls, passes of other forces before a stage, and the stage
     cutting = 16,                // from expect_cuts to pay_dues
-    at_quiet_steps = 32;         // from list_moving_shares to end_quiet_steps
+    at_quiet_steps = 32,         // from list_moving_shares to end_quiet_steps
+    placing_nodes = 64,          // sum_leaf_moments and place_nodes
+    pulling_nodes = 128;         // sum_leaf_springs and sum_node_pulls
 
 struct Sharing {
   std::string_view array;
@@ -32,6 +34,9 @@ constexpr Sharing sharing[] = {
     {"treelet_pair", searching},        // the list's length stands in `control`, and nothing beyond it is read
     {"leaf_pair", searching},           // as above
     {"impulse_sum", kicking},           // take_up_impulses empties what the first round adds to. Each round empties for the next
+    {"leaf_moment", placing_nodes},     // sum_leaf_moments writes it for all leaves that place_nodes looks at
+    {"node_pull", pulling_nodes},       // sum_leaf_springs writes it for all clusters that sum_node_pulls looks at
+    {"spring_sum", at_stages},          // share_pulls writes it for all bodies whose sums are given and not skipped
     {"added_force", at_stages},         // the first force sets it, and others add to it
     {"moment", at_stages},              // sum_moments writes it for all bodies that find_rigid_motion looks at
     {"way", cutting},                   // expect_cuts writes it for all bodies that have a partner or move

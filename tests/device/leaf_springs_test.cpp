@@ -113,20 +113,25 @@ void check_nodes(const ClusterFunctions<Real>& functions, std::uint32_t one_coun
   std::vector<std::uint32_t> far;
   for (std::uint32_t p = 0; p < one_count + four_count; ++p) far.insert(far.end(), {(own + 1 + p) % cluster_count, 0});
   const std::uint32_t one_rows = one_count, rows = one_count + 2 * four_count;
+  const std::uint32_t on_one = std::max(4 * one_rows, 2u) - 2;  // so that the last row of these lacks two
   std::vector<Real> node_pulls;
-  for (std::uint32_t k = 0; k < pull_row * rows; ++k) node_pulls.push_back(static_cast<Real>(std::cos(k)));
+  for (std::uint32_t k = 0; k < pull_row * rows; ++k)
+    node_pulls.push_back(k >= 3 * on_one && k < pull_row * one_rows ? std::numeric_limits<Real>::quiet_NaN()
+                                                                    : static_cast<Real>(std::cos(k)));
   std::vector<Real> sums(3 * points_of_cluster, Real(-7));
   functions.sum_nodes({.points = points.data(),
                        .place_count = place_count,
                        .cluster = own,
                        .far = {.clusters = far.data(), .count = one_count + four_count, .one_count = one_count},
                        .node_pulls = node_pulls.data(),
+                       .leaf_pulls_on_one = on_one,
                        .row_count = rows,
-                       .one_row_count = one_rows,
                        .sums = sums.data()});
   std::array<glm::dvec3, points_of_cluster> exact{};
   for (std::uint32_t row = 0; row < rows; ++row)
-    for (std::uint32_t k = 0; k < 4; ++k) exact[row < one_rows ? 0 : 1 + k] += vector_at(node_pulls, pull_row * row + 3 * k);
+    for (std::uint32_t k = 0; k < 4; ++k)
+      if (row >= one_rows || 4 * row + k < on_one)
+        exact[row < one_rows ? 0 : 1 + k] += vector_at(node_pulls, pull_row * row + 3 * k);
   for (std::uint32_t p = 0; p < one_count + four_count; ++p) {
     const std::uint32_t first = p < one_count ? 0 : 1, end = p < one_count ? 1 : points_of_cluster;
     for (std::uint32_t a = first; a < end; ++a)

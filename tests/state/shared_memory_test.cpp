@@ -164,11 +164,15 @@ std::vector<Rubbish> rubbish_scenes() {
   const ModelAndState above_ground = build_model(with_plate, downward, {&ground, 1}),
                       apart = build_model(inflated_spheres(), nowhere),
                       at_rest = build_model(spheres_into_others_at_rest(), nowhere);
+  ModelAndState clustered = above_ground;
+  for (ModelBody& body : clustered.model.bodies) body.is_clustered = !body.is_rigid();
   const CollisionDescription impulse{.response = {"impulse"}}, reflect{.response = {"reflect"}};
   const Method verlet{"verlet", 0.01, DampingLaw::internal}, stages{"rk4", 0.01, DampingLaw::internal},
       adaptive{"dop853", 0.04, DampingLaw::internal}, undamped{"verlet", 0.01, DampingLaw::none};
   return {{"impulses by a splitting", above_ground, verlet, impulse, {}, 14},
           {"impulses by stages", above_ground, stages, impulse, {}, 12},
+          {"impulses on clustered bodies, by a splitting", clustered, verlet, impulse, {}, 14},
+          {"impulses on clustered bodies, by stages", clustered, stages, impulse, {}, 12},
           {"impulses with a tolerance", above_ground, adaptive, impulse, 1e-6, 30},
           {"impulses on bodies at rest", at_rest, undamped, impulse, {}, 20},
           {"reflections", apart, verlet, reflect, {}, 14},

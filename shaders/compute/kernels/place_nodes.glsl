@@ -28,14 +28,16 @@ void sum_leaves(uint first, uint end) {
   MEET
 }
 
-// Places one coordinate of a node. It moves by the mean of (1 + gradient . (X - centre)) u.
+// Places one coordinate of a node. 
 void place_node(uint c, uint node, uint axis, double inverse_unit) {
   double place = spring_cluster[c].centre[axis], sum = all[axis];
   real count = real(spring_cluster[c].vertex_count);
   if (node > 0u) {
-    dvec3 gradient = LOAD3(spring_cluster[c].gradient, 3u * (node - 1u)), moments = dvec3(all[3u + axis], all[6u + axis], all[9u + axis]);
-    place += spring_cluster[c].offset[3u * (node - 1u) + axis];
-    sum += dot(gradient, moments / inverse_unit - all[axis] * LOAD3(spring_cluster[c].centre, 0u));
+    dvec3 moments = dvec3(all[3u + axis], all[6u + axis], all[9u + axis]) / inverse_unit - sum * LOAD3(spring_cluster[c].centre, 0u);
+    for (uint m = 0u; m < 3u; ++m) {
+      place += side_of_node(node, m) * spring_cluster[c].squared[m] * spring_cluster[c].slope[3u * m + axis];
+      sum += side_of_node(node, m) * dot(LOAD3(spring_cluster[c].slope, 3u * m), moments);
+    }
   }
   double u = sum / double(spring_cluster[c].vertex_count);
   uint first = 4u * place_of_point(point_of_node(place_count, c, node));

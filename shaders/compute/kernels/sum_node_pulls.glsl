@@ -24,8 +24,8 @@ void sum_pulls(uint c) {
                                .count = cluster.end_far - cluster.first_far,
                                .one_count = cluster.first_far_four - cluster.first_far},
                        .node_pulls = &pulls->x + std::size_t{pull_row_size} * cluster.first_pull,
+                       .leaf_pulls_on_one = cluster.leaf_pulls_on_one,
                        .row_count = cluster.end_pull - cluster.first_pull,
-                       .one_row_count = cluster.first_pull_four - cluster.first_pull,
                        .sums = all});
 }
 
@@ -53,13 +53,16 @@ void sum_pulls(uint c) {
   uint first_far = spring_cluster[c].first_far, first_four = spring_cluster[c].first_far_four, end_far = spring_cluster[c].end_far;
   real3 sum0 = real3(0), sum1 = real3(0), sum2 = real3(0), sum3 = real3(0), sum4 = real3(0), of_own = real3(0);
   // With a loop each for rows of node 0 and for others, llvmpipe of Mesa 22.3.6 adds to the wrong sums.
-  uint four = spring_cluster[c].first_pull_four, end = spring_cluster[c].end_pull;
-  for (uint r = spring_cluster[c].first_pull + THREAD; r < end; r += THREADS) {
+  uint first_row = spring_cluster[c].first_pull, end = spring_cluster[c].end_pull, ones = spring_cluster[c].leaf_pulls_on_one;
+  for (uint r = first_row + THREAD; r < end; r += THREADS) {
     real4 some = pulls[3u * r], more = pulls[3u * r + 1u], last = pulls[3u * r + 2u];
     real3 first = real3(some), second = real3(some.w, more.x, more.y), third = real3(more.z, more.w, last.x);
     real3 fourth = real3(last.y, last.z, last.w);
-    if (r < four) {
-      sum0 += (first + second) + (third + fourth);
+    uint passed = 4u * (r - first_row);  // pulls on node 0
+    if (passed < ones) {
+      uint left = ones - passed;
+      real3 none = real3(0);  // which a row may lack
+      sum0 += (first + (left > 1u ? second : none)) + ((left > 2u ? third : none) + (left > 3u ? fourth : none));
     } else {
       sum1 += first;
       sum2 += second;
@@ -97,14 +100,16 @@ void sum_pulls(uint c) {
 
 // Returns a coordinate of what the nodes pull a vertex with, or of what they do for its place along the axis `row` - 1.
 double pull_by(uint c, uint row, uint axis, double unit) {
+  dvec3 of_place = dvec3(0);
   double sum = double(0);
-  for (uint node = 1u; node < nodes_of_cluster; ++node) {
-    dvec3 gradient = LOAD3(spring_cluster[c].gradient, 3u * (node - 1u));
-    double slope = double(1) - dot(gradient, LOAD3(spring_cluster[c].centre, 0u));
-    if (row > 0u) slope = unit * spring_cluster[c].gradient[3u * (node - 1u) + (row - 1u)];
-    sum += slope * double(all[3u * node + axis]);
+  for (uint node = 1u; node < nodes_of_cluster; ++node) sum += double(all[3u * node + axis]);
+  for (uint m = 0u; m < 3u; ++m) {
+    double along = double(0);
+    for (uint node = 1u; node < nodes_of_cluster; ++node) along += side_of_node(node, m) * double(all[3u * node + axis]);
+    of_place += along * LOAD3(spring_cluster[c].slope, 3u * m);
   }
-  return sum / double(4) + (row == 0u ? double(all[axis]) : double(0));
+  if (row > 0u) return unit * of_place[row - 1u] / double(4);
+  return (sum - dot(of_place, LOAD3(spring_cluster[c].centre, 0u))) / double(4) + double(all[axis]);
 }
 
 void sum_node_pulls(uint c) {

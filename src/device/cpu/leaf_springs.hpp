@@ -38,9 +38,10 @@ struct NodeSprings {
   std::uint32_t place_count;
   std::uint32_t cluster;  // whose nodes these are
   FarClusters far;
-  const Real* node_pulls;                  // [row][pull_row] of this cluster
-  std::uint32_t row_count, one_row_count;  // of all, and of those of node 0, which come first
-  Real* sums;                              // out: [node][3]
+  const Real* node_pulls;           // [row][pull_row] of this cluster
+  std::uint32_t leaf_pulls_on_one;  // on node 0, which come first, four in a row
+  std::uint32_t row_count;          // of all nodes
+  Real* sums;                       // out: [node][3]
 };
 
 /// `sum_leaf` gives the vertices of a leaf one lane each. `sum_nodes` has a pair of nodes in each lane.

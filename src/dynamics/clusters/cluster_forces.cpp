@@ -32,10 +32,8 @@ void store(double* to, const glm::dvec3& from) {
 physics::SpringCluster table_row(const Cluster& cluster) {
   physics::SpringCluster row{};
   store(row.centre, cluster.rest.centre);
-  for (std::size_t n = 0; n < 4; ++n) {
-    store(row.offset + 3 * n, cluster.nodes[n + 1].offset);
-    store(row.gradient + 3 * n, cluster.nodes[n + 1].gradient);
-  }
+  for (int m = 0; m < 3; ++m) store(row.slope + 3 * m, cluster.slopes[m]);
+  store(row.squared, cluster.squares);
   row.vertex_count = cluster.size();
   return row;
 }
@@ -95,9 +93,9 @@ class BodyTables {
       row.end_leaf = first_leaf_ + cluster.end_leaf();
       row.first_far = static_cast<std::uint32_t>(tables_.far_clusters.size());
       row.first_pull = static_cast<std::uint32_t>(tables_.pull_row_count);
-      tables_.pull_row_count += (list_far(c, 1) + 3) / 4;
+      row.leaf_pulls_on_one = list_far(c, 1);
+      tables_.pull_row_count += physics::rows_of_one(row.leaf_pulls_on_one);
       row.first_far_four = static_cast<std::uint32_t>(tables_.far_clusters.size());
-      row.first_pull_four = static_cast<std::uint32_t>(tables_.pull_row_count);
       tables_.pull_row_count += list_far(c, 4);
       row.end_far = static_cast<std::uint32_t>(tables_.far_clusters.size());
       row.end_pull = static_cast<std::uint32_t>(tables_.pull_row_count);
@@ -122,7 +120,8 @@ class BodyTables {
       const physics::SpringCluster& row = tables_.clusters[c];
       std::uint32_t place = physics::pull_row_size * row.first_pull;
       for (std::uint32_t k = row.first_far; k < row.end_far; ++k) {
-        if (k == row.first_far_four) place = physics::pull_row_size * row.first_pull_four;
+        if (k == row.first_far_four)
+          place = physics::pull_row_size * (row.first_pull + physics::rows_of_one(row.leaf_pulls_on_one));
         const std::uint32_t far = tables_.far_clusters[k].x;
         entry_of(far, c).y = place;
         place += leaf_count_of(far) * physics::leaf_of_pull(k < row.first_far_four ? 1 : 4);
@@ -234,23 +233,24 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
 }
 
 std::vector<Pass> ClusterForces::passes(std::uint32_t slot, bool only_stale) const {
+  return passes_up_to(leaf_count_, slot, only_stale);
+}
+
+std::vector<Pass> ClusterForces::passes_up_to(std::uint32_t end_leaf, std::uint32_t slot, bool only_stale) const {
   const Parameters of_clusters = {{"only_stale", only_stale ? 1u : 0u}};
-  const Parameters of_leaves = {{"only_stale", only_stale ? 1u : 0u}, {"first_leaf", 0u}, {"end_leaf", leaf_count_}};
-  Parameters in_slot = of_leaves;
+  const auto of_leaves_before = [&](std::uint32_t end) {
+    return Parameters{{"only_stale", only_stale ? 1u : 0u}, {"first_leaf", 0u}, {"end_leaf", end}};
+  };
+  Parameters in_slot = of_leaves_before(end_leaf);
   in_slot.emplace_back("slot", slot);
-  return {group_pass("sum_leaf_moments", tiles_of(leaf_count_), in_slot), group_pass("place_nodes", cluster_count_, of_clusters),
-          group_pass("sum_leaf_springs", leaf_count_, of_leaves), group_pass("sum_node_pulls", cluster_count_, of_clusters),
-          group_pass("share_pulls", tiles_of(leaf_count_), of_leaves)};
+  return {group_pass("sum_leaf_moments", tiles_of(end_leaf), in_slot), group_pass("place_nodes", cluster_count_, of_clusters),
+          group_pass("sum_leaf_springs", end_leaf, of_leaves_before(end_leaf)),
+          group_pass("sum_node_pulls", cluster_count_, of_clusters),
+          group_pass("share_pulls", tiles_of(leaf_count_), of_leaves_before(leaf_count_))};
 }
 
 std::vector<Pass> ClusterForces::measuring_passes(std::uint32_t slot) const {
-  const std::uint32_t sample_count = leaves_and_samples_ - leaf_count_;
-  const Parameters of_samples = {{"only_stale", 0u}, {"first_leaf", leaf_count_}, {"end_leaf", leaves_and_samples_}};
-  Parameters in_slot = of_samples;
-  in_slot.emplace_back("slot", slot);
-  std::vector<Pass> all = passes(slot, false);
-  all.push_back(group_pass("sum_leaf_moments", tiles_of(sample_count), in_slot));  // which takes samples into their order
-  all.push_back(group_pass("sum_leaf_springs", sample_count, of_samples));
+  std::vector<Pass> all = passes_up_to(leaves_and_samples_, slot, false);
   const Parameters of_all = {
       {"only_stale", 0u}, {"first_leaf", 0u}, {"end_leaf", leaves_and_samples_}, {"first_sample", leaf_count_}};
   all.push_back(make_pass(bodies_->arrays, "square_sums", of_all, leaves_and_samples_));

@@ -43,6 +43,8 @@ class ClusterForces {
   [[nodiscard]] std::uint64_t springs_of(std::size_t body) const { return springs_of_bodies_[body]; }
 
  private:
+  // Springs of leaves of samples are summed, too, if they stand before the end.
+  [[nodiscard]] std::vector<Pass> passes_up_to(std::uint32_t end_leaf, std::uint32_t slot, bool only_stale) const;
   [[nodiscard]] Pass group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters) const;
 
   // Leaves of samples stand behind all others.

@@ -84,9 +84,8 @@ ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> dis
       for (const std::uint32_t child : {cluster.first_child, cluster.first_child + 1})
         add(moments[child].force, moments[child].slope, tree_.clusters[child].rest.centre);
     for (std::uint32_t n = 0; n < node_count; ++n) {
-      const ClusterNode& node = cluster.nodes[n];
-      points.nodes[c][n] = {cluster.rest.centre + node.offset,
-                            (of_cluster.force + of_cluster.slope * node.gradient) / static_cast<double>(cluster.size())};
+      points.nodes[c][n] = {cluster.rest.centre + cluster.offset_of(n),
+                            (of_cluster.force + of_cluster.slope * cluster.gradient_of(n)) / static_cast<double>(cluster.size())};
     }
   }
   return points;
@@ -171,7 +170,7 @@ ClusterSprings::Shared ClusterSprings::shared_by(const Points& points, std::uint
       for (const Point& node : nodes_of(points, far)) pull -= weight_of(far.cluster, far.nodes) * force_between(own, node);
       pull /= far.nodes;
       shared.force += pull;
-      shared.slope += glm::outerProduct(pull, tree_.clusters[cluster].nodes[n].gradient);
+      shared.slope += glm::outerProduct(pull, tree_.clusters[cluster].gradient_of(n));
     }
   }
   return shared;

@@ -12,11 +12,6 @@
 namespace pliant {
 namespace {
 
-struct Axes {
-  std::array<glm::dvec3, 3> direction;  // the longest last
-  std::array<double, 3> spread;         // root of the mean square along them [m]
-};
-
 Extent extent_of(std::span<const glm::dvec3> positions, std::span<const std::uint32_t> vertices) {
   Extent extent;
   for (const std::uint32_t v : vertices) extent.centre += positions[v];
@@ -47,12 +42,12 @@ class Builder {
     Cluster cluster = tree_.clusters[c];
     const std::span<std::uint32_t> vertices(tree_.order.data() + cluster.first, cluster.size());
     cluster.rest = extent_of(rest_, vertices);
-    const Axes axes = axes_of(cluster, vertices);
-    place_nodes(cluster, axes);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread = spread_of(cluster, vertices);
+    set_axes(cluster, spread);
     if (cluster.size() > leaf_size) {
       cluster.first_child = static_cast<std::uint32_t>(tree_.clusters.size());
       const std::uint32_t middle = cluster.first + size_of_left(cluster.size());
-      split(vertices, middle - cluster.first, axes.direction[2]);
+      split(vertices, middle - cluster.first, direction_of(spread, 2));
       tree_.clusters.push_back({.first = cluster.first, .end = middle, .parent = c});
       tree_.clusters.push_back({.first = middle, .end = cluster.end, .parent = c});
     } else {
@@ -67,31 +62,31 @@ class Builder {
     return leaves / 2 * leaf_size;
   }
 
-  Axes axes_of(const Cluster& cluster, std::span<const std::uint32_t> vertices) const {
+  // Returns mean squares along principal axes, of which the longest is the last.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread_of(const Cluster& cluster,
+                                                           std::span<const std::uint32_t> vertices) const {
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     for (const std::uint32_t v : vertices) {
       const glm::dvec3 arm = rest_[v] - cluster.rest.centre;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j <= i; ++j) moment(i, j) += arm[i] * arm[j];
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moment / static_cast<double>(vertices.size()));
-    Axes axes;
-    for (int m = 0; m < 3; ++m) {
-      for (int k = 0; k < 3; ++k) axes.direction[m][k] = solver.eigenvectors()(k, m);
-      axes.spread[m] = std::sqrt(std::max(solver.eigenvalues()[m], 0.0));
-    }
-    return axes;
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment / static_cast<double>(vertices.size()));
   }
 
-  // Four corners of a box that is as wide as the vertices' spread. An axis across which the cluster is flat is left out.
-  static void place_nodes(Cluster& cluster, const Axes& axes) {
-    constexpr int corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    for (int a = 0; a < 4; ++a)
-      for (int m = 0; m < 3; ++m) {
-        if (axes.spread[m] <= 1e-3 * cluster.rest.radius) continue;
-        cluster.nodes[a + 1].offset += corners[a][m] * axes.spread[m] * axes.direction[m];
-        cluster.nodes[a + 1].gradient += corners[a][m] / axes.spread[m] * axes.direction[m];
-      }
+  static glm::dvec3 direction_of(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& spread, int axis) {
+    const Eigen::Vector3d direction = spread.eigenvectors().col(axis);
+    return {direction[0], direction[1], direction[2]};
+  }
+
+  // An axis across which the cluster is flat is left out.
+  static void set_axes(Cluster& cluster, const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& spread) {
+    for (int m = 0; m < 3; ++m) {
+      const double length = std::sqrt(std::max(spread.eigenvalues()[m], 0.0));
+      if (length <= 1e-3 * cluster.rest.radius) continue;
+      cluster.slopes[m] = direction_of(spread, m) / length;
+      cluster.squares[m] = length * length;
+    }
   }
 
   // Puts the vertices that are lowest along the axis first.
@@ -109,6 +104,19 @@ class Builder {
 };
 
 }  // namespace
+
+glm::dvec3 Cluster::offset_of(std::uint32_t node) const {
+  glm::dvec3 offset(0.0);
+  for (int m = 0; node > 0 && m < 3; ++m)
+    offset += physics::side_of_node(node, static_cast<std::uint32_t>(m)) * squares[m] * slopes[m];
+  return offset;
+}
+
+glm::dvec3 Cluster::gradient_of(std::uint32_t node) const {
+  glm::dvec3 gradient(0.0);
+  for (int m = 0; node > 0 && m < 3; ++m) gradient += physics::side_of_node(node, static_cast<std::uint32_t>(m)) * slopes[m];
+  return gradient;
+}
 
 std::vector<Extent> extents_moved_by(const ClusterTree& tree, std::span<const glm::dvec3> rest,
                                      std::span<const glm::dvec3> displacements) {

@@ -1,9 +1,9 @@
 // A tree of clusters over the vertices of a body at rest. Clusters that are far from each other act through few points, their
 // nodes (cluster_pairs.hpp).
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -14,13 +14,6 @@ namespace pliant {
 
 using physics::leaf_size;
 
-/// A point that stands for vertices of a cluster. It moves as the mean of (1 + gradient . (X - centre)) u over all of them, so
-/// that it moves with them in all linear motions. If the cluster is flat or thin, it does so in those within its plane or line.
-struct ClusterNode {
-  glm::dvec3 offset{0.0};    // from the cluster's centre at rest [m]
-  glm::dvec3 gradient{0.0};  // [1/m]
-};
-
 /// Where vertices stand, and how far from each other.
 struct Extent {
   glm::dvec3 centre{0.0};     // their mean [m]
@@ -28,18 +21,27 @@ struct Extent {
   double spread_squared = 0;  // mean square of the distances from there [m^2]
 };
 
-/// Vertices that follow each other in a tree's order. They begin where a leaf begins.
+/// Vertices that follow each other in a tree's order. They begin where a leaf begins. Nodes stand for them: points which each
+/// move as the mean of (1 + gradient . (X - centre)) u over all of them. So nodes move with them in all linear motions. If the
+/// cluster is flat or thin, they do so in those within its plane or line.
 struct Cluster {
   std::uint32_t first = 0, end = 0;
-  std::uint32_t parent = 0;            // the root is its own
-  std::uint32_t first_child = 0;       // the other one follows. 0: it is a leaf
-  Extent rest{};                       // of its vertices at rest
-  std::array<ClusterNode, 5> nodes{};  // the centre, which can stand for all vertices, then four which can together
+  std::uint32_t parent = 0;       // the root is its own
+  std::uint32_t first_child = 0;  // the other one follows. 0: it is a leaf
+  Extent rest{};                  // of its vertices at rest
+  glm::dmat3 slopes{0.0};         // principal axes, over the vertices' spread along them, or 0 if that is tiny [1/m]
+  glm::dvec3 squares{0.0};        // those spreads [m^2]
 
   [[nodiscard]] bool is_leaf() const { return first_child == 0; }
   [[nodiscard]] std::uint32_t size() const { return end - first; }
   [[nodiscard]] std::uint32_t first_leaf() const { return first / leaf_size; }
   [[nodiscard]] std::uint32_t end_leaf() const { return (end + leaf_size - 1) / leaf_size; }
+
+  /// Returns where a node is from the centre at rest [m]. Node 0 is the centre, which can stand for all vertices. Nodes 1 to 4
+  /// can together.
+  [[nodiscard]] glm::dvec3 offset_of(std::uint32_t node) const;
+  /// [1/m]
+  [[nodiscard]] glm::dvec3 gradient_of(std::uint32_t node) const;
 };
 
 /// Leaf k has the places from k leaf_size on. All leaves but the last one are full.
