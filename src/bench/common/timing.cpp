@@ -19,16 +19,9 @@ std::uint64_t repetitions_of_batch(double batch_seconds, const BatchTimer& secon
   }
 }
 
-}  // namespace
-
-double median(std::vector<double> values) {
-  PLIANT_EXPECT(!values.empty());
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
+Timing seconds_after_load(double load_seconds, const Effort& effort, const BatchTimer& seconds_of_batch) {
+  for (double loaded = 0; loaded < load_seconds;)
+    loaded += seconds_of_batch(repetitions_of_batch(effort.batch_seconds, seconds_of_batch));
   const std::uint64_t repetitions = repetitions_of_batch(effort.batch_seconds, seconds_of_batch);
   std::vector<double> batches;
   double passed = 0;
@@ -40,8 +33,22 @@ Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
   return {.median = median(batches), .fastest = std::ranges::min(batches)};
 }
 
+}  // namespace
+
+double median(std::vector<double> values) {
+  PLIANT_EXPECT(!values.empty());
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
+  return seconds_after_load(0, effort, seconds_of_batch);
+}
+
 Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue) {
-  return seconds_each(effort, [&](std::uint64_t repetitions) {
+  const double load_seconds = device.info().kind == DeviceKind::gpu ? effort.gpu_load_seconds : 0;
+  return seconds_after_load(load_seconds, effort, [&](std::uint64_t repetitions) {
     device.mark_time();
     for (std::uint64_t k = 0; k < repetitions; ++k) queue();
     device.mark_time();

@@ -13,6 +13,7 @@ struct Effort {
   double batch_seconds = 0.02;  // least length of a batch
   int batches = 5;              // once `enough_seconds` have passed, three are enough
   double enough_seconds = 1;
+  double gpu_load_seconds = 0.3;  // before a GPU is timed: an idle one has lowered its clocks, an H200 to a sixth
 };
 
 /// Times of one repetition [s].
@@ -22,7 +23,7 @@ struct Timing {
 };
 
 /// The effort of `--quick`, which gives figures of the right size in a fraction of a second.
-inline constexpr Effort quick_effort{.batch_seconds = 0.002, .batches = 3, .enough_seconds = 0.05};
+inline constexpr Effort quick_effort{.batch_seconds = 0.002, .batches = 3, .enough_seconds = 0.05, .gpu_load_seconds = 0};
 
 /// Expects at least one value.
 [[nodiscard]] double median(std::vector<double> values);

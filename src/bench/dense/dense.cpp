@@ -11,7 +11,6 @@
 #include "bench/common/timing.hpp"
 #include "bench/dense/deformations.hpp"
 #include "bench/dense/exact_forces.hpp"
-#include "bench/forces/peak_rate.hpp"
 #include "core/stopwatch.hpp"
 #include "dynamics/clusters/cluster_forces.hpp"
 #include "dynamics/clusters/cluster_springs.hpp"
@@ -37,6 +36,8 @@ Shape sphere(int level) {
   const std::string name = fmt::format("icosphere:{}", level);
   return {name, generate_mesh(name)};
 }
+
+Shape large_cube() { return {"cube:51 split three times", subdivide(generate_mesh("cube:51"), 3)}; }
 
 Shape bunny_split_twice(const std::filesystem::path& scenes) {
   return {"bunny split twice", subdivide(load_obj(scenes.parent_path() / "meshes" / "bunny.obj").mesh, 2)};
@@ -154,7 +155,10 @@ class Suite {
   Suite(const DenseOptions& options, const Progress& progress)
       : quick_(options.quick), progress_(progress), places_(places_of(options.devices, std::array{32, 64})) {
     for (const int level : quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8}) shapes_.push_back(sphere(level));
-    if (!quick_) shapes_.push_back(bunny_split_twice(options.scenes));
+    if (!quick_) {
+      shapes_.push_back(bunny_split_twice(options.scenes));
+      shapes_.push_back(large_cube());
+    }
     std::ranges::stable_sort(shapes_, {}, [](const Shape& shape) { return shape.mesh.positions.size(); });
     steps_ = shapes_.size() * (1 + places_.size());
   }
@@ -189,15 +193,10 @@ class Suite {
     }
   }
 
-  static void raise_clocks(Device& device, const Place& place) {
-    static_cast<void>(multiply_adds_per_second(device, place, std::nullopt, {.batch_seconds = 0.1, .batches = 3}));
-  }
-
   void measure_sums(const Place& place) {
     if (result_.interrupted) return;
     const std::unique_ptr<Device> device = open(place);
     const Effort effort = quick_ ? quick_effort : Effort{};
-    raise_clocks(*device, place);
     double seconds_per_pair = 0;  // of a sum of all springs, by the largest body so far
     for (const Shape& shape : shapes_) {
       const std::string what = fmt::format("{}, {}", name_of(place), shape.name);
