@@ -109,9 +109,11 @@ TEST_CASE("every kernel declares the same arrays and parameters on CPU and GPU",
     const bool is_of_forces = name.ends_with("_stage") || name == "refresh_force";
     constexpr std::string_view in_rounds[] = {"solve_contacts",  "certify",      "certify_self_contact", "pay_dues",
                                               "restore_impacts", "find_flights", "find_sleepers"};
-    constexpr std::string_view in_groups[] = {"refit",       "refit_cages",         "bound_treelets",      "bound_cage_treelets",
-                                              "find_pairs",  "test_unlisted_pairs", "list_unlisted_pairs", "sum_leaf_moments",
-                                              "place_nodes", "sum_leaf_springs",    "sum_node_pulls",      "share_pulls"};
+    constexpr std::string_view in_groups[] = {
+        "refit",          "refit_cages",         "bound_treelets",      "bound_cage_treelets",
+        "find_pairs",     "test_unlisted_pairs", "list_unlisted_pairs", "sum_leaf_moments",
+        "sum_moments",    "find_rigid_motion",   "place_nodes",         "sum_leaf_springs",
+        "sum_node_pulls", "share_pulls"};
     const bool goes_in_groups = std::ranges::find(in_groups, name) != std::end(in_groups);
     const bool goes_in_rounds = std::ranges::find(in_rounds, name) != std::end(in_rounds);
     for (const bool sums_are_given : {true, false}) {

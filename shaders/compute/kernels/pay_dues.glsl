@@ -34,7 +34,7 @@ PARAMETER(uint, part_count)
 PARAMETER(uint, triangle_pair_capacity)
 PARAMETER(uint, contact_capacity)
 
-const uint last_round = 7u;
+const uint last_round = 12u;
 
 #include "parts/dues.glsl"
 // A step that is empty or was undone leaves clusters as they are.
@@ -96,13 +96,13 @@ void note_cuts(uvec4 part, uint item) {
   part_sum[item].cuts = cuts;
 }
 
-// What happened to the body's motions in this step, if it moves.
-uint cuts_of(uint b) {
-  uvec2 range = vertex_part_range[b];
-  uint cuts = 0u;
-  for (uint k = range.x; k < range.x + range.y; ++k) cuts |= part_sum[k].cuts;
-  return cuts;
+void add_up_cuts(uvec4 part, uint item, bool are_blocks) {
+  PartsToAdd parts = parts_to_add(part, item, are_blocks);
+  for (uint k = parts.from; k < parts.end; k += parts.step) part_sum[item].cuts |= part_sum[k].cuts;
 }
+
+// What happened to the body's motions in this step, if it moves.
+uint cuts_of(uint b) { return has_sums(b) ? part_sum[sums_of_body(b)].cuts : 0u; }
 bool was_cut_short(uint b) { return (cuts_of(b) & cut_short_bit) != 0u; }
 bool was_at_a_cut(uint b) { return (cuts_of(b) & at_a_cut_bit) != 0u; }
 bool was_held(uint b) { return (cuts_of(b) & held_bit) != 0u; }
@@ -150,12 +150,18 @@ void sum_lost_turning(uvec4 part, uint item) {
   STORE3(part_sum[item].lost_turning, 0u, lost)
 }
 
+void add_up_lost_turning(uvec4 part, uint item, bool are_blocks) {
+  PartsToAdd parts = parts_to_add(part, item, are_blocks);
+  dvec3 lost = LOAD3(part_sum[item].lost_turning, 0u);
+  for (uint k = parts.from; k < parts.end; k += parts.step) lost += LOAD3(part_sum[k].lost_turning, 0u);
+  STORE3(part_sum[item].lost_turning, 0u, lost)
+}
+
 // The body's moments if cuts had left its angular momentum as it was.
 Moments restored_moments_of(uint b) {
-  uvec2 range = vertex_part_range[b];
   Moments m = moments_of_body(b);
   dvec3 turning = LOAD3(m.turning, 0u);
-  for (uint k = range.x; k < range.x + range.y; ++k) turning += LOAD3(part_sum[k].lost_turning, 0u);
+  if (has_sums(b)) turning += LOAD3(part_sum[sums_of_body(b)].lost_turning, 0u);
   STORE3(m.turning, 0u, turning)
   return m;
 }
@@ -185,16 +191,26 @@ void sum_energies_of(uvec4 part, uint item) {
   part_sum[item].gained = gained;
 }
 
+void add_up_energies(uvec4 part, uint item, bool are_blocks) {
+  PartsToAdd parts = parts_to_add(part, item, are_blocks);
+  for (uint k = parts.from; k < parts.end; k += parts.step) {
+    part_sum[item].deformation += part_sum[k].deformation;
+    part_sum[item].rigid += part_sum[k].rigid;
+    part_sum[item].missed += part_sum[k].missed;
+    part_sum[item].gained += part_sum[k].gained;
+  }
+}
+
 // Without what others may pay. What unsettled contacts gave is due, too.
 Means own_means_of(uint b) {
-  uvec2 range = vertex_part_range[b];
   Means m;
   m.deformation = m.rigid = m.missed = m.due = double(0);
-  for (uint k = range.x; k < range.x + range.y; ++k) {
-    m.deformation += part_sum[k].deformation;
-    m.rigid += part_sum[k].rigid;
-    m.missed += part_sum[k].missed;
-    m.due += part_sum[k].gained;
+  if (has_sums(b)) {
+    uint sums = sums_of_body(b);
+    m.deformation = part_sum[sums].deformation;
+    m.rigid = part_sum[sums].rigid;
+    m.missed = part_sum[sums].missed;
+    m.due = part_sum[sums].gained;
   }
   m.due = max(debt[b].energy + m.due, double(0)) + contact_total[unsettled_energy_of(b)];
   return m;
@@ -216,9 +232,9 @@ uint find_involvement(uint b) {
   return was_at_a_cut(b) ? involved : not_involved;
 }
 void note_involvement(uint b, uint item) {
-  if (item == vertex_part_range[b].x) part_sum[item].involvement = find_involvement(b);
+  if (item == sums_of_body(b)) part_sum[item].involvement = find_involvement(b);
 }
-uint involvement_of(uint b) { return vertex_part_range[b].y != 0u ? part_sum[vertex_part_range[b].x].involvement : not_involved; }
+uint involvement_of(uint b) { return has_sums(b) ? part_sum[sums_of_body(b)].involvement : not_involved; }
 
 void begin_cluster(uint b) {
   cluster[b].sum = no_moments();
@@ -383,16 +399,24 @@ void note_debts() {
   }
 }
 
-void pay_dues(uint item, uint number) {
-  uvec4 part = vertex_part[item];
-  if (number == 3u) note_involvement(part.x, item);
-  if (number == 4u && item == 0u) find_clusters();
-  if (number == last_round && item == 0u) note_debts();
-  if (status[part.x].activity != moving) return;
+void sum_up(uvec4 part, uint item, uint number) {
   if (number == 0u) sum_moments_of(part, item);
   if (number == 0u) note_cuts(part, item);
-  if (number == 1u) sum_lost_turning(part, item);
-  if (number == 2u) sum_energies_of(part, item);
-  if (number == 5u) pay(part);
-  if (number == 6u && item == vertex_part_range[part.x].x) note_debt(part.x);
+  if (number == 1u || number == 2u) add_up_moments(part, item, number == 2u);
+  if (number == 1u || number == 2u) add_up_cuts(part, item, number == 2u);
+  if (number == 3u) sum_lost_turning(part, item);
+  if (number == 4u || number == 5u) add_up_lost_turning(part, item, number == 5u);
+  if (number == 6u) sum_energies_of(part, item);
+  if (number == 7u || number == 8u) add_up_energies(part, item, number == 8u);
+}
+
+void pay_dues(uint item, uint number) {
+  uvec4 part = vertex_part[item];
+  bool moves = status[part.x].activity == moving;
+  if (moves) sum_up(part, item, number);
+  if (number == 8u) note_involvement(part.x, item);
+  if (number == 9u && item == 0u) find_clusters();
+  if (number == 10u && moves) pay(part);
+  if (number == 11u && moves && item == sums_of_body(part.x)) note_debt(part.x);
+  if (number == last_round && item == 0u) note_debts();
 }

@@ -31,7 +31,7 @@ PARAMETER(uint, part_count)
 PARAMETER(double, least_speed)
 PARAMETER(double, gravity_size)
 
-const uint last_round = 2u;
+const uint last_round = 4u;
 
 bool goes_on_at(uint at) { return step_parts[0].parts - impact_part[at] < impact_ends_after; }
 // One part more ends the impacts.
@@ -50,10 +50,7 @@ uint moments_half() { return from_half; }
 // The mean velocity of a body's vertices in the world [m/s]. Static bodies and grounds have none.
 dvec3 mean_velocity(uint b) {
   if (!is_movable(b)) return dvec3(0);
-  uvec2 range = vertex_part_range[b];
-  dvec3 sum = dvec3(0);
-  for (uint k = range.x; k < range.x + range.y; ++k) sum += LOAD3(part_sum[k].moments.velocity, 0u);
-  return rotate(pose[b], sum / double(body[b].vertex_count));
+  return rotate(pose[b], LOAD3(part_sum[sums_of_body(b)].moments.velocity, 0u) / double(body[b].vertex_count));
 }
 double inverse_mass_of(uint b) { return is_movable(b) ? inverse_vertex_mass(b) / double(body[b].vertex_count) : double(0); }
 double restitution_of(uint b) { return b < body_count ? surface[b].restitution : double(-1); }
@@ -76,7 +73,7 @@ void end_impact(uint at) {
 
 // The note stands in the body's first part.
 void note_parting(uint b) {
-  if (is_movable(b)) ATOMIC_STORE(part_sum[vertex_part_range[b].x].parts_too_fast, 1u);
+  if (is_movable(b)) ATOMIC_STORE(part_sum[sums_of_body(b)].parts_too_fast, 1u);
 }
 
 // The velocity is a's.
@@ -112,7 +109,7 @@ void judge_impacts(uint keeper) {
 }
 
 void take_deformation(uvec4 part) {
-  if (part_sum[vertex_part_range[part.x].x].parts_too_fast == 0u) return;
+  if (part_sum[sums_of_body(part.x)].parts_too_fast == 0u) return;
   RigidMotion rigid = rigid_motion_of_body(part.x);
   for (uint i = part.y; i < part.z; ++i) {
     dvec3 velocity = velocity_at(rigid, place_of(i));
@@ -126,6 +123,7 @@ void restore_impacts(uint item, uint number) {
     sum_moments_of(part, item);
     part_sum[item].parts_too_fast = 0u;
   }
-  if (number == 1u && item == vertex_part_range[part.x].x) judge_impacts(part.x);
-  if (number == 2u && status[part.x].activity == moving) take_deformation(part);
+  if (number == 1u || number == 2u) add_up_moments(part, item, number == 2u);
+  if (number == 3u && item == sums_of_body(part.x)) judge_impacts(part.x);
+  if (number == last_round && status[part.x].activity == moving) take_deformation(part);
 }

@@ -61,9 +61,9 @@ ARRAY(leaf_square, double, leaf, step, "[leaf][3] sums over its vertices of squa
 ARRAY(spring_sum, double, vertex, step, "[vertex][3] what pulls a vertex of a clustered body: minus the force over the stiffness [body's unit]; old numbers of other bodies, and of those that are not deformed")
 
 // internal damping
-ARRAY(moment_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread sums of a body with internal damping")
+ARRAY(moment_part, uvec4, part, fixed, "body, first vertex, end of vertices, parts of a block: what a group sums of a body with internal damping")
 ARRAY(moment_range, uvec2, body, fixed, "first part, number of parts; none without internal damping")
-ARRAY(moment, Moments, part, step, "sums over these vertices, for the body's rigid motion")
+ARRAY(moment, double, part, step, "[part][15] sums over these vertices, in the order of Moments (rigid_motion.glsl)")
 ARRAY(rigid_motion, RigidMotion, body, step, "what internal damping leaves alone, at a stage; zeros for bodies without it")
 
 // contacts
@@ -109,7 +109,7 @@ ARRAY(contact_weight, uint, vertex, step, "sum of its weights in contacts, in 2^
 ARRAY(impulse_sum, uvec2, vertex, step, "[3][vertex][3] impulses of a kick in quanta, as 64 bits in two halves")
 ARRAY(way, double, vertex, step, "[vertex][3] how far the integrator moved the vertex beyond its flight [m]")
 ARRAY(cut, uint, vertex, step, "[row][vertex] part of its way that a vertex may go, as bits of a float; the least counts. The next row says in which round it was stopped, if at all; then of each flight when it was stopped (contact/surface.glsl)")
-ARRAY(vertex_part, uvec4, part, fixed, "body, first vertex, end of vertices, 0: what one thread serves of a body that moves")
+ARRAY(vertex_part, uvec4, part, fixed, "body, first vertex, end of vertices, parts of a block: what one thread serves of a body that moves")
 ARRAY(vertex_part_range, uvec2, body, fixed, "first part, number of parts; none for a body that does not move")
 ARRAY(part_sum, PartSums, part, step, "sums over these vertices, if a body owes energy or had motions cut short")
 ARRAY(cluster, Cluster, body, carried, "[body + 1] how bodies fly, and bodies held by each other, where the first of them stands; the last one counts those in clusters")

@@ -21,6 +21,8 @@ struct Moments {
   double spread[6];    // of the products xx, yy, zz, xy, yz, zx
 };
 
+const uint moments_numbers = 15u;
+
 FN Moments no_moments() {
   Moments m;
   STORE3(m.place, 0u, dvec3(0))

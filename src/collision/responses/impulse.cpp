@@ -340,7 +340,8 @@ class Impulse final : public Response {
 
   void make_debts(const Model& model) {
     Arrays& arrays = bodies_.arrays;
-    const VertexParts all = vertex_parts(model, [](const ModelBody& body) { return !body.is_rigid(); });
+    const VertexParts all = vertex_parts(
+        model, [](const ModelBody& body) { return !body.is_rigid(); }, cube_root_part);
     part_count_ = all.count();
     arrays.make("vertex_part", all.parts);
     arrays.make("vertex_part_range", all.ranges);
