@@ -40,7 +40,8 @@ Json described(const gl::Adapter& adapter) {
           {"driver", adapter.version},
           {"software", adapter.is_software},
           {"largest_buffer_bytes", adapter.largest_buffer},
-          {"storage_blocks", adapter.storage_blocks}};
+          {"storage_blocks", adapter.storage_blocks},
+          {"free_memory_bytes", adapter.free_memory}};
 }
 
 Json described_cpu() {
@@ -83,8 +84,9 @@ void print_devices(const Devices& devices) {
   fmt::print("pliant {}\n", version());
   fmt::print("cpu:   {} ({} threads)\n", cpu::device_name(), thread_count(0));
   for (const gl::Adapter& gpu : devices.gpus)
-    fmt::print("gpu {}: {}, driver {}, buffers up to {} MB, {} storage blocks{}\n", gpu.index, gpu.renderer, gpu.version,
+    fmt::print("gpu {}: {}, driver {}, buffers up to {} MB, {} storage blocks{}{}\n", gpu.index, gpu.renderer, gpu.version,
                gpu.largest_buffer / 1000000, gpu.storage_blocks,
+               gpu.free_memory > 0 ? fmt::format(", {} MB free", gpu.free_memory / 1000000) : "",
                gpu.is_software ? " (software: used only with --device gpu)" : "");
   if (!devices.missing.empty()) fmt::print("no gpu: {}\n", devices.missing);
 }

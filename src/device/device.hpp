@@ -69,8 +69,9 @@ enum class DeviceKind { cpu, gpu };
 
 struct DeviceInfo {
   DeviceKind kind = DeviceKind::cpu;
-  std::string name;      // model, and what its bits depend on
-  unsigned threads = 1;  // of the CPU that run kernels
+  std::string name;               // model, and what its bits depend on
+  unsigned threads = 1;           // of the CPU that run kernels
+  std::uint64_t free_memory = 0;  // of a GPU, when the device was made [bytes]. 0 if nobody tells
 };
 
 /// Passes run one after another: each starts after the one before has finished, unless that one has `beside_next`. run() may

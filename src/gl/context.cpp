@@ -87,15 +87,14 @@ bool is_software_renderer(const std::string& renderer) {
   return std::ranges::any_of(names, [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
-/// Expects a current context.
-std::uint32_t count_multiprocessors() {
-  constexpr GLenum sm_count_nv = 0x933B;  // of GL_NV_shader_thread_group, which glad's loader leaves out
-  GLint extensions = 0, count = 0;
+/// Returns a number that only drivers with an extension tell, which glad's loader leaves out. Returns 0 without it. Expects a
+/// current context.
+std::uint32_t number_of(std::string_view extension, GLenum name) {
+  GLint extensions = 0, number = 0;
   glGetIntegerv(GL_NUM_EXTENSIONS, &extensions);
   for (GLuint k = 0; k < static_cast<GLuint>(extensions); ++k)
-    if (reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, k)) == "GL_NV_shader_thread_group"sv)
-      glGetIntegerv(sm_count_nv, &count);
-  return static_cast<std::uint32_t>(count);
+    if (reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, k)) == extension) glGetIntegerv(name, &number);
+  return static_cast<std::uint32_t>(number);
 }
 
 /// Expects a current context.
@@ -108,6 +107,7 @@ std::uint32_t count_storage_blocks() {
 
 /// Describes the current context.
 Adapter describe_current(int index) {
+  constexpr GLenum sm_count_nv = 0x933B, current_available_vidmem_nvx = 0x9049;  // the latter in KiB
   const std::string renderer = gl_string(GL_RENDERER);
   Adapter adapter{.index = index,
                   .renderer = renderer,
@@ -115,7 +115,8 @@ Adapter describe_current(int index) {
                   .version = gl_string(GL_VERSION),
                   .is_software = is_software_renderer(renderer),
                   .storage_blocks = count_storage_blocks(),
-                  .multiprocessors = count_multiprocessors()};
+                  .multiprocessors = number_of("GL_NV_shader_thread_group", sm_count_nv),
+                  .free_memory = std::uint64_t{1024} * number_of("GL_NVX_gpu_memory_info", current_available_vidmem_nvx)};
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &adapter.largest_buffer);
   return adapter;
 }

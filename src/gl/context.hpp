@@ -17,6 +17,7 @@ struct Adapter {
   std::int64_t largest_buffer = 0;    // the largest one that a shader can use [bytes]
   std::uint32_t storage_blocks = 0;   // that a compute shader can have
   std::uint32_t multiprocessors = 0;  // each runs at least one work group at a time. 0 if the driver does not tell
+  std::uint64_t free_memory = 0;      // of its own, when the context was made [bytes]. 0 if the driver does not tell
 };
 
 /// Returns every EGL device that gives an OpenGL 4.5 core context, hardware first. Asks EGL_EXT_platform_device, then

@@ -105,7 +105,9 @@ void show_check(const PreparedRun& run) {
   fmt::print("time step:        {}\n", length_of_steps(run.plan));
   fmt::print("steps:            {}\n", count_of_steps(run.plan, estimate));
   fmt::print("device:           {} ({})\n", name_of(run.device->info().kind), run.device->info().name);
-  fmt::print("device memory:    {:.1f} MB\n", static_cast<double>(bytes) / 1e6);
+  const std::uint64_t free_memory = run.device->info().free_memory;
+  fmt::print("device memory:    {:.1f} MB{}\n", 1e-6 * static_cast<double>(bytes),
+             free_memory == 0 ? "" : fmt::format(", of {:.0f} MB that are free", 1e-6 * static_cast<double>(free_memory)));
   fmt::print("stepping time:    {}\n", time_of_steps(estimate));
 }
 

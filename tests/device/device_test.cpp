@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "device/gpu/gpu_device.hpp"
 #include "support/contract.hpp"
 #include "support/evolve.hpp"
 
@@ -39,6 +40,13 @@ TEST_CASE("what is read ahead is never outdated", "[gl]") {
     device.run(std::array{make_pass(arrays, "judge_step", {}, 1)});
     CHECK(pace.download().front().verdict == physics::step_empty);
   }
+}
+
+TEST_CASE("a GPU with too little free memory is told so before the driver takes other memory") {
+  CHECK_NOTHROW(gpu::expect_room(400, 600, 1000));
+  CHECK_NOTHROW(gpu::expect_room(~std::uint64_t{0}, 600, 0));  // the driver does not tell
+  CHECK_THROWS_WITH(gpu::expect_room(401'000'000, 600'000'000, 1'000'000'000),
+                    Catch::Contains("1000.0 MB were free, and 1001.0 MB are needed at least"));
 }
 
 // The second quarter of a buffer, as a part. The whole buffer holds 0, 1, 2, ...

@@ -42,7 +42,10 @@ class GpuDevice final : public Device {
                   fmt::format("its driver has {} storage blocks for a compute shader, but pliant needs {}",
                               adapter.storage_blocks, max_arrays),
                   "update the graphics driver, or use --device cpu");
-    info_ = {.kind = DeviceKind::gpu, .name = adapter.renderer + ", " + adapter.version, .threads = 1};
+    info_ = {.kind = DeviceKind::gpu,
+             .name = adapter.renderer + ", " + adapter.version,
+             .threads = 1,
+             .free_memory = adapter.free_memory};
     variants_ = gpu::force_variants({.are_software = adapter.is_software, .multiprocessors = adapter.multiprocessors});
   }
 
@@ -52,6 +55,7 @@ class GpuDevice final : public Device {
   GLuint gl_buffer(BufferId buffer) const { return storage(buffer).id(); }
 
   BufferId allocate(std::size_t bytes, std::string_view label) override {
+    gpu::expect_room(bytes, allocated_bytes(), info_.free_memory);
     buffers_.emplace(next_buffer_, gl::Buffer(bytes, label));
     return next_buffer_++;
   }
@@ -59,6 +63,7 @@ class GpuDevice final : public Device {
     ahead_.clear();
     bound_ = {};
     buffers_.at(buffer) = gl::Buffer();  // so that there is never room needed for both
+    gpu::expect_room(bytes, allocated_bytes(), info_.free_memory);
     buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
   }
   BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
@@ -325,6 +330,14 @@ class GpuDevice final : public Device {
 };
 
 }  // namespace
+
+void gpu::expect_room(std::uint64_t bytes, std::uint64_t allocated, std::uint64_t free_memory) {
+  if (free_memory == 0 || bytes + allocated <= free_memory) return;
+  throw Error(ErrorKind::device, "GPU memory",
+              fmt::format("{:.1f} MB were free, and {:.1f} MB are needed at least", 1e-6 * static_cast<double>(free_memory),
+                          1e-6 * static_cast<double>(bytes + allocated)),
+              "use coarser meshes or --device cpu, or close other programs that use the GPU");
+}
 
 std::unique_ptr<Device> make_gpu_device(int index) { return make_gpu_device(index, ItemOrder::ascending); }
 

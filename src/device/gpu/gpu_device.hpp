@@ -29,4 +29,8 @@ namespace pliant::gpu {
 /// Returns the OpenGL name of a GPU device's buffer.
 [[nodiscard]] std::uint32_t gl_buffer_of(Device& device, BufferId buffer);
 
+/// Throws Error (device) if a GPU with so much free memory has no room for `bytes` beside what is allocated. NVIDIA's driver
+/// would take the processor's memory then, which is some hundred times slower. Allows all if `free_memory` is 0. All in bytes.
+void expect_room(std::uint64_t bytes, std::uint64_t allocated, std::uint64_t free_memory);
+
 }  // namespace pliant::gpu
