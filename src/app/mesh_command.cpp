@@ -12,8 +12,8 @@ namespace pliant::app {
 namespace {
 
 LoadedMesh load_with_line(const std::string& mesh) {
-  const ReadingLine line(bytes_of_mesh(mesh, "."));
-  return load_mesh(mesh, ".");
+  ReadingLine line(bytes_of_mesh(mesh, "."));
+  return load_mesh(mesh, ".", line.progress());
 }
 
 TriangleMesh subdivide_as_asked(const TriangleMesh& mesh, const MeshOptions& options) {

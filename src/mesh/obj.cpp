@@ -244,10 +244,10 @@ TriangleMesh parse_strictly(std::string_view text, const std::string& name) {
 
 }  // namespace
 
-LoadedMesh parse_obj(std::string_view text, const std::string& name) {
+LoadedMesh parse_obj(std::string_view text, const std::string& name, const ReadProgress& progress) {
   constexpr std::size_t worth_a_thread = 1 << 20;  // bytes
   const std::size_t part_count = std::min<std::size_t>(1 + text.size() / worth_a_thread, thread_count(0));
-  std::optional<TriangleMesh> plain = read_plain_obj(text, part_count);
+  std::optional<TriangleMesh> plain = read_plain_obj(text, part_count, progress);
   LoadedMesh loaded{plain ? std::move(*plain) : parse_strictly(text, name), {}};
   if (const std::size_t count = remove_unused_vertices(loaded.mesh); count > 0)
     loaded.warnings.push_back(counted(count, "vertex is", "vertices are") + " in no face and left out");
@@ -256,6 +256,8 @@ LoadedMesh parse_obj(std::string_view text, const std::string& name) {
   return loaded;
 }
 
-LoadedMesh load_obj(const std::filesystem::path& path) { return parse_obj(read_text(path), path.string()); }
+LoadedMesh load_obj(const std::filesystem::path& path, const ReadProgress& progress) {
+  return parse_obj(read_text(path), path.string(), progress);
+}
 
 }  // namespace pliant

@@ -1,6 +1,8 @@
 // Reads Wavefront OBJ files strictly: whatever is malformed is an error that names its line.
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +16,9 @@ struct LoadedMesh {
   std::vector<std::string> warnings;  // sentences without a full stop, such as "3 vertices are in no face and left out"
 };
 
+/// Is told how many more bytes of a file have been read. Threads may call it at the same time.
+using ReadProgress = std::function<void(std::uintmax_t bytes)>;
+
 /// Largest |coordinate| that a file may hold [mesh units].
 inline constexpr double max_coordinate = 1e9;
 
@@ -21,10 +26,11 @@ inline constexpr double max_coordinate = 1e9;
 /// - Polygons are split as a fan from the first corner.
 /// - Vertices keep the file's order. Vertices in no face are left out with a warning.
 /// - Faces without area stay with a warning.
+/// `progress` is told every MB of a plain file, and of others nothing.
 /// Throws Error (input) that names the path and the line at fault.
-[[nodiscard]] LoadedMesh load_obj(const std::filesystem::path& path);
+[[nodiscard]] LoadedMesh load_obj(const std::filesystem::path& path, const ReadProgress& progress = {});
 
 /// Reads the same from text in memory. `name` stands for the path in errors.
-[[nodiscard]] LoadedMesh parse_obj(std::string_view text, const std::string& name);
+[[nodiscard]] LoadedMesh parse_obj(std::string_view text, const std::string& name, const ReadProgress& progress = {});
 
 }  // namespace pliant

@@ -5,10 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <future>
 #include <vector>
-
-#include "mesh/obj.hpp"
 
 namespace pliant {
 namespace {
@@ -37,16 +36,26 @@ bool has_odd_characters(std::string_view text) {
 
 class PlainReader {
  public:
-  PlainReader(std::string_view text, MeshPart& part) : at_(text.data()), end_(at_ + text.size()), part_(part) {}
+  PlainReader(std::string_view text, MeshPart& part, const ReadProgress& progress)
+      : at_(text.data()), told_(at_), end_(at_ + text.size()), part_(part), progress_(progress) {}
 
   /// Returns false at a line that is not plain.
   bool read() {
-    while (at_ != end_)
+    while (at_ != end_) {
       if (!read_line()) return false;
+      if (at_ - told_ >= told_at_once || at_ == end_) tell();
+    }
     return true;
   }
 
  private:
+  static constexpr std::ptrdiff_t told_at_once = 1 << 20;  // bytes
+
+  void tell() {
+    if (progress_) progress_(static_cast<std::uintmax_t>(at_ - told_));
+    told_ = at_;
+  }
+
   static bool is_blank(char c) { return c == ' ' || c == '\t'; }
   bool is_at(char c) const { return at_ != end_ && *at_ == c; }
   bool is_at_end_of_word() const { return at_ == end_ || is_blank(*at_) || *at_ == '\n' || *at_ == '\r' || *at_ == '#'; }
@@ -130,13 +139,15 @@ class PlainReader {
   }
 
   const char* at_;
+  const char* told_;  // progress knows of what stands before
   const char* end_;
   MeshPart& part_;
+  const ReadProgress& progress_;
 };
 
-MeshPart read_part(std::string_view text) {
+MeshPart read_part(std::string_view text, const ReadProgress& progress) {
   MeshPart part;
-  part.is_plain = !has_odd_characters(text) && PlainReader(text, part).read();
+  part.is_plain = !has_odd_characters(text) && PlainReader(text, part, progress).read();
   return part;
 }
 
@@ -154,11 +165,11 @@ std::vector<std::string_view> cut_at_lines(std::string_view text, std::size_t pa
 }
 
 /// Reads each part on a thread of its own. If the system gives no more threads, this one reads the rest.
-std::vector<MeshPart> read_parts(const std::vector<std::string_view>& texts) {
+std::vector<MeshPart> read_parts(const std::vector<std::string_view>& texts, const ReadProgress& progress) {
   std::vector<std::future<MeshPart>> readers;
-  for (std::size_t k = 1; k < texts.size(); ++k) readers.push_back(std::async(read_part, texts[k]));
+  for (std::size_t k = 1; k < texts.size(); ++k) readers.push_back(std::async(read_part, texts[k], std::cref(progress)));
   std::vector<MeshPart> parts;
-  if (!texts.empty()) parts.push_back(read_part(texts[0]));
+  if (!texts.empty()) parts.push_back(read_part(texts[0], progress));
   for (std::future<MeshPart>& reader : readers) parts.push_back(reader.get());
   return parts;
 }
@@ -170,11 +181,11 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-std::optional<TriangleMesh> read_plain_obj(std::string_view text, std::size_t part_count) {
+std::optional<TriangleMesh> read_plain_obj(std::string_view text, std::size_t part_count, const ReadProgress& progress) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   TriangleMesh mesh;
   std::uint32_t largest_index = 0;
-  for (MeshPart& part : read_parts(cut_at_lines(text, part_count))) {
+  for (MeshPart& part : read_parts(cut_at_lines(text, part_count), progress)) {
     if (!part.is_plain) return std::nullopt;
     append(mesh.positions, part.mesh.positions);
     append(mesh.triangles, part.mesh.triangles);

@@ -38,9 +38,9 @@ void subdivide_as_described(const BodyDescription& body, TriangleMesh& mesh) {
   }
 }
 
-LoadedMesh load_welded(const BodyDescription& body, const std::filesystem::path& folder) {
+LoadedMesh load_welded(const BodyDescription& body, const std::filesystem::path& folder, const ReadProgress& progress) {
   try {
-    LoadedMesh loaded = load_mesh(body.mesh, folder);
+    LoadedMesh loaded = load_mesh(body.mesh, folder, progress);
     weld_as_described(body, loaded);
     return loaded;
   } catch (const Error& error) {
@@ -48,22 +48,23 @@ LoadedMesh load_welded(const BodyDescription& body, const std::filesystem::path&
   }
 }
 
-LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder) {
-  LoadedMesh loaded = load_welded(body, folder);
+LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder, const ReadProgress& progress) {
+  LoadedMesh loaded = load_welded(body, folder, progress);
   subdivide_as_described(body, loaded.mesh);
   return loaded;
 }
 
 }  // namespace
 
-std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings) {
+std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings,
+                                   const ReadProgress& progress) {
   std::vector<BodySetup> setups;
   std::map<std::tuple<std::string, double, unsigned, Subdivision>, TriangleMesh> meshes;  // by what makes them what they are
   for (const BodyDescription& body : scene.bodies) {
     const auto [found, is_new] =
         meshes.try_emplace({body.mesh, body.weld.value_or(0) / body.scale, body.subdivide, body.subdivision});
     if (is_new) {
-      LoadedMesh loaded = load_one(body, scene.file.parent_path());
+      LoadedMesh loaded = load_one(body, scene.file.parent_path(), progress);
       found->second = std::move(loaded.mesh);
       if (warnings != nullptr)
         for (const std::string& warning : loaded.warnings) warnings->push_back(fmt::format("{}: {}", body.name, warning));

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/obj.hpp"
 #include "model/model.hpp"
 
 namespace pliant {
@@ -10,6 +11,7 @@ namespace pliant {
 /// Returns one setup for each body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings of
 /// each mesh, beginning with the name of the first body that has it, unless `warnings` is null. Throws Error that blames the
 /// mesh's origin.
-[[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr);
+[[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr,
+                                                 const ReadProgress& progress = {});
 
 }  // namespace pliant

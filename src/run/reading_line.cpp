@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -27,8 +28,27 @@ std::uintmax_t bytes_of_meshes(const SceneDescription& scene) {
   return bytes;
 }
 
-ReadingLine::ReadingLine(std::uintmax_t bytes) : is_shown_(bytes >= 20'000'000 && isatty(fileno(stderr)) != 0) {
-  if (is_shown_) fmt::print(stderr, "\rreading {:.0f} MB of meshes ", static_cast<double>(bytes) / 1e6);
+// What is read twice counts twice.
+std::string told_reading(std::uintmax_t read, std::uintmax_t bytes) {
+  const std::uintmax_t percent = bytes == 0 ? 100 : std::min<std::uintmax_t>(100 * read / bytes, 100);
+  return fmt::format("reading {:.0f} MB of meshes: {} %", 1e-6 * static_cast<double>(bytes), percent);
+}
+
+ReadingLine::ReadingLine(std::uintmax_t bytes) : bytes_(bytes), is_shown_(bytes >= 20'000'000 && isatty(fileno(stderr)) != 0) {
+  show();
+}
+
+ReadProgress ReadingLine::progress() {
+  return [this](std::uintmax_t bytes) {
+    const std::lock_guard lock(mutex_);
+    read_ += bytes;
+    show();
+  };
+}
+
+void ReadingLine::show() const {
+  if (!is_shown_) return;
+  fmt::print(stderr, "\r{:40}", told_reading(read_, bytes_));
   std::fflush(stderr);
 }
 

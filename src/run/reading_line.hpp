@@ -2,7 +2,10 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
+#include <string>
 
+#include "mesh/obj.hpp"
 #include "scene/scene_description.hpp"
 
 namespace pliant {
@@ -11,6 +14,9 @@ namespace pliant {
 [[nodiscard]] std::uintmax_t bytes_of_meshes(const SceneDescription& scene);
 /// The same for a mesh that is no scene's. `mesh` is a file or a generator.
 [[nodiscard]] std::uintmax_t bytes_of_mesh(const std::string& mesh, const std::filesystem::path& folder);
+
+/// Returns the line's text.
+[[nodiscard]] std::string told_reading(std::uintmax_t read, std::uintmax_t bytes);
 
 /// A line on standard error that stands as long as this lives. There is none if standard error is no terminal, or if so many
 /// bytes are read in a moment.
@@ -21,7 +27,14 @@ class ReadingLine {
   ReadingLine(const ReadingLine&) = delete;
   ReadingLine& operator=(const ReadingLine&) = delete;
 
+  /// Returns what is to be told of bytes that have been read. This must outlive it.
+  [[nodiscard]] ReadProgress progress();
+
  private:
+  void show() const;
+
+  std::mutex mutex_;
+  std::uintmax_t bytes_, read_ = 0;
   bool is_shown_;
 };
 

@@ -1,6 +1,7 @@
 // The fast reader beside the strict one, which is the oracle.
 #include "mesh/plain_obj.hpp"
 
+#include <atomic>
 #include <cstring>
 #include <random>
 
@@ -123,6 +124,25 @@ TEST_CASE("a mesh does not depend on the number of parts in which its text is re
       REQUIRE(mesh);
       CHECK(same_bits(*mesh, whole));
     }
+  }
+}
+
+TEST_CASE("whoever asks is told of every byte that is read, on whatever thread, and of nothing behind a line that is not plain") {
+  std::string text;
+  for (int k = 0; k < 100'000; ++k) text += "v 0.25 0.5 1.125 # some vertex\n";
+  text += "f 1 2 3\n";
+  for (const std::size_t parts : {1u, 3u}) {
+    std::atomic<std::uintmax_t> told = 0, calls = 0;
+    const ReadProgress progress = [&](std::uintmax_t bytes) {
+      told += bytes;
+      ++calls;
+    };
+    REQUIRE(read_plain_obj(text, parts, progress));
+    CHECK(told == text.size());
+    CHECK(calls >= text.size() >> 20);
+    told = 0;
+    CHECK_FALSE(read_plain_obj(text + "v 1 2\n", parts, progress));
+    CHECK(told <= text.size());
   }
 }
 
