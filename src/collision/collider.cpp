@@ -15,6 +15,13 @@ bool has_paths(const Model& model) {
   return std::ranges::any_of(model.bodies, [](const ModelBody& body) { return body.path.has_value(); });
 }
 
+// Where nothing can touch, each tree is a root alone: splitting many triangles takes long.
+TreeDescription tree_for(const TreeDescription& tree, bool is_searched) {
+  TreeDescription needed = tree;
+  if (!is_searched) needed.max_depth = 0;
+  return needed;
+}
+
 std::uint32_t items_of(const DeviceBodies& bodies, std::optional<std::uint32_t> parallel_items) {
   return parallel_items.value_or(bodies.arrays.device().parallel_items(bodies.body_count));
 }
@@ -26,7 +33,7 @@ Collider::Collider(DeviceBodies& bodies, const Model& model, const CollisionDesc
     : description_(description),
       searches_(model.has_surfaces_to_touch()),
       has_rigid_(std::ranges::any_of(model.bodies, &ModelBody::is_rigid)),
-      forest_(build_forest(model, model.rest_positions, description.tree)),
+      forest_(build_forest(model, model.rest_positions, tree_for(description.tree, searches_))),
       body_pairs_(bodies, model, description.broad_phase),
       trees_(bodies, forest_, description, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
       touching_(bodies, model, description.triangle_test, items_of(bodies, parallel_items), body_pairs_.most_pairs()),
