@@ -118,6 +118,7 @@ Adapter describe_current(int index) {
                   .multiprocessors = number_of("GL_NV_shader_thread_group", sm_count_nv),
                   .free_memory = std::uint64_t{1024} * number_of("GL_NVX_gpu_memory_info", current_available_vidmem_nvx)};
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &adapter.largest_buffer);
+  if (!adapter.vendor.starts_with("NVIDIA")) adapter.free_memory = 0;  // others may count a part of the processor's memory alone
   return adapter;
 }
 

@@ -26,7 +26,7 @@ inline constexpr double max_coordinate = 1e9;
 /// - Polygons are split as a fan from the first corner.
 /// - Vertices keep the file's order. Vertices in no face are left out with a warning.
 /// - Faces without area stay with a warning.
-/// `progress` is told every MB of a plain file, and of others nothing.
+/// `progress` is told of all bytes of a plain file, MB by MB. Of a file with a line that is not plain it may be told of some.
 /// Throws Error (input) that names the path and the line at fault.
 [[nodiscard]] LoadedMesh load_obj(const std::filesystem::path& path, const ReadProgress& progress = {});
 

@@ -182,7 +182,11 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 }  // namespace
 
 std::optional<TriangleMesh> read_plain_obj(std::string_view text, std::size_t part_count, const ReadProgress& progress) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) {
+    text.remove_prefix(byte_order_mark.size());
+    if (progress) progress(byte_order_mark.size());
+  }
   TriangleMesh mesh;
   std::uint32_t largest_index = 0;
   for (MeshPart& part : read_parts(cut_at_lines(text, part_count), progress)) {

@@ -28,7 +28,7 @@ std::uintmax_t bytes_of_meshes(const SceneDescription& scene) {
   return bytes;
 }
 
-// What is read twice counts twice.
+// What is read twice counts twice, so that more may be read than there is.
 std::string told_reading(std::uintmax_t read, std::uintmax_t bytes) {
   const std::uintmax_t percent = bytes == 0 ? 100 : std::min<std::uintmax_t>(100 * read / bytes, 100);
   return fmt::format("reading {:.0f} MB of meshes: {} %", 1e-6 * static_cast<double>(bytes), percent);

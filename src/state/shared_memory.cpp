@@ -87,9 +87,9 @@ BufferId SharedMemory::place(std::string_view array, std::size_t bytes) {
     first_byte = other.end;
   }
   const Place place{std::string(array), first_byte, first_byte + size};
-  places_.insert(std::ranges::upper_bound(places_, first_byte, {}, &Place::first_byte), place);
   if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases");
   if (device_.size_of(buffer_) < place.end) device_.enlarge(buffer_, place.end);
+  places_.insert(std::ranges::upper_bound(places_, first_byte, {}, &Place::first_byte), place);
   return device_.part_of(buffer_, first_byte, bytes);
 }
 

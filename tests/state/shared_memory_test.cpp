@@ -165,7 +165,10 @@ std::vector<Rubbish> rubbish_scenes() {
                       apart = build_model(inflated_spheres(), nowhere),
                       at_rest = build_model(spheres_into_others_at_rest(), nowhere);
   ModelAndState clustered = above_ground;
-  for (ModelBody& body : clustered.model.bodies) body.is_clustered = !body.is_rigid();
+  for (ModelBody& body : clustered.model.bodies) {
+    body.is_clustered = !body.is_rigid();
+    body.force_tolerance = 0.01;  // so that clusters see nodes of others
+  }
   const CollisionDescription impulse{.response = {"impulse"}}, reflect{.response = {"reflect"}};
   const Method verlet{"verlet", 0.01, DampingLaw::internal}, stages{"rk4", 0.01, DampingLaw::internal},
       adaptive{"dop853", 0.04, DampingLaw::internal}, undamped{"verlet", 0.01, DampingLaw::none};
@@ -233,6 +236,8 @@ void check_scene_in_rubbish(const Rubbish& scene, std::unique_ptr<Device> (*make
     if (std::string_view(scene.name).ends_with("at rest")) CHECK(at_rest > 0);
   }
   const auto bench = bench_of(make_device(), scene);
+  if (scene.start.model.bodies.front().is_clustered)
+    CHECK(bench->device->size_of(bench->bodies.arrays.buffer("node_pull")) > physics::pull_row_size * sizeof(double));
   run_in_rubbish(*bench, scene.steps, seen);
   for (const auto& [name, bytes] : all_carried_by(*bench)) {
     CAPTURE(name);

@@ -152,6 +152,7 @@ void sum_lost_turning(uvec4 part, uint item) {
 
 void add_up_lost_turning(uvec4 part, uint item, bool are_blocks) {
   PartsToAdd parts = parts_to_add(part, item, are_blocks);
+  if (parts.from >= parts.end) return;
   dvec3 lost = LOAD3(part_sum[item].lost_turning, 0u);
   for (uint k = parts.from; k < parts.end; k += parts.step) lost += LOAD3(part_sum[k].lost_turning, 0u);
   STORE3(part_sum[item].lost_turning, 0u, lost)

@@ -28,14 +28,14 @@ void sum_leaves(uint first, uint end) {
   MEET
 }
 
-// Places one coordinate of a node. 
+// Places one coordinate of a node. forces/clusters.glsl says where nodes stand and how they move.
 void place_node(uint c, uint node, uint axis, double inverse_unit) {
   double place = spring_cluster[c].centre[axis], sum = all[axis];
   real count = real(spring_cluster[c].vertex_count);
   if (node > 0u) {
     dvec3 moments = dvec3(all[3u + axis], all[6u + axis], all[9u + axis]) / inverse_unit - sum * LOAD3(spring_cluster[c].centre, 0u);
     for (uint m = 0u; m < 3u; ++m) {
-      place += side_of_node(node, m) * spring_cluster[c].squared[m] * spring_cluster[c].slope[3u * m + axis];
+      place += side_of_node(node, m) * spring_cluster[c].squares[m] * spring_cluster[c].slope[3u * m + axis];
       sum += side_of_node(node, m) * dot(LOAD3(spring_cluster[c].slope, 3u * m), moments);
     }
   }

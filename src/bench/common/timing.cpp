@@ -19,10 +19,27 @@ std::uint64_t repetitions_of_batch(double batch_seconds, const BatchTimer& secon
   }
 }
 
-Timing seconds_after_load(double load_seconds, const Effort& effort, const BatchTimer& seconds_of_batch) {
-  for (double loaded = 0; loaded < load_seconds;)
-    loaded += seconds_of_batch(repetitions_of_batch(effort.batch_seconds, seconds_of_batch));
-  const std::uint64_t repetitions = repetitions_of_batch(effort.batch_seconds, seconds_of_batch);
+}  // namespace
+
+double median(std::vector<double> values) {
+  PLIANT_EXPECT(!values.empty());
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch, double load_seconds) {
+  double loaded = 0;
+  const BatchTimer load = [&](std::uint64_t count) {
+    const double seconds = seconds_of_batch(count);
+    loaded += seconds;
+    return seconds;
+  };
+  std::uint64_t repetitions = repetitions_of_batch(effort.batch_seconds, load);
+  if (loaded < load_seconds) {
+    while (loaded < load_seconds) load(repetitions);
+    repetitions = repetitions_of_batch(effort.batch_seconds, load);  // which take less time now
+  }
   std::vector<double> batches;
   double passed = 0;
   while (batches.size() < 3 || (static_cast<int>(batches.size()) < effort.batches && passed < effort.enough_seconds)) {
@@ -33,28 +50,16 @@ Timing seconds_after_load(double load_seconds, const Effort& effort, const Batch
   return {.median = median(batches), .fastest = std::ranges::min(batches)};
 }
 
-}  // namespace
-
-double median(std::vector<double> values) {
-  PLIANT_EXPECT(!values.empty());
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch) {
-  return seconds_after_load(0, effort, seconds_of_batch);
-}
-
 Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue) {
   const double load_seconds = device.info().kind == DeviceKind::gpu ? effort.gpu_load_seconds : 0;
-  return seconds_after_load(load_seconds, effort, [&](std::uint64_t repetitions) {
+  const BatchTimer timer = [&](std::uint64_t repetitions) {
     device.mark_time();
     for (std::uint64_t k = 0; k < repetitions; ++k) queue();
     device.mark_time();
     const std::vector<double> times = device.take_times();
     return times[1] - times[0];
-  });
+  };
+  return seconds_each(effort, timer, load_seconds);
 }
 
 }  // namespace pliant::bench

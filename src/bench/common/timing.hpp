@@ -13,7 +13,7 @@ struct Effort {
   double batch_seconds = 0.02;  // least length of a batch
   int batches = 5;              // once `enough_seconds` have passed, three are enough
   double enough_seconds = 1;
-  double gpu_load_seconds = 0.3;  // before a GPU is timed: an idle one has lowered its clocks, an H200 to a sixth
+  double gpu_load_seconds = 0.3;  // before a GPU is timed: an idle H200 has lowered its clock to a sixth
 };
 
 /// Times of one repetition [s].
@@ -31,9 +31,9 @@ inline constexpr Effort quick_effort{.batch_seconds = 0.002, .batches = 3, .enou
 /// Runs so many repetitions and returns their time [s].
 using BatchTimer = std::function<double(std::uint64_t repetitions)>;
 
-/// Times batches. First it runs some repetitions that warm up and find out how many make a batch.
-[[nodiscard]] Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch);
-/// Times calls of `queue`, which queues work on the device.
+/// Times batches. First it runs some repetitions that warm up and find out how many make a batch, for `load_seconds` at least.
+[[nodiscard]] Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch, double load_seconds = 0);
+/// Times calls of `queue`, which queues work on the device. A GPU has a load before, as the effort says.
 [[nodiscard]] Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue);
 
 }  // namespace pliant::bench

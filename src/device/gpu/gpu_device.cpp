@@ -60,10 +60,10 @@ class GpuDevice final : public Device {
     return next_buffer_++;
   }
   void enlarge(BufferId buffer, std::size_t bytes) override {
+    gpu::expect_room(bytes, allocated_bytes() - buffers_.at(buffer).size(), info_.free_memory);
     ahead_.clear();
     bound_ = {};
     buffers_.at(buffer) = gl::Buffer();  // so that there is never room needed for both
-    gpu::expect_room(bytes, allocated_bytes(), info_.free_memory);
     buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
   }
   BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {

@@ -33,7 +33,7 @@ physics::SpringCluster table_row(const Cluster& cluster) {
   physics::SpringCluster row{};
   store(row.centre, cluster.rest.centre);
   for (int m = 0; m < 3; ++m) store(row.slope + 3 * m, cluster.slopes[m]);
-  store(row.squared, cluster.squares);
+  store(row.squares, cluster.squares);
   row.vertex_count = cluster.size();
   return row;
 }

@@ -30,7 +30,7 @@ struct Cluster {
   std::uint32_t first_child = 0;  // the other one follows. 0: it is a leaf
   Extent rest{};                  // of its vertices at rest
   glm::dmat3 slopes{0.0};         // principal axes, over the vertices' spread along them, or 0 if that is tiny [1/m]
-  glm::dvec3 squares{0.0};        // those spreads [m^2]
+  glm::dvec3 squares{0.0};        // the squares of those spreads [m^2]
 
   [[nodiscard]] bool is_leaf() const { return first_child == 0; }
   [[nodiscard]] std::uint32_t size() const { return end - first; }
@@ -40,7 +40,7 @@ struct Cluster {
   /// Returns where a node is from the centre at rest [m]. Node 0 is the centre, which can stand for all vertices. Nodes 1 to 4
   /// can together.
   [[nodiscard]] glm::dvec3 offset_of(std::uint32_t node) const;
-  /// [1/m]
+  /// Returns the gradient by which it moves, as above [1/m].
   [[nodiscard]] glm::dvec3 gradient_of(std::uint32_t node) const;
 };
 

@@ -36,6 +36,19 @@ TEST_CASE("long work is done four times in all") {
   CHECK(done == 4);
 }
 
+TEST_CASE("what is slow until it has been under load for a while is timed after that") {
+  double passed = 0;
+  const auto take = [&](std::uint64_t count) {
+    const double seconds = (passed < 0.25 ? 5e-3 : 1e-3) * static_cast<double>(count);
+    passed += seconds;
+    return seconds;
+  };
+  CHECK(seconds_each({}, take, 0.3).median == Approx(1e-3));
+  CHECK(passed < 0.6);  // all in all: no more load than it takes
+  passed = 0;
+  CHECK(seconds_each({}, take).median == Approx(5e-3));
+}
+
 TEST_CASE("work on a device takes some time by its own clock") {
   const auto device = make_cpu_device(1, 32);
   int calls = 0;

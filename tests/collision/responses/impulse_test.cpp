@@ -56,6 +56,29 @@ ModelAndState meeting_spheres(int level, double edges_a_step, double time_step) 
   return build_model(setups, glm::dvec3(0.0));
 }
 
+TEST_CASE("a body that only a ground can touch has a tree of one node, and falls on it as beside another body far away") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:2"), "ball"), soft(generate_mesh("icosphere:2"), "far")};
+  setups[1].description.position = {100, 0, 0};
+  GroundDescription ground;
+  ground.point = {0, -1.02, 0};
+  const auto motion_of_ball = [&](std::size_t count) {
+    const ModelAndState start = build_model({setups.data(), count}, {0, -5, 0}, {&ground, 1});
+    const auto device = make_cpu_device(1, 32);
+    Simulation simulation(*device, start.model, start.state, plan_of(Method{"verlet", 0.1 / omega}), by_impulses);
+    CHECK((simulation.collider().forest().nodes.size() == 1) == (count == 1));
+    simulation.advance(60);
+    CHECK(simulation.report().contact_steps > 0);
+    const State state = simulation.state();
+    std::vector<glm::dvec3> positions = state.world_positions(start.model);
+    positions.resize(start.model.bodies[0].vertex_count);
+    return positions;
+  };
+  const std::vector<glm::dvec3> by_itself = motion_of_ball(1), with_other = motion_of_ball(2);
+  double most = 0;
+  for (std::size_t i = 0; i < by_itself.size(); ++i) most = larger(most, glm::distance(by_itself[i], with_other[i]));
+  CHECK(most < 1e-9);  // not in bits
+}
+
 TEST_CASE("spheres that meet at any speed stay apart, part again and keep momentum") {
   const double time_step = 0.5 / omega;
   for (const int precision : {64, 32}) {

@@ -68,7 +68,7 @@ TEST_CASE("clusters cover every vertex once, and their nodes move with them in l
         const Cluster &first = tree.clusters[cluster.first_child], &second = tree.clusters[cluster.first_child + 1];
         CHECK((first.first == cluster.first && first.end == second.first && second.end == cluster.end));
       }
-      for (std::uint32_t node = 0; node < 5; ++node) {
+      for (std::uint32_t node = 0; node < physics::nodes_of_cluster; ++node) {
         glm::dvec3 moved(0.0), mean(0.0);
         for (std::uint32_t place = cluster.first; place < cluster.end; ++place) {
           const glm::dvec3 arm = rest[tree.order[place]] - cluster.rest.centre;

@@ -18,7 +18,7 @@ const uint most_above = 40u;         // clusters that hold a leaf, in a tree of 
 struct SpringCluster {
   double centre[3];      // of its vertices at rest [m]
   double slope[9];       // three principal axes, over the vertices' spread along them, or 0 if that is tiny [1/m]
-  double squared[3];     // those spreads [m^2]
+  double squares[3];     // the squares of those spreads [m^2]
   uint body_index;
   uint vertex_count;
   uint first_leaf;
