@@ -16,6 +16,7 @@
 namespace pliant {
 namespace {
 
+constexpr std::string_view measured[] = {"control", "status", "leaf_square"};
 constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
 constexpr double most_strained = 2;           // error over the tolerance up to which lists still beat direct sums
@@ -57,7 +58,11 @@ ClusterWatch::ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& st
       stepper_(stepper),
       interval_(interval_of(model, time_step)),
       changed_(model.bodies.size()),
-      counted_(model.bodies.size()) {}
+      counted_(model.bodies.size()) {
+  record();
+}
+
+void ClusterWatch::record() { measuring_ = stepper_.cluster_forces()->measuring_passes(physics::start_slot); }
 
 bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& state) {
   next_check_ = (steps / interval_ + 1) * interval_;
@@ -82,7 +87,9 @@ std::vector<std::optional<double>> ClusterWatch::measure() {
   Device& device = bodies_.arrays.device();
   std::vector<std::optional<double>> relative(model_.bodies.size());
   const ClusterForces& forces = *stepper_.cluster_forces();
-  device.run(forces.measuring_passes(physics::start_slot));
+  device.run(measuring_);
+  device.read_ahead(bodies_.arrays.made_buffers(measured));
+  if (bodies_.control.download().front().non_finite_step != 0) return relative;
   const std::vector<physics::Status> statuses = bodies_.statuses.download();
   const std::vector<ClusterErrors> errors = forces.errors();
   for (std::size_t b = 0; b < relative.size(); ++b) {
@@ -131,6 +138,7 @@ void ClusterWatch::change(std::size_t body, const State& state, ChangedSums sums
   auto changed = changed_;
   changed[body] = std::make_shared<const ChangedSums>(std::move(sums));
   stepper_.change_sums(model_, changed);
+  record();
   changed_ = std::move(changed);
   counted_[body] = counted;
   if (tells_energy) report_.energy_change += std::abs(energy_of(body, state) - before);
@@ -164,6 +172,7 @@ std::uint64_t ClusterWatch::interactions(std::size_t body, std::uint64_t evaluat
 bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
   if (changed == changed_) return false;
   stepper_.change_sums(model_, changed);
+  record();
   changed_ = changed;
   return true;
 }

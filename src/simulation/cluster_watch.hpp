@@ -41,6 +41,9 @@ class ClusterWatch {
   /// recorded before do not hold any more.
   [[nodiscard]] bool check(std::uint64_t steps, const std::function<State()>& state);
 
+  /// Makes its passes anew. They hold until a parameter of all kernels changes.
+  void record();
+
   /// Returns how springs are summed, one for each body, as a State has it.
   [[nodiscard]] const std::vector<std::shared_ptr<const ChangedSums>>& changed_sums() const { return changed_; }
   /// Sums springs as in a State. Returns whether passes that were recorded before do not hold any more.
@@ -61,7 +64,8 @@ class ClusterWatch {
     std::uint64_t evaluations = 0, interactions = 0;
   };
 
-  // Returns the errors of bodies whose springs are summed by clusters, and are to be summed at all. Others have none.
+  // Returns the errors of bodies whose springs are summed by clusters, and are to be summed at all. Others have none, and no body
+  // has any after a breakdown.
   [[nodiscard]] std::vector<std::optional<double>> measure();
   void improve(std::size_t body, const State& state);
   void change(std::size_t body, const State& state, ChangedSums sums);
@@ -72,6 +76,7 @@ class ClusterWatch {
   const Model& model_;
   Stepper& stepper_;
   std::uint64_t interval_, next_check_ = 0;
+  std::vector<Pass> measuring_;
   std::vector<std::shared_ptr<const ChangedSums>> changed_;
   std::vector<Counted> counted_;  // by bodies
   ClusterReport report_;          // but for `direct`

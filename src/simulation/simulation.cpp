@@ -118,13 +118,13 @@ void Simulation::skip(const Skipping& what) {
 
 void Simulation::record() {
   for (std::uint32_t half = 0; half < 2; ++half) schedules_[half] = schedule(half);
+  if (watch_) watch_->record();
   quiet_.reset();
   if (skipped_ == Skipping{} && !pacer_) quiet_.emplace(bodies_, stepper_, collider_);
 }
 
 void Simulation::watch(std::uint64_t steps) {
-  if (!watch_ || steps < watch_->next_check() || control().non_finite_step != 0) return;
-  known_control_.reset();
+  if (!watch_ || steps < watch_->next_check()) return;
   try {
     if (watch_->check(steps, [this] { return state(); })) record();
   } catch (...) {
@@ -139,7 +139,7 @@ std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
 
 void Simulation::queue(std::uint64_t steps) {
   steps_to_next_try_ -= std::min(steps, steps_to_next_try_);
-  known_control_.reset();
+  progress_.reset();
   is_anew_ = false;
   for (std::uint64_t k = 0; k < steps; ++k) {
     run(schedules_[queued_steps_++ & 1]);
@@ -201,8 +201,8 @@ void Simulation::advance_unwatched(std::uint64_t steps, const std::function<bool
 }
 
 std::uint64_t Simulation::whole_steps() {
-  const std::uint64_t made = control().step - 1;  // steps or parts. control() has read the parts ahead, too
-  return parts() != nullptr ? parts()->download().front().steps : made;
+  if (!progress_) read_progress(clocks);
+  return progress_->steps;
 }
 
 // What has been uploaded does not say what came before, so the first step is none of them. If a try makes none, others follow,
@@ -211,8 +211,7 @@ std::uint64_t Simulation::make_quiet_steps(std::uint64_t most) {
   if (!tries_quiet_steps() || steps_to_next_try_ > 0 || is_anew_ || most < physics::fewest_quiet_steps) return 0;
   quiet_->aim_at(most);
   run(quiet_->passes(half()));
-  known_control_.reset();
-  (void)control();  // and with it what the next line takes
+  read_progress(clocks);  // and with it what the next line takes
   const std::uint32_t made = quiet_->take_made();
   steps_to_next_try_ = made > 0 ? 0 : pause_;
   pause_ = made > 0 ? 1 : std::min(2 * pause_, most_steps_at_once);
@@ -274,12 +273,15 @@ std::vector<physics::PathKey> Simulation::path_keys(std::uint32_t body) const {
 
 physics::PathState Simulation::path_state(std::uint32_t body) const { return bodies_.path_states->download(body, 1).front(); }
 
+void Simulation::read_progress(std::span<const std::string_view> arrays) {
+  device_.read_ahead(bodies_.arrays.made_buffers(arrays));
+  Progress& read = progress_.emplace(Progress{.control = bodies_.control.download().front()});
+  read.steps = parts() != nullptr ? parts()->download().front().steps : read.control.step - 1;
+}
+
 const Control& Simulation::control() {
-  if (!known_control_) {
-    device_.read_ahead(bodies_.arrays.made_buffers(clocks));
-    known_control_ = bodies_.control.download().front();
-  }
-  return *known_control_;
+  if (!progress_) read_progress(clocks);
+  return progress_->control;
 }
 
 std::uint32_t Simulation::half() {
@@ -296,9 +298,8 @@ void Simulation::add_pace(StepReport& report) {
 }
 
 StepReport Simulation::report() {
-  device_.read_ahead(bodies_.arrays.made_buffers(reported));
-  // not control(), which would read ahead anew
-  const Control& control = known_control_.emplace(bodies_.control.download().front());
+  read_progress(reported);
+  const Control& control = progress_->control;
   StepReport report;
   report.steps = control.step - 1;
   report.time = static_cast<double>(report.steps) * fixed_step_;
@@ -358,7 +359,7 @@ std::string Simulation::save() {
 
 void Simulation::restore(std::string_view saved) {
   ByteReader from(saved);
-  known_control_.reset();
+  progress_.reset();
   is_anew_ = true;
   queued_steps_ = from.get<std::uint64_t>();
   read_arrays(device_, bodies_.arrays.carried(), from);

@@ -153,6 +153,13 @@ class Simulation {
   [[nodiscard]] int precision() const { return device_.precision(); }
 
  private:
+  struct Progress {
+    physics::Control control;
+    std::uint64_t steps = 0;  // whole ones that stand, since the start
+  };
+
+  // Waits for the queued steps. Reads how far they have come, and ahead all arrays of these names, among which that stands.
+  void read_progress(std::span<const std::string_view> arrays);
   [[nodiscard]] const physics::Control& control();  // waits for the queued steps
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state
   [[nodiscard]] std::vector<Pass> schedule(std::uint32_t from_half) const;
@@ -181,12 +188,12 @@ class Simulation {
   std::optional<QuietSteps> quiet_;    // empty: what is known beforehand is not left out
   std::optional<ClusterWatch> watch_;  // empty: no body is clustered
   Skipping skipped_;
-  std::array<std::vector<Pass>, 2> schedules_;     // by the half that a step starts from
-  std::optional<physics::Control> known_control_;  // read once between steps; empty: not read yet
-  std::uint64_t queued_steps_ = 0;                 // including rejected and empty steps
-  std::uint64_t steps_to_next_try_ = 0;            // of quiet ones
-  std::uint64_t pause_ = 1;                        // steps to queue if the next try makes none
-  bool timed_ = false, is_anew_ = true;            // anew: no step has been queued since the start or restore()
+  std::array<std::vector<Pass>, 2> schedules_;  // by the half that a step starts from
+  std::optional<Progress> progress_;            // read once between steps; empty: not read yet
+  std::uint64_t queued_steps_ = 0;              // including rejected and empty steps
+  std::uint64_t steps_to_next_try_ = 0;         // of quiet ones
+  std::uint64_t pause_ = 1;                     // steps to queue if the next try makes none
+  bool timed_ = false, is_anew_ = true;         // anew: no step has been queued since the start or restore()
   std::map<std::string_view, double> pass_seconds_;
   std::uint64_t launches_of_steps_ = 0;
 };
