@@ -83,7 +83,8 @@ TEST_CASE("bench dense writes every key of its rows, and forces by clusters are 
   }
   REQUIRE(json["forces"].size() == 4);  // two sizes in two precisions
   for (const auto& row : json["forces"])
-    for (const char* key : {"error", "list_seconds", "seconds_per_sum", "direct_seconds_per_sum", "bytes_per_vertex"})
+    for (const char* key : {"error", "list_seconds", "seconds_per_sum", "direct_seconds_per_sum", "seconds_per_step",
+                            "direct_seconds_per_step", "seconds_per_contact_step", "bytes_per_vertex"})
       CHECK(row[key].get<double>() > 0);
 }
 

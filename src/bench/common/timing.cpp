@@ -50,8 +50,11 @@ Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch, do
   return {.median = median(batches), .fastest = std::ranges::min(batches)};
 }
 
+double load_seconds(const Device& device, const Effort& effort) {
+  return device.info().kind == DeviceKind::gpu ? effort.gpu_load_seconds : 0;
+}
+
 Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue) {
-  const double load_seconds = device.info().kind == DeviceKind::gpu ? effort.gpu_load_seconds : 0;
   const BatchTimer timer = [&](std::uint64_t repetitions) {
     device.mark_time();
     for (std::uint64_t k = 0; k < repetitions; ++k) queue();
@@ -59,7 +62,7 @@ Timing seconds_each(Device& device, const Effort& effort, const std::function<vo
     const std::vector<double> times = device.take_times();
     return times[1] - times[0];
   };
-  return seconds_each(effort, timer, load_seconds);
+  return seconds_each(effort, timer, load_seconds(device, effort));
 }
 
 }  // namespace pliant::bench

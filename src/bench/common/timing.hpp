@@ -33,6 +33,8 @@ using BatchTimer = std::function<double(std::uint64_t repetitions)>;
 
 /// Times batches. First it runs some repetitions that warm up and find out how many make a batch, for `load_seconds` at least.
 [[nodiscard]] Timing seconds_each(const Effort& effort, const BatchTimer& seconds_of_batch, double load_seconds = 0);
+/// Returns how long the device has to be busy before it is timed [s].
+[[nodiscard]] double load_seconds(const Device& device, const Effort& effort);
 /// Times calls of `queue`, which queues work on the device. A GPU has a load before, as the effort says.
 [[nodiscard]] Timing seconds_each(Device& device, const Effort& effort, const std::function<void()>& queue);
 

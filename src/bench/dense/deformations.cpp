@@ -41,6 +41,13 @@ class SmoothField {
   Wave waves_[3][8];
 };
 
+// Scales them so that the mean of their squares is that of `size`.
+void scale_to(double size, std::vector<glm::dvec3>& displacements) {
+  double sum = 0;
+  for (const glm::dvec3& u : displacements) sum += glm::dot(u, u);
+  for (glm::dvec3& u : displacements) u *= size / std::sqrt(sum / static_cast<double>(displacements.size()));
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> scaled_to_radius_1(std::span<const glm::dvec3> positions) {
@@ -80,8 +87,10 @@ std::vector<Deformation> deformations_of(std::span<const glm::dvec3> rest) {
   add("dent", [&](const glm::dvec3& p) { return glm::dvec3(0, 0, std::max(level - p.z, 0.0)); });
   std::mt19937 random(2);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
-  for (const double size : {0.01, 0.03, 0.1})
-    add(fmt::format("dephased {}", size), [&](const glm::dvec3& p) { return size * std::cos(turn(random)) * smooth(p); });
+  for (const double size : {0.003, 0.008, 0.03}) {
+    add(fmt::format("dephased {}", size), [&](const glm::dvec3& p) { return std::cos(turn(random)) * smooth(p); });
+    scale_to(size, all.back().displacements);
+  }
   add(
       "flat", [](const glm::dvec3& p) { return glm::dvec3(0, 0, -0.9 * p.z); }, true);
   add(

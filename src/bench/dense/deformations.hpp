@@ -27,7 +27,7 @@ struct Deformation {
 /// | turned | smooth 0.01, then a quarter turn about z |
 /// | stretched | twice as long along x |
 /// | dent | all below a fifth of the height is raised to there |
-/// | dephased A | smooth A times cos(2 pi r), where r is drawn anew for each vertex |
+/// | dephased A | the smooth one times cos(2 pi r), where r is drawn anew for each vertex, scaled to a root mean square of A |
 /// | flat | a tenth as high |
 /// | poke | the middle of the upper half is lowered by up to 0.8 |
 [[nodiscard]] std::vector<Deformation> deformations_of(std::span<const glm::dvec3> rest);
