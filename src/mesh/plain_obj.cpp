@@ -68,7 +68,7 @@ class PlainReader {
   bool read_line() {
     skip_blanks();
     const char word = at_ != end_ ? *at_ : '\n';
-    if ((word == 'v' || word == 'f') && at_ + 1 != end_) {
+    if (word == 'v' || word == 'f') {
       ++at_;
       if (is_at_end_of_word()) return word == 'v' ? read_vertex() : read_face();
     }

@@ -70,6 +70,8 @@ const char* const other_texts[] = {
     "# \x01\nf 1 2 3\n",
     "f 1 2 3\n# \x7f\n",
     "f 1 2\n",
+    "f 1 2 3\nf",
+    "f 1 2 3\nv",
     "f 0 1 2\n",
     "f 1 2 5\n",
     "f 1 2 3/\n",
