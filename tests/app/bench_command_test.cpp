@@ -82,17 +82,19 @@ TEST_CASE("bench dense writes every key of its rows, and forces by clusters are 
     CHECK(row["springs_per_vertex"].get<double>() < row["vertices"].get<double>() / 2);
   }
   REQUIRE(json["forces"].size() == 4);  // two sizes in two precisions
-  for (const auto& row : json["forces"])
+  for (const auto& row : json["forces"]) {
+    CHECK(row["contact_share"].get<double>() > 0.5);
     for (const char* key : {"error", "list_seconds", "seconds_per_sum", "direct_seconds_per_sum", "seconds_per_step",
                             "direct_seconds_per_step", "seconds_per_contact_step", "bytes_per_vertex"})
       CHECK(row[key].get<double>() > 0);
+  }
 }
 
 TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder") {
   const ScratchFolder folder;
   std::ofstream(folder.path / "small.toml") << "[simulation]\ntime_step = 0.01\nduration = 0.05\n"
                                                "[[body]]\nmesh = \"icosphere:1\"\nposition = [-1, 0, 0]\nvelocity = [4, 0, 0]\n"
-                                               "[[body]]\nmesh = \"icosphere:1\"\nposition = [1, 0, 0]\n";
+                                               "[[body]]\nmesh = \"icosphere:1\"\nposition = [1, 0, 0]\nforces = \"clustered\"\n";
   const auto json =
       checked_results("steps --device cpu --threads 2 --scenes " + folder.path.string(), folder.path / "steps.json");
   CHECK(json["suite"] == "steps");
@@ -103,6 +105,7 @@ TEST_CASE("bench steps writes every key of its rows, for the scenes of a folder"
     CHECK(row["scene"] == "small");
     CHECK(row["vertices"] == 84);
     CHECK(row["bodies"] == 2);
+    CHECK(row["clustered_bodies"] == 1);
     CHECK(row["steps"] == 5);
     for (const char* key : {"device", "precision", "threads", "contact_steps", "steps_per_second"}) CHECK(row.contains(key));
     CHECK(row["milliseconds_per_step"].get<double>() > 0);

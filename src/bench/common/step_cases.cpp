@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "dynamics/clusters/force_sums.hpp"
 #include "mesh/subdivide.hpp"
 #include "model/load_bodies.hpp"
 #include "scene/load_scene.hpp"
@@ -118,6 +119,14 @@ void add_family(StepCases& all, const Family& family, const std::filesystem::pat
 }
 
 }  // namespace
+
+void choose_force_sums(StepCases& all, DeviceKind device) {
+  for (StepCase& what : all.cases) pliant::choose_force_sums(what.start.model, device);
+}
+
+std::uint32_t clustered_bodies(const Model& model) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(model.bodies, &ModelBody::is_clustered));
+}
 
 void expect_scenes(const std::filesystem::path& folder) { static_cast<void>(scene_files(folder)); }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "device/device.hpp"
 #include "model/model.hpp"
 #include "simulation/time_plan.hpp"
 
@@ -25,6 +26,10 @@ struct StepCases {
   std::vector<StepCase> cases;     // families first, each from small to large
   std::vector<std::string> notes;  // what was left out, and why
 };
+
+/// Settles which bodies of the cases are clustered on such a device, as a run does.
+void choose_force_sums(StepCases& all, DeviceKind device);
+[[nodiscard]] std::uint32_t clustered_bodies(const Model& model);
 
 /// Throws Error (command_line) if there is no such folder, or it holds no scene.
 void expect_scenes(const std::filesystem::path& folder);

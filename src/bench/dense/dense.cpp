@@ -25,9 +25,9 @@
 namespace pliant::bench {
 namespace {
 
-constexpr double longest_direct_sum = 2, longest_contact_step = 0.1;  // [s]
-constexpr std::uint64_t most_steps_away = 100;                        // 30 radians of its fastest vibration
-constexpr std::uint64_t steps_until_contact = 40;                     // it falls for 12 of them
+constexpr double longest_timed = 2, longest_contact_step = 0.1;  // [s]
+constexpr std::uint64_t most_steps_away = 100;                   // 30 radians of its fastest vibration
+constexpr std::uint64_t steps_until_contact = 40;                // it falls for 12 of them
 constexpr std::uint32_t sample_count = 300;
 
 struct Shape {
@@ -76,24 +76,13 @@ class ErrorsOf {
   std::vector<ExactForces> exact_;  // of each deformation
 };
 
-std::vector<glm::dvec3> displacements_of(const ModelAndState& body) {
-  std::vector<glm::dvec3> displacements;
-  for (std::uint32_t i = 0; i < body.model.vertex_count(); ++i) displacements.push_back(body.state.displacement(i));
-  return displacements;
-}
-
-std::vector<glm::dvec3> rest_of(const Model& model) {
-  std::vector<glm::dvec3> rest;
-  for (std::uint32_t i = 0; i < model.vertex_count(); ++i) rest.push_back(model.rest_position(i));
-  return rest;
-}
-
-void displace_smoothly(ModelAndState& body) {
-  const std::vector<glm::dvec3> smooth = smooth_displacements_of(scaled_to_radius_1(rest_of(body.model)), 0.01);
+void displace_smoothly(ModelAndState& moved) {
+  const ModelBody& body = moved.model.bodies.front();
+  const std::vector<glm::dvec3> rest = scaled_to_radius_1(moved.model.rest_positions_of(body));
+  const std::vector<glm::dvec3> smooth = smooth_displacements_of(rest, 0.01);
   for (std::uint32_t i = 0; i < smooth.size(); ++i)
     for (int k = 0; k < 3; ++k)
-      body.state.motion[physics::displacement_of(i) + static_cast<std::size_t>(k)] =
-          body.model.bodies.front().radius * smooth[i][k];
+      moved.state.motion[physics::displacement_of(i) + static_cast<std::size_t>(k)] = body.radius * smooth[i][k];
 }
 
 // Returns a body that falls on a ground a hundredth of its radius below. It is about as heavy as the bunny in scenes/dense: held
@@ -120,13 +109,18 @@ class StepsOf {
                     {.integrator = &cv8_, .time_step = 0.1 * step_bound(cv8_, body_.model.bodies.front(), DampingLaw::none)},
                     collision) {}
 
-  // Returns the time of a step after so many others, or of one part if steps fall into parts. It is 0 if clusters can't meet the
-  // tolerance. Without damping neighbours drift apart, and lists of clusters get longer. So the body goes back to the start
-  // before it has moved far. It does not go back for every batch, because a GPU lowers its clock while it waits for a large body.
-  double seconds_after(std::uint64_t steps_before, const Effort& effort) {
+  struct Timed {
+    double seconds = 0;        // of a step; 0 if clusters can't meet the tolerance
+    double contact_share = 0;  // of the steps, or of parts if they fall into such
+  };
+
+  // Times steps after so many others. Without damping neighbours drift apart, and lists of clusters get longer. So the body goes
+  // back to the start after most_steps_away. It does not go back for every batch, because a GPU lowers its clock while it waits
+  // for a large body.
+  Timed seconds_after(std::uint64_t steps_before, const Effort& effort) {
     simulation_.advance(steps_before);
     const std::string start = simulation_.save();
-    std::uint64_t steps_away = 0;
+    std::uint64_t steps_away = 0, parts = 0, in_contact = 0;
     bool met_tolerance = true;
     const BatchTimer timer = [&](std::uint64_t steps) {
       if (steps_away + steps > most_steps_away) {
@@ -134,17 +128,19 @@ class StepsOf {
         steps_away = 0;
       }
       steps_away += steps;
-      const std::uint64_t parts_before = parts();
+      const StepReport before = simulation_.report();
       device_.mark_time();
       simulation_.advance(steps);
       device_.mark_time();
       const std::vector<double> times = device_.take_times();
-      const std::optional<ClusterReport> clusters = simulation_.report().clusters;
-      met_tolerance = met_tolerance && (!clusters || clusters->direct.empty());
-      return (times[1] - times[0]) * static_cast<double>(steps) / static_cast<double>(parts() - parts_before);
+      const StepReport after = simulation_.report();
+      parts += after.steps + after.substeps - before.steps - before.substeps;
+      in_contact += after.contact_steps - before.contact_steps;
+      met_tolerance = met_tolerance && !after.breakdown && (!after.clusters || after.clusters->direct.empty());
+      return times[1] - times[0];
     };
     const double seconds = seconds_each(effort, timer, load_seconds(device_, effort)).median;
-    return met_tolerance ? seconds : 0;
+    return {met_tolerance ? seconds : 0, static_cast<double>(in_contact) / static_cast<double>(parts)};
   }
 
  private:
@@ -153,11 +149,6 @@ class StepsOf {
     only.force_tolerance = tolerance;
     only.is_clustered = tolerance.has_value();
     return body;
-  }
-
-  std::uint64_t parts() {
-    const StepReport report = simulation_.report();
-    return report.steps + report.substeps;
   }
 
   Device& device_;
@@ -175,8 +166,8 @@ class SumsOf {
         place_(place),
         effort_(effort),
         model_(body.model),
-        rest_(rest_of(model_)),
-        exact_(pool_, rest_, displacements_of(body), sample_count),
+        rest_(model_.rest_positions_of(model_.bodies.front())),
+        exact_(pool_, rest_, body.state.displacements_of(model_.bodies.front()), sample_count),
         bodies_(device, model_, body.state),
         stepper_(bodies_, model_, find_integrator("verlet"), DampingLaw::none, 1e-3) {
     device.run(stepper_.first_passes());
@@ -285,7 +276,7 @@ class Suite {
       const ModelAndState body = deformed_body(shape.mesh);
       const double pairs = std::pow(body.model.vertex_count(), 2), expected = seconds_per_pair * pairs;
       SumsOf sums(*device, place, effort, body, shape.name);
-      if (expected > longest_direct_sum)
+      if (expected > longest_timed)
         result_.notes.push_back(fmt::format("{}: all springs left out, as a sum would take about {:.2g} s", what, expected));
       else
         seconds_per_pair = sums.measure_direct() / pairs;
@@ -294,7 +285,7 @@ class Suite {
         DenseForceRow& row = result_.forces.emplace_back(sums.measure(tolerance));
         row.direct_seconds_per_step = direct_step;
         row.seconds_per_step = measured_step(*device, effort, body, tolerance, 11 * row.seconds_per_sum);
-        row.seconds_per_contact_step = measured_contact_step(*device, effort, shape.mesh, tolerance, 11 * row.seconds_per_sum);
+        measure_contact_steps(*device, effort, shape.mesh, row);
       }
     }
   }
@@ -303,16 +294,17 @@ class Suite {
   // tolerance.
   static double measured_step(Device& device, const Effort& effort, ModelAndState body, std::optional<double> tolerance,
                               double expected) {
-    if (expected > longest_direct_sum) return 0;
+    if (expected > longest_timed) return 0;
     displace_smoothly(body);
-    return StepsOf(device, std::move(body), tolerance, {.response = {"none"}}).seconds_after(1, effort);
+    return StepsOf(device, std::move(body), tolerance, {.response = {"none"}}).seconds_after(1, effort).seconds;
   }
 
-  // Returns that of a body that has fallen on a ground. It is 0 as above.
-  static double measured_contact_step(Device& device, const Effort& effort, const TriangleMesh& mesh, double tolerance,
-                                      double expected) {
-    if (expected > longest_contact_step) return 0;
-    return StepsOf(device, body_above_ground(mesh), tolerance, {}).seconds_after(steps_until_contact, effort);
+  // Times those of a body that has fallen on a ground, if they do not take long.
+  static void measure_contact_steps(Device& device, const Effort& effort, const TriangleMesh& mesh, DenseForceRow& row) {
+    if (11 * row.seconds_per_sum > longest_contact_step) return;
+    const auto timed = StepsOf(device, body_above_ground(mesh), row.tolerance, {}).seconds_after(steps_until_contact, effort);
+    row.seconds_per_contact_step = timed.seconds;
+    row.contact_share = timed.contact_share;
   }
 
   bool quick_;

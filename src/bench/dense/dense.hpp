@@ -1,5 +1,5 @@
 // The suite `dense`. It measures springs of a clustered body: how large their errors are for how many springs, and how long a sum
-// of them takes, beside that of all springs.
+// of them takes, and a step, beside those of all springs.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -39,8 +39,8 @@ struct DenseForceRow {
   std::vector<std::pair<std::string, double>> pass_seconds = {};  // the same of each pass, which runs alone
   double direct_seconds_per_sum = 0;    // of all springs; 0, and null in the file, where that would take too long
   double seconds_per_step = 0;          // by cv8, which sums 11 times, with checks; 0, and null in the file, as above
-  double seconds_per_contact_step = 0;  // of a body that has fallen on a ground; of a part if steps fall into
-                                        // parts; 0, and null in the file, as above
+  double seconds_per_contact_step = 0;  // of a body that has fallen on a ground; 0, and null in the file, as above
+  double contact_share = 0;             // of those steps, or of parts if they fall into such, that had a contact
   double direct_seconds_per_step = 0;   // the same with all springs
   double bytes_per_vertex = 0;          // of tree, lists and sums on the device
   double error = 0;  // as in a DenseErrorRow, of a body whose neighbours move apart by some percent of its size

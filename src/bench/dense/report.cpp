@@ -35,6 +35,7 @@ Json force_json(const DenseForceRow& row) {
           {"direct_seconds_per_sum", if_measured(row.direct_seconds_per_sum)},
           {"seconds_per_step", if_measured(row.seconds_per_step)},
           {"seconds_per_contact_step", if_measured(row.seconds_per_contact_step)},
+          {"contact_share", row.contact_share},
           {"direct_seconds_per_step", if_measured(row.direct_seconds_per_step)},
           {"bytes_per_vertex", row.bytes_per_vertex},
           {"error", row.error}};

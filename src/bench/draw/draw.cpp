@@ -158,6 +158,7 @@ DrawRow measure(Device& device, const StepCase& what, const DrawOptions& options
           .vertices = model.vertex_count(),
           .triangles = static_cast<std::uint32_t>(model.triangles.size()),
           .bodies = static_cast<std::uint32_t>(model.bodies.size()),
+          .clustered_bodies = clustered_bodies(model),
           .detail = detail == render::Detail::full ? "full" : "reduced",
           .width = options.size.x,
           .height = options.size.y,
@@ -178,6 +179,7 @@ DrawResult bench_draw(const DrawOptions& options, const Progress& progress) {
   StepCases all = load_step_cases(options.scenes, options.quick);
   DrawResult result{.rows = {}, .notes = std::move(all.notes), .interrupted = false};
   const auto device = open({.device = DeviceKind::gpu, .gpu_index = options.gpu_index});
+  choose_force_sums(all, DeviceKind::gpu);
   for (const StepCase& what : all.cases) {
     const double part = static_cast<double>(result.rows.size()) / static_cast<double>(all.cases.size());
     result.interrupted = !progress(part, what.name);

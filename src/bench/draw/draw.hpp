@@ -39,6 +39,7 @@ struct DrawRow {
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t triangles = 0;
   std::uint32_t bodies = 0;
+  std::uint32_t clustered_bodies = 0;         // whose springs are summed by clusters
   std::string detail = "full";                // or "reduced" if software draws
   std::uint32_t width = 0, height = 0;        // [pixels]
   double milliseconds_per_frame = 0;          // the median over batches, by the GPU's clock

@@ -15,6 +15,7 @@ Json row_json(const DrawRow& row) {
                {"vertices", row.vertices},
                {"triangles", row.triangles},
                {"bodies", row.bodies},
+               {"clustered_bodies", row.clustered_bodies},
                {"detail", row.detail},
                {"width", row.width},
                {"height", row.height},

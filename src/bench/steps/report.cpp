@@ -15,6 +15,7 @@ Json row_json(const StepsRow& row) {
           {"threads", threads_json(row.device, row.threads)},
           {"vertices", row.vertices},
           {"bodies", row.bodies},
+          {"clustered_bodies", row.clustered_bodies},
           {"milliseconds_per_step", row.milliseconds_per_step},
           {"fastest_milliseconds_per_step", row.fastest_milliseconds_per_step},
           {"steps_per_second", row.steps_per_second},

@@ -117,6 +117,7 @@ class StepsAt {
             .threads = place_.threads,
             .vertices = what.start.model.vertex_count(),
             .bodies = static_cast<std::uint32_t>(what.start.model.bodies.size()),
+            .clustered_bodies = clustered_bodies(what.start.model),
             .milliseconds_per_step = 1e3 * median(seconds) / steps,
             .fastest_milliseconds_per_step = 1e3 * std::ranges::min(seconds) / steps,
             .steps_per_second = steps / median(seconds),
@@ -149,6 +150,7 @@ StepsResult bench_steps(const StepsOptions& options, const Progress& progress) {
   double done = 0;
   for (const Place& place : places) {
     StepsAt here(place);
+    choose_force_sums(all, place.device);
     for (const StepCase& what : all.cases) {
       const double part = done++ / static_cast<double>(places.size() * all.cases.size());
       result.interrupted = !progress(part, fmt::format("{}, {}", name_of(place), what.name));

@@ -26,7 +26,8 @@ struct StepsRow {
   unsigned threads = 1;        // of the CPU; null in the file for the GPU
   std::uint32_t vertices = 0;  // of all bodies
   std::uint32_t bodies = 0;
-  double milliseconds_per_step = 0;  // the median over the runs, which follow a step that builds the kernels
+  std::uint32_t clustered_bodies = 0;  // whose springs are summed by clusters
+  double milliseconds_per_step = 0;    // the median over the runs, which follow a step that builds the kernels
   double fastest_milliseconds_per_step = 0;
   double steps_per_second = 0;      // by the median
   std::uint64_t steps = 0;          // measured steps of each run
