@@ -112,10 +112,7 @@ VolumeAt volume_at(const Model& model, const ModelBody& body, std::span<const gl
 
 Inflation inflate(const BodySetup& setup, const Model& model, const ModelBody& body) {
   expect_encloses(setup);
-  std::vector<glm::dvec3> positions;
-  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
-    positions.push_back(model.rest_position(i));
-  const VolumeAt rest = volume_at(model, body, positions);
+  const VolumeAt rest = volume_at(model, body, model.rest_positions_of(body));
   const Inflation inside{.pressure = setup.description.pressure,
                          .law = setup.description.pressure_law,
                          .rest_volume = rest.volume,

@@ -286,6 +286,19 @@ std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   return positions;
 }
 
+std::vector<glm::dvec3> Model::rest_positions_of(const ModelBody& body) const {
+  std::vector<glm::dvec3> positions;
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) positions.push_back(rest_position(i));
+  return positions;
+}
+
+std::vector<glm::dvec3> State::displacements_of(const ModelBody& body) const {
+  std::vector<glm::dvec3> displacements;
+  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
+    displacements.push_back(displacement(i));
+  return displacements;
+}
+
 std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   std::vector<glm::dvec3> velocities(model.vertex_count());
   for (std::size_t vertex = 0; vertex < velocities.size(); ++vertex) velocities[vertex] = world_velocity(model, vertex);

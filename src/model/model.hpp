@@ -80,6 +80,7 @@ struct Model {
     return static_cast<std::uint32_t>(rest_positions[vertex].w);
   }
   [[nodiscard]] glm::dvec3 rest_position(std::size_t vertex) const { return glm::dvec3(rest_positions[vertex]); }  // [m]
+  [[nodiscard]] std::vector<glm::dvec3> rest_positions_of(const ModelBody& body) const;  // one for each of its vertices [m]
   [[nodiscard]] const ModelBody& body_of(std::size_t vertex) const { return bodies[body_index(vertex)]; }
   /// Returns whether there are two surfaces to touch: those of two bodies, or one that meets itself.
   [[nodiscard]] bool has_surfaces_to_touch() const;
@@ -118,6 +119,8 @@ struct State {
   [[nodiscard]] glm::dvec3 velocity(std::size_t vertex) const {
     return load(physics::velocity_of(static_cast<std::uint32_t>(vertex)));
   }
+  /// Returns u of each vertex of a body [m].
+  [[nodiscard]] std::vector<glm::dvec3> displacements_of(const ModelBody& body) const;
   /// Return the world position [m] and velocity [m/s] of a vertex, in fp64.
   [[nodiscard]] glm::dvec3 world_position(const Model& model, std::size_t vertex) const {
     return physics::to_world(poses[model.body_index(vertex)], model.rest_position(vertex) + displacement(vertex));

@@ -24,9 +24,7 @@ bool is_closed(const ModelBody& body, const IncidentTriangles& around) {
 }
 
 bool is_wound_outward(const Model& model, const ModelBody& body) {
-  std::vector<glm::dvec3> positions;
-  for (std::uint32_t i = 0; i < body.vertex_count; ++i) positions.push_back(model.rest_position(body.first_vertex + i));
-  return volume_of(model, body, positions) > 0;
+  return volume_of(model, body, model.rest_positions_of(body)) > 0;
 }
 
 /// Containers are lit inside.

@@ -127,12 +127,14 @@ std::optional<std::string> instability_of(const RunStatus& status) {
   if (has_blown_up(status))
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
                        shorter_steps(status));
-  if (progress.most_gained >= told_gain * std::max(energy_had(progress, model), smallest_energy(model)))
-    return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
-                       report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
-                                                : "the motion is unstable, or the steps are too long for the method",
-                       shorter_steps(status));
-  return {};
+  if (progress.most_gained < told_gain * std::max(energy_had(progress, model), smallest_energy(model))) return {};
+  if (report.clusters && report.clusters->energy_change >= 0.5 * progress.most_gained)
+    return fmt::format("{}: lists of clusters that were made anew have changed it; try forces = \"direct\", or damping",
+                       told_growth_of(progress, model));
+  return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
+                     report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
+                                              : "the motion is unstable, or the steps are too long for the method",
+                     shorter_steps(status));
 }
 
 std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices, int precision) {
@@ -169,14 +171,14 @@ std::vector<std::string> contact_troubles_of(const RunStatus& status) {
 }
 
 std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
-  constexpr double told_excess = 10;
+  constexpr double told_excess = 3;
   std::vector<std::string> told;
   if (!status.report.clusters) return told;
   if (const double excess = status.report.clusters->largest_excess; excess > told_excess)
     told.push_back(
         fmt::format("forces of a clustered body were off by {:.3g} times its force_tolerance at a check, and maybe for some "
-                    "steps before; try a shorter time step, which is checked more often, or forces = \"direct\"",
-                    excess));
+                    "steps before; try forces = \"direct\"{}",
+                    excess, status.report.adaptive ? "" : ", or a tolerance for steps, which brings more checks"));
   for (const std::uint32_t b : status.report.clusters->direct) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(

@@ -39,13 +39,6 @@ std::uint64_t interval_of(const Model& model, std::optional<double> time_step) {
   return static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
 }
 
-std::vector<glm::dvec3> displacements_of(const ModelBody& body, const State& state) {
-  std::vector<glm::dvec3> displacements;
-  for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i)
-    displacements.push_back(state.displacement(i));
-  return displacements;
-}
-
 bool sums_springs(const physics::Status& status) {
   return status.activity == physics::moving && status.deformed != 0 && !physics::is_still(status);
 }
@@ -71,9 +64,13 @@ bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& stat
   for (std::size_t b = 0; b < errors.size(); ++b) {
     if (!errors[b]) continue;
     ++report_.checks;
-    report_.largest_error = std::max(report_.largest_error, *errors[b]);
-    report_.largest_excess = std::max(report_.largest_excess, *errors[b] / force_tolerance_of(model_.bodies[b]));
-    if (!(*errors[b] <= limit_of(b))) improve(b, state());
+    double error = *errors[b];
+    if (!(error <= limit_of(b))) {
+      const double mended = improve(b, state(), error);
+      if (steps == 0) error = mended;  // no step has had the first one
+    }
+    report_.largest_error = std::max(report_.largest_error, error);
+    report_.largest_excess = std::max(report_.largest_excess, error / force_tolerance_of(model_.bodies[b]));
   }
   return changed_ != before;
 }
@@ -99,61 +96,77 @@ std::vector<std::optional<double>> ClusterWatch::measure() {
   return relative;
 }
 
-void ClusterWatch::improve(std::size_t body, const State& state) {
+// Of lists that miss the tolerance by little it keeps the first ones: each change makes another body, and more exact lists cost
+// more.
+double ClusterWatch::improve(std::size_t body, const State& state, double error) {
+  struct Tried {
+    std::shared_ptr<const ChangedSums> sums;
+    double error;
+  };
   const double tolerance = force_tolerance_of(model_.bodies[body]), standard = accuracy_of(tolerance);
-  ChangedSums next{.displacements = displacements_of(model_.bodies[body], state)};
-  double error = std::numeric_limits<double>::infinity(), last_accuracy = 0;
-  for (const double accuracy : {changed_[body] ? changed_[body]->accuracy : standard, standard / 10}) {
-    next.changes = 1 + (changed_[body] ? changed_[body]->changes : 0);
-    next.accuracy = accuracy;
-    if (next.changes > most_changes || accuracy == last_accuracy) break;
+  const std::shared_ptr<const ChangedSums> before = changed_[body];
+  std::vector<Tried> all_tried = {{before, error}};
+  ChangedSums lists{.changes = 1 + (before ? before->changes : 0), .displacements = state.displacements_of(model_.bodies[body])};
+  bool has_room = true;
+  for (const double accuracy : {before ? before->accuracy : standard, standard / 10}) {
+    if (lists.changes > most_changes || accuracy == lists.accuracy) break;
+    lists.accuracy = accuracy;
     try {
-      change(body, state, next);
-    } catch (const Error& problem) {
-      if (problem.kind() != ErrorKind::input) throw;
-      break;  // so many vertices have come together that lists would be too long
+      change(body, std::make_shared<const ChangedSums>(lists));
+    } catch (const Error& problem) {  // so many vertices have come together that lists would be too long, or the device is full
+      if (problem.kind() != ErrorKind::input && problem.kind() != ErrorKind::device) throw;
+      has_room = problem.kind() == ErrorKind::input;
+      break;
     }
-    ++report_.lists_made;
-    last_accuracy = accuracy;
-    error = measure()[body].value_or(0);
-    if (error <= tolerance) return;
+    all_tried.push_back({changed_[body], measure()[body].value_or(0)});
+    if (all_tried.back().error <= tolerance) {
+      note_lists(body, state, before);
+      return all_tried.back().error;
+    }
   }
-  if (changed_[body]) next = *changed_[body];
-  next.are_strained = true;
-  next.are_direct = !(error <= most_strained * tolerance);
-  if (next.are_direct) {
-    next.displacements.clear();
-    ++next.changes;
-    change(body, state, next);
-  } else {
-    changed_[body] = std::make_shared<const ChangedSums>(std::move(next));
-  }
+  const auto kept = std::ranges::find_if(all_tried, [&](const Tried& tried) { return tried.error <= most_strained * tolerance; });
+  ChangedSums sums;
+  sums.are_direct = !has_room || kept == all_tried.end();
+  if (sums.are_direct)
+    sums.changes = lists.changes;
+  else if (kept->sums)
+    sums = *kept->sums;
+  else
+    sums.accuracy = standard;
+  sums.are_strained = true;
+  change(body, std::make_shared<const ChangedSums>(std::move(sums)));
+  note_lists(body, state, before);
+  return changed_[body]->are_direct ? 0 : kept->error;
 }
 
-void ClusterWatch::change(std::size_t body, const State& state, ChangedSums sums) {
-  const bool tells_energy = !sums.are_direct;  // that of all springs may take minutes
-  const double before = tells_energy ? energy_of(body, state) : 0;
+void ClusterWatch::note_lists(std::size_t body, const State& state, const std::shared_ptr<const ChangedSums>& before) {
+  const ChangedSums& now = *changed_[body];
+  if (now.are_direct || now.changes == (before ? before->changes : 0)) return;  // the energy of all springs may take minutes
+  ++report_.lists_made;
+  report_.energy_change += std::abs(energy_of(body, state, changed_[body].get()) - energy_of(body, state, before.get()));
+}
+
+void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> sums) {
   const std::uint64_t evaluations = bodies_.tallies.download()[body].force_evaluations;
   const Counted counted{evaluations, interactions(body, evaluations)};
   auto changed = changed_;
-  changed[body] = std::make_shared<const ChangedSums>(std::move(sums));
+  changed[body] = std::move(sums);
   stepper_.change_sums(model_, changed);
   record();
   changed_ = std::move(changed);
   counted_[body] = counted;
-  if (tells_energy) report_.energy_change += std::abs(energy_of(body, state) - before);
   std::vector<physics::Status> statuses = bodies_.statuses.download();
   statuses[body].force_stale = 1;
   bodies_.statuses.upload(statuses);
 }
 
-double ClusterWatch::energy_of(std::size_t body, const State& state) const {
+double ClusterWatch::energy_of(std::size_t body, const State& state, const ChangedSums* sums) const {
   const ModelBody& of = model_.bodies[body];
-  const std::optional<ListBasis> basis = list_basis_of(of, changed_[body].get());
-  std::vector<glm::dvec3> rest;
-  for (std::uint32_t i = of.first_vertex; i < of.first_vertex + of.vertex_count; ++i) rest.push_back(model_.rest_position(i));
-  ThreadPool pool(bodies_.arrays.device().info().threads);
-  return of.stiffness * ClusterSprings(rest, basis->accuracy, basis->displacements).energy(pool, displacements_of(of, state));
+  const std::optional<ListBasis> basis = list_basis_of(of, sums);
+  const DeviceInfo& device = bodies_.arrays.device().info();
+  ThreadPool pool(device.kind == DeviceKind::cpu ? device.threads : 0);
+  const ClusterSprings springs(model_.rest_positions_of(of), basis->accuracy, basis->displacements);
+  return of.stiffness * springs.energy(pool, state.displacements_of(of));
 }
 
 ClusterReport ClusterWatch::report() const {
@@ -172,7 +185,6 @@ std::uint64_t ClusterWatch::interactions(std::size_t body, std::uint64_t evaluat
 bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
   if (changed == changed_) return false;
   stepper_.change_sums(model_, changed);
-  record();
   changed_ = changed;
   return true;
 }

@@ -67,9 +67,12 @@ class ClusterWatch {
   // Returns the errors of bodies whose springs are summed by clusters, and are to be summed at all. Others have none, and no body
   // has any after a breakdown.
   [[nodiscard]] std::vector<std::optional<double>> measure();
-  void improve(std::size_t body, const State& state);
-  void change(std::size_t body, const State& state, ChangedSums sums);
-  [[nodiscard]] double energy_of(std::size_t body, const State& state) const;
+  // Returns the error that remains.
+  double improve(std::size_t body, const State& state, double error);
+  // Counts new lists, and how they change the energy.
+  void note_lists(std::size_t body, const State& state, const std::shared_ptr<const ChangedSums>& before);
+  void change(std::size_t body, std::shared_ptr<const ChangedSums> sums);
+  [[nodiscard]] double energy_of(std::size_t body, const State& state, const ChangedSums* sums) const;
   [[nodiscard]] double limit_of(std::size_t body) const;
 
   DeviceBodies& bodies_;

@@ -1,4 +1,5 @@
-// Runs steps and reports on them. The passes of a step are recorded once. Nothing is read back between steps.
+// Runs steps and reports on them. The passes of a step are recorded once. Nothing is read back between steps, but for checks of
+// clustered bodies and where steps fall into parts.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -95,8 +96,9 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues steps of a fixed length. They may still be running when this returns. After a breakdown nothing moves. If steps fall
-  /// into parts, or some may be quiet, it waits for some of them now and then. With `stops` it does so, too, and asks. A yes ends
-  /// it, perhaps in the midst of a step, where another call goes on.
+  /// into parts, or some may be quiet, it waits for some of them now and then. It also waits at checks of clustered bodies, where
+  /// it may make lists for seconds. With `stops` it waits, too, and asks. A yes ends it, perhaps in the midst of a step, where
+  /// another call goes on.
   void advance(std::uint64_t steps, const std::function<bool()>& stops = {});
   /// Queues the next part of a step. It is a whole step unless the response divides it.
   void advance_part();
@@ -158,7 +160,7 @@ class Simulation {
     std::uint64_t steps = 0;  // whole ones that stand, since the start
   };
 
-  // Waits for the queued steps. Reads how far they have come, and ahead all arrays of these names, among which that stands.
+  // Waits for the queued steps. Reads the arrays of these names at once, and from them how far steps have come.
   void read_progress(std::span<const std::string_view> arrays);
   [[nodiscard]] const physics::Control& control();  // waits for the queued steps
   [[nodiscard]] std::uint32_t half();               // the half that holds the current state

@@ -46,8 +46,7 @@ class BodyTables {
         body_index_(body_index),
         first_cluster_(static_cast<std::uint32_t>(tables.clusters.size())),
         first_leaf_(static_cast<std::uint32_t>(tables.leaves.size())) {
-    std::vector<glm::dvec3> rest;
-    for (std::uint32_t i = 0; i < body_.vertex_count; ++i) rest.push_back(model.rest_position(body_.first_vertex + i));
+    const std::vector<glm::dvec3> rest = model.rest_positions_of(body_);
     tree_ = make_cluster_tree(rest);
     pairs_ = pair_clusters(tree_, basis.accuracy, extents_moved_by(tree_, rest, basis.displacements));
     add_leaves();

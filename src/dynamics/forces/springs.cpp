@@ -122,16 +122,11 @@ class SpringEnergies {
     double& energy = energies_[body.first_vertex];
     energy = std::numeric_limits<double>::quiet_NaN();
     if (question.stopped && question.stopped()) return;
-    std::vector<glm::dvec3> rest, displacements;
-    for (std::uint32_t i = body.first_vertex; i < body.first_vertex + body.vertex_count; ++i) {
-      rest.push_back(question.model.rest_position(i));
-      displacements.push_back(question.state.displacement(i));
-    }
     if (!clustered_[b]) {
       const ListBasis basis = *list_basis_of(body, changed_sums_[b].get());
-      clustered_[b].emplace(rest, basis.accuracy, basis.displacements);
+      clustered_[b].emplace(question.model.rest_positions_of(body), basis.accuracy, basis.displacements);
     }
-    energy = body.stiffness * clustered_[b]->energy(question.pool, displacements);
+    energy = body.stiffness * clustered_[b]->energy(question.pool, question.state.displacements_of(body));
   }
 
   ElongationSum sum_of_springs_;
