@@ -103,7 +103,7 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   const std::size_t coordinates = std::size_t{3} * bodies.vertex_count;
   bodies.set_time_step(time_step);
   if (std::ranges::any_of(model.bodies, &ModelBody::is_clustered))
-    cluster_forces_.emplace(bodies, model, bases_of(model, AllChangedSums(model.bodies.size())));
+    cluster_forces_.emplace(bodies, model, bases_of(model, AllChangedSums(model.bodies.size())), cluster_trees_);
   else
     bodies.arrays.make<double>("spring_sum", 1);                                   // kernels on a processor name it in any case
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
@@ -148,7 +148,8 @@ void Stepper::change_sums(const Model& model, const std::vector<std::shared_ptr<
   const std::vector<std::optional<ListBasis>> bases = bases_of(model, changed);
   std::vector<bool> given;
   for (const std::optional<ListBasis>& basis : bases) given.push_back(basis.has_value());
-  cluster_forces_ = ClusterForces(bodies_, model, bases);  // if lists are too long, this throws, and the old ones stay
+  cluster_forces_ =
+      ClusterForces(bodies_, model, bases, cluster_trees_);  // if lists are too long, this throws, and the old ones stay
   bodies_.cut_into_shares(model, given);
 }
 

@@ -34,6 +34,7 @@ class Stepper {
   /// long.
   void change_sums(const Model& model, const std::vector<std::shared_ptr<const ChangedSums>>& changed);
   /// Returns the sums of clustered bodies, or null if there are none.
+  [[nodiscard]] ClusterTrees& cluster_trees() { return cluster_trees_; }
   [[nodiscard]] const ClusterForces* cluster_forces() const { return cluster_forces_ ? &*cluster_forces_ : nullptr; }
 
   /// Returns the passes that run once, before the first step.
@@ -79,6 +80,7 @@ class Stepper {
   [[nodiscard]] bool makes_a_step_in_one_pass() const;
 
   DeviceBodies& bodies_;
+  ClusterTrees cluster_trees_;
   std::optional<ClusterForces> cluster_forces_;  // empty: no body is clustered
   AddedForces added_forces_;
   InternalDamping internal_damping_;

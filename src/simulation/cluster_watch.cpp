@@ -143,7 +143,25 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   const ChangedSums& now = *changed_[body];
   if (now.are_direct || now.changes == (before ? before->changes : 0)) return;  // the energy of all springs may take minutes
   ++report_.lists_made;
-  report_.energy_change += std::abs(energy_of(body, state, changed_[body].get()) - energy_of(body, state, before.get()));
+  const DeviceInfo& device = bodies_.arrays.device().info();
+  const ModelBody& of = model_.bodies[body];
+  const auto tree = stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body));
+  const unsigned threads = device.kind == DeviceKind::cpu ? device.threads : 0;
+  energy_changes_.push_back(
+      std::async(std::launch::async, [of, tree, threads, before, after = changed_[body], rest = model_.rest_positions_of(of),
+                                      displacements = state.displacements_of(of)] {
+        ThreadPool pool(threads);
+        const auto energy_with = [&](const ChangedSums* sums) {
+          const ListBasis basis = *list_basis_of(of, sums);
+          return of.stiffness * ClusterSprings(tree, rest, basis.accuracy, basis.displacements).energy(pool, displacements);
+        };
+        return std::abs(energy_with(after.get()) - energy_with(before.get()));
+      }));
+}
+
+void ClusterWatch::take_energy_changes() {
+  for (std::future<double>& change : energy_changes_) report_.energy_change += change.get();
+  energy_changes_.clear();
 }
 
 void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> sums) {
@@ -160,16 +178,8 @@ void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> s
   bodies_.statuses.upload(statuses);
 }
 
-double ClusterWatch::energy_of(std::size_t body, const State& state, const ChangedSums* sums) const {
-  const ModelBody& of = model_.bodies[body];
-  const std::optional<ListBasis> basis = list_basis_of(of, sums);
-  const DeviceInfo& device = bodies_.arrays.device().info();
-  ThreadPool pool(device.kind == DeviceKind::cpu ? device.threads : 0);
-  const ClusterSprings springs(model_.rest_positions_of(of), basis->accuracy, basis->displacements);
-  return of.stiffness * springs.energy(pool, state.displacements_of(of));
-}
-
-ClusterReport ClusterWatch::report() const {
+ClusterReport ClusterWatch::report() {
+  take_energy_changes();
   ClusterReport report = report_;
   for (std::uint32_t b = 0; b < changed_.size(); ++b)
     if (changed_[b] && changed_[b]->are_direct) report.direct.push_back(b);
@@ -189,7 +199,8 @@ bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& ch
   return true;
 }
 
-std::string ClusterWatch::save() const {
+std::string ClusterWatch::save() {
+  take_energy_changes();
   ByteWriter to;
   to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, report_.energy_change,
      counted_);
@@ -201,6 +212,7 @@ std::string ClusterWatch::save() const {
 }
 
 bool ClusterWatch::restore(std::string_view saved) {
+  energy_changes_.clear();
   std::vector<std::shared_ptr<const ChangedSums>> changed(model_.bodies.size());
   if (saved.empty()) {
     report_ = {};

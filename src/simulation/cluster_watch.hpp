@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,12 +49,12 @@ class ClusterWatch {
   [[nodiscard]] const std::vector<std::shared_ptr<const ChangedSums>>& changed_sums() const { return changed_; }
   /// Sums springs as in a State. Returns whether passes that were recorded before do not hold any more.
   bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
-  [[nodiscard]] ClusterReport report() const;
+  [[nodiscard]] ClusterReport report();
   /// Returns how many forces of one point on another so many evaluations of a body's forces had.
   [[nodiscard]] std::uint64_t interactions(std::size_t body, std::uint64_t evaluations) const;
 
   /// Returns as bytes all that later checks and reports depend on.
-  [[nodiscard]] std::string save() const;
+  [[nodiscard]] std::string save();
   /// Goes on from bytes of save(). Without any it goes on from a simulation that had no clusters. Returns whether passes that
   /// were recorded before do not hold any more.
   bool restore(std::string_view saved);
@@ -69,10 +70,11 @@ class ClusterWatch {
   [[nodiscard]] std::vector<std::optional<double>> measure();
   // Returns the error that remains.
   double improve(std::size_t body, const State& state, double error);
-  // Counts new lists, and how they change the energy.
+  // Counts new lists. Begins to find out how they change the energy, while steps go on.
   void note_lists(std::size_t body, const State& state, const std::shared_ptr<const ChangedSums>& before);
   void change(std::size_t body, std::shared_ptr<const ChangedSums> sums);
-  [[nodiscard]] double energy_of(std::size_t body, const State& state, const ChangedSums* sums) const;
+  // Adds what has been begun by note_lists(), and waits for it.
+  void take_energy_changes();
   [[nodiscard]] double limit_of(std::size_t body) const;
 
   DeviceBodies& bodies_;
@@ -81,8 +83,9 @@ class ClusterWatch {
   std::uint64_t interval_, next_check_ = 0;
   std::vector<Pass> measuring_;
   std::vector<std::shared_ptr<const ChangedSums>> changed_;
-  std::vector<Counted> counted_;  // by bodies
-  ClusterReport report_;          // but for `direct`
+  std::vector<Counted> counted_;                     // by bodies
+  ClusterReport report_;                             // but for `direct`
+  std::vector<std::future<double>> energy_changes_;  // that are still to be added [J]
 };
 
 }  // namespace pliant

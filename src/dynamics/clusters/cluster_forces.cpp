@@ -40,43 +40,44 @@ physics::SpringCluster table_row(const Cluster& cluster) {
 
 class BodyTables {
  public:
-  BodyTables(Tables& tables, const Model& model, std::uint32_t body_index, const ListBasis& basis)
+  BodyTables(Tables& tables, const Model& model, std::uint32_t body_index, const ListBasis& basis,
+             std::shared_ptr<const ClusterTree> tree)
       : tables_(tables),
         body_(model.bodies[body_index]),
         body_index_(body_index),
         first_cluster_(static_cast<std::uint32_t>(tables.clusters.size())),
-        first_leaf_(static_cast<std::uint32_t>(tables.leaves.size())) {
+        first_leaf_(static_cast<std::uint32_t>(tables.leaves.size())),
+        tree_(std::move(tree)) {
     const std::vector<glm::dvec3> rest = model.rest_positions_of(body_);
-    tree_ = make_cluster_tree(rest);
-    pairs_ = pair_clusters(tree_, basis.accuracy, extents_moved_by(tree_, rest, basis.displacements));
+    pairs_ = pair_clusters(*tree_, basis.accuracy, extents_moved_by(*tree_, rest, basis.displacements));
     add_leaves();
     add_clusters();
     set_places_of_pulls();
   }
 
-  [[nodiscard]] std::uint64_t spring_count() const { return count_springs(tree_, pairs_).all(); }
+  [[nodiscard]] std::uint64_t spring_count() const { return count_springs(*tree_, pairs_).all(); }
 
   // Returns vertices from all over the body, the same ones each time.
   [[nodiscard]] std::vector<std::uint32_t> samples() const {
-    const std::uint64_t count = std::min<std::uint64_t>(physics::most_samples, tree_.order.size());
+    const std::uint64_t count = std::min<std::uint64_t>(physics::most_samples, tree_->order.size());
     std::vector<std::uint32_t> vertices;
     for (std::uint64_t s = 0; s < count; ++s)
-      vertices.push_back(body_.first_vertex + tree_.order[(2 * s + 1) * tree_.order.size() / (2 * count)]);
+      vertices.push_back(body_.first_vertex + tree_->order[(2 * s + 1) * tree_->order.size() / (2 * count)]);
     return vertices;
   }
 
  private:
   void add_leaves() {
-    for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
-      const std::uint32_t of_leaf = tree_.leaves[leaf];
-      const Cluster& cluster = tree_.clusters[of_leaf];
+    for (std::uint32_t leaf = 0; leaf < tree_->leaves.size(); ++leaf) {
+      const std::uint32_t of_leaf = tree_->leaves[leaf];
+      const Cluster& cluster = tree_->clusters[of_leaf];
       tables_.leaves.emplace_back(body_index_, first_cluster_ + of_leaf, tables_.near_leaves.size(),
                                   tables_.above_clusters.size());
       for (std::uint32_t k = 0; k < leaf_size; ++k)  // behind the end of the last leaf its last vertex comes again
-        tables_.tree_vertices.push_back(body_.first_vertex + tree_.order[std::min(cluster.first + k, cluster.end - 1)]);
+        tables_.tree_vertices.push_back(body_.first_vertex + tree_->order[std::min(cluster.first + k, cluster.end - 1)]);
       for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k)
         tables_.near_leaves.push_back(first_leaf_ + pairs_.near[k]);
-      for (std::uint32_t c = of_leaf;; c = tree_.clusters[c].parent) {
+      for (std::uint32_t c = of_leaf;; c = tree_->clusters[c].parent) {
         if (pairs_.far_begin[c] < pairs_.far_begin[c + 1]) tables_.above_clusters.push_back(first_cluster_ + c);
         if (c == 0) break;
       }
@@ -84,8 +85,8 @@ class BodyTables {
   }
 
   void add_clusters() {
-    for (std::uint32_t c = 0; c < tree_.clusters.size(); ++c) {
-      const Cluster& cluster = tree_.clusters[c];
+    for (std::uint32_t c = 0; c < tree_->clusters.size(); ++c) {
+      const Cluster& cluster = tree_->clusters[c];
       physics::SpringCluster row = table_row(cluster);
       row.body_index = body_index_;
       row.first_leaf = first_leaf_ + cluster.first_leaf();
@@ -136,14 +137,14 @@ class BodyTables {
   }
 
   std::uint32_t leaf_count_of(std::uint32_t c) const {
-    const Cluster& cluster = tree_.clusters[c - first_cluster_];
+    const Cluster& cluster = tree_->clusters[c - first_cluster_];
     return cluster.end_leaf() - cluster.first_leaf();
   }
 
   Tables& tables_;
   const ModelBody& body_;
   std::uint32_t body_index_, first_cluster_, first_leaf_;
-  ClusterTree tree_;
+  std::shared_ptr<const ClusterTree> tree_;
   ClusterPairs pairs_;
 };
 
@@ -186,7 +187,15 @@ double ClusterErrors::relative() const {
   return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
-ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases)
+std::shared_ptr<const ClusterTree> ClusterTrees::of(const Model& model, std::uint32_t body) {
+  trees_.resize(model.bodies.size());
+  if (!trees_[body])
+    trees_[body] = std::make_shared<const ClusterTree>(make_cluster_tree(model.rest_positions_of(model.bodies[body])));
+  return trees_[body];
+}
+
+ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases,
+                             ClusterTrees& trees)
     : bodies_(&bodies), springs_of_bodies_(model.bodies.size()) {
   PLIANT_EXPECT(bases.size() == model.bodies.size());
   Tables tables;
@@ -196,7 +205,7 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
     if (!bases[b]) continue;
     Leaves leaves{
         .body = b, .vertices = model.bodies[b].vertex_count, .first = leaf_count(), .end = 0, .first_sample = 0, .end_sample = 0};
-    const BodyTables added(tables, model, b, *bases[b]);
+    const BodyTables added(tables, model, b, *bases[b], trees.of(model, b));
     springs_of_bodies_[b] = added.spring_count();
     leaves.end = leaf_count();
     leaves_of_bodies_.push_back(leaves);

@@ -2,12 +2,14 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "device/pass.hpp"
+#include "dynamics/clusters/cluster_tree.hpp"
 #include "dynamics/clusters/force_sums.hpp"
 #include "model/model.hpp"
 #include "state/device_bodies.hpp"
@@ -24,11 +26,20 @@ struct ClusterErrors {
   [[nodiscard]] double relative() const;
 };
 
+/// The trees of a model's bodies. Each is made when it is first asked for.
+class ClusterTrees {
+ public:
+  [[nodiscard]] std::shared_ptr<const ClusterTree> of(const Model& model, std::uint32_t body);
+
+ private:
+  std::vector<std::shared_ptr<const ClusterTree>> trees_;
+};
+
 class ClusterForces {
  public:
   /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this. Throws Error (input) if lists
   /// would be too long, before it makes any.
-  ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases);
+  ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases, ClusterTrees& trees);
 
   /// Returns passes that set `spring_sum` at the placements in a slot, for clustered bodies that move and are deformed. With
   /// `only_stale` they leave out bodies whose kept forces still hold. Sums of all others are undefined.

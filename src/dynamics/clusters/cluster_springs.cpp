@@ -28,13 +28,17 @@ void for_all(ThreadPool& pool, std::size_t count, const std::function<void(std::
 }  // namespace
 
 ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy, std::span<const glm::dvec3> shape)
-    : tree_(make_cluster_tree(rest)), pairs_(pair_clusters(tree_, accuracy, extents_moved_by(tree_, rest, shape))) {
-  for (const std::uint32_t v : tree_.order) rest_.push_back(rest[v]);
+    : ClusterSprings(std::make_shared<const ClusterTree>(make_cluster_tree(rest)), rest, accuracy, shape) {}
+
+ClusterSprings::ClusterSprings(std::shared_ptr<const ClusterTree> tree, std::span<const glm::dvec3> rest, double accuracy,
+                               std::span<const glm::dvec3> shape)
+    : tree_(std::move(tree)), pairs_(pair_clusters(*tree_, accuracy, extents_moved_by(*tree_, rest, shape))) {
+  for (const std::uint32_t v : tree_->order) rest_.push_back(rest[v]);
 }
 
 double ClusterSprings::energy(ThreadPool& pool, std::span<const glm::dvec3> displacements) const {
   const Points points = points_at(displacements);
-  std::vector<double> of_leaves(tree_.leaves.size()), between_nodes(tree_.clusters.size());
+  std::vector<double> of_leaves(tree_->leaves.size()), between_nodes(tree_->clusters.size());
   for_all(pool, of_leaves.size(), [&](std::uint32_t leaf) { of_leaves[leaf] = energy_of_leaf(points, leaf); });
   for_all(pool, between_nodes.size(), [&](std::uint32_t c) { between_nodes[c] = energy_between_nodes(points, c); });
   double sum = 0;
@@ -45,20 +49,20 @@ double ClusterSprings::energy(ThreadPool& pool, std::span<const glm::dvec3> disp
 
 std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const glm::dvec3> displacements) const {
   const Points points = points_at(displacements);
-  std::vector<Shared> shared(tree_.clusters.size());
+  std::vector<Shared> shared(tree_->clusters.size());
   for_all(pool, shared.size(), [&](std::uint32_t c) { shared[c] = shared_by(points, c); });
   for (std::size_t c = 1; c < shared.size(); ++c) {  // parents come first
-    const Shared& above = shared[tree_.clusters[c].parent];
-    const glm::dvec3 way = tree_.clusters[c].rest.centre - tree_.clusters[tree_.clusters[c].parent].rest.centre;
+    const Shared& above = shared[tree_->clusters[c].parent];
+    const glm::dvec3 way = tree_->clusters[c].rest.centre - tree_->clusters[tree_->clusters[c].parent].rest.centre;
     shared[c].force += above.force + above.slope * way;
     shared[c].slope += above.slope;
   }
   std::vector<glm::dvec3> forces(rest_.size());
-  for_all(pool, tree_.leaves.size(), [&](std::uint32_t leaf) {
-    const Cluster& cluster = tree_.clusters[tree_.leaves[leaf]];
-    const Shared& above = shared[tree_.leaves[leaf]];
+  for_all(pool, tree_->leaves.size(), [&](std::uint32_t leaf) {
+    const Cluster& cluster = tree_->clusters[tree_->leaves[leaf]];
+    const Shared& above = shared[tree_->leaves[leaf]];
     for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
-      forces[tree_.order[place]] =
+      forces[tree_->order[place]] =
           force_on_vertex(points, leaf, place) + above.force + above.slope * (rest_[place] - cluster.rest.centre);
   });
   return forces;
@@ -67,12 +71,12 @@ std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const
 // Moments go up from leaves to the root: the sum of u, and that of u (X - centre)^T.
 ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> displacements) const {
   PLIANT_EXPECT(displacements.size() == rest_.size());
-  Points points{std::vector<Point>(rest_.size()), std::vector<std::array<Point, node_count>>(tree_.clusters.size())};
-  std::vector<Shared> moments(tree_.clusters.size());
+  Points points{std::vector<Point>(rest_.size()), std::vector<std::array<Point, node_count>>(tree_->clusters.size())};
+  std::vector<Shared> moments(tree_->clusters.size());
   for (std::uint32_t place = 0; place < rest_.size(); ++place)
-    points.vertices[place] = {rest_[place], displacements[tree_.order[place]]};
-  for (std::size_t c = tree_.clusters.size(); c-- > 0;) {
-    const Cluster& cluster = tree_.clusters[c];
+    points.vertices[place] = {rest_[place], displacements[tree_->order[place]]};
+  for (std::size_t c = tree_->clusters.size(); c-- > 0;) {
+    const Cluster& cluster = tree_->clusters[c];
     Shared& of_cluster = moments[c];
     const auto add = [&](const glm::dvec3& sum, const glm::dmat3& moment, const glm::dvec3& place) {
       of_cluster.force += sum;
@@ -82,7 +86,7 @@ ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> dis
       for (std::uint32_t p = cluster.first; p < cluster.end; ++p) add(points.vertices[p].displacement, glm::dmat3(0.0), rest_[p]);
     else
       for (const std::uint32_t child : {cluster.first_child, cluster.first_child + 1})
-        add(moments[child].force, moments[child].slope, tree_.clusters[child].rest.centre);
+        add(moments[child].force, moments[child].slope, tree_->clusters[child].rest.centre);
     for (std::uint32_t n = 0; n < node_count; ++n) {
       points.nodes[c][n] = {cluster.rest.centre + cluster.offset_of(n),
                             (of_cluster.force + of_cluster.slope * cluster.gradient_of(n)) / static_cast<double>(cluster.size())};
@@ -101,12 +105,12 @@ std::span<const FarCluster> ClusterSprings::far_of(std::uint32_t cluster) const 
 
 // How many vertices a node stands for.
 double ClusterSprings::weight_of(std::uint32_t cluster, std::uint32_t nodes) const {
-  return static_cast<double>(tree_.clusters[cluster].size()) / nodes;
+  return static_cast<double>(tree_->clusters[cluster].size()) / nodes;
 }
 
 // Half of that with near vertices, because each such pair comes twice, and all of that with far nodes.
 double ClusterSprings::energy_of_leaf(const Points& points, std::uint32_t leaf) const {
-  const Cluster& cluster = tree_.clusters[tree_.leaves[leaf]];
+  const Cluster& cluster = tree_->clusters[tree_->leaves[leaf]];
   const auto energy_with = [&](const Point& other) {
     double sum = 0;
     for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
@@ -116,10 +120,10 @@ double ClusterSprings::energy_of_leaf(const Points& points, std::uint32_t leaf) 
   };
   double sum = 0;
   for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
-    const Cluster& near = tree_.clusters[tree_.leaves[pairs_.near[k]]];
+    const Cluster& near = tree_->clusters[tree_->leaves[pairs_.near[k]]];
     for (std::uint32_t place = near.first; place < near.end; ++place) sum += 0.5 * energy_with(points.vertices[place]);
   }
-  for (std::uint32_t c = tree_.leaves[leaf];; c = tree_.clusters[c].parent) {
+  for (std::uint32_t c = tree_->leaves[leaf];; c = tree_->clusters[c].parent) {
     for (const FarCluster& far : far_of(c))
       for (const Point& node : nodes_of(points, far)) sum += weight_of(far.cluster, far.nodes) * energy_with(node);
     if (c == 0) return sum;
@@ -148,10 +152,10 @@ glm::dvec3 ClusterSprings::force_on_vertex(const Points& points, std::uint32_t l
   const Point& own = points.vertices[place];
   glm::dvec3 sum(0.0);
   for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
-    const Cluster& near = tree_.clusters[tree_.leaves[pairs_.near[k]]];
+    const Cluster& near = tree_->clusters[tree_->leaves[pairs_.near[k]]];
     for (std::uint32_t p = near.first; p < near.end; ++p) sum += force_between(own, points.vertices[p]);
   }
-  for (std::uint32_t c = tree_.leaves[leaf];; c = tree_.clusters[c].parent) {
+  for (std::uint32_t c = tree_->leaves[leaf];; c = tree_->clusters[c].parent) {
     for (const FarCluster& far : far_of(c))
       for (const Point& node : nodes_of(points, far)) sum += weight_of(far.cluster, far.nodes) * force_between(own, node);
     if (c == 0) return sum;
@@ -162,7 +166,7 @@ glm::dvec3 ClusterSprings::force_on_vertex(const Points& points, std::uint32_t l
 ClusterSprings::Shared ClusterSprings::shared_by(const Points& points, std::uint32_t cluster) const {
   Shared shared;
   for (const FarCluster& far : far_of(cluster)) {
-    const Cluster& other = tree_.clusters[far.cluster];
+    const Cluster& other = tree_->clusters[far.cluster];
     for (std::uint32_t n = physics::first_node(far.nodes); n < physics::first_node(far.nodes) + far.nodes; ++n) {
       const Point& own = points.nodes[cluster][n];
       glm::dvec3 pull(0.0);
@@ -170,7 +174,7 @@ ClusterSprings::Shared ClusterSprings::shared_by(const Points& points, std::uint
       for (const Point& node : nodes_of(points, far)) pull -= weight_of(far.cluster, far.nodes) * force_between(own, node);
       pull /= far.nodes;
       shared.force += pull;
-      shared.slope += glm::outerProduct(pull, tree_.clusters[cluster].gradient_of(n));
+      shared.slope += glm::outerProduct(pull, tree_->clusters[cluster].gradient_of(n));
     }
   }
   return shared;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,13 +20,16 @@ class ClusterSprings {
   /// `rest` are positions at rest [m], at least one. pair_clusters() says what `accuracy` is. With `shape`, lists suit a shape
   /// with these displacements [m], too.
   ClusterSprings(std::span<const glm::dvec3> rest, double accuracy, std::span<const glm::dvec3> shape = {});
+  /// The same with a tree that has been made of `rest`.
+  ClusterSprings(std::shared_ptr<const ClusterTree> tree, std::span<const glm::dvec3> rest, double accuracy,
+                 std::span<const glm::dvec3> shape);
 
   /// Returns the energy of the body over its stiffness [m^2]. `displacements` are those of the vertices [m].
   [[nodiscard]] double energy(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;
   /// Returns the forces on the vertices over the stiffness [m]: the gradient of the energy with its sign changed.
   [[nodiscard]] std::vector<glm::dvec3> forces(ThreadPool& pool, std::span<const glm::dvec3> displacements) const;
 
-  [[nodiscard]] SpringCounts counts() const { return count_springs(tree_, pairs_); }
+  [[nodiscard]] SpringCounts counts() const { return count_springs(*tree_, pairs_); }
 
  private:
   static constexpr std::uint32_t node_count = 5;  // of a cluster
@@ -55,7 +59,7 @@ class ClusterSprings {
   [[nodiscard]] glm::dvec3 force_on_vertex(const Points& points, std::uint32_t leaf, std::uint32_t place) const;
   [[nodiscard]] Shared shared_by(const Points& points, std::uint32_t cluster) const;
 
-  ClusterTree tree_;
+  std::shared_ptr<const ClusterTree> tree_;
   std::vector<glm::dvec3> rest_;  // by places in the tree [m]
   ClusterPairs pairs_;
 };

@@ -79,7 +79,8 @@ struct Sums {
 Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false) {
   DeviceBodies bodies(device, start.model, start.state);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-  const ClusterForces forces(bodies, start.model, bases_of(start.model));
+  ClusterTrees trees;
+  const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
   device.run(stepper.first_passes());
   device.run(forces.passes(physics::start_slot, only_stale));
   return {bodies.arrays.get<double>("spring_sum").download()};
@@ -137,7 +138,8 @@ TEST_CASE("errors that a device measures are those of samples beside all springs
       deform(start.state, start.model, d);
       DeviceBodies bodies(*test.device, start.model, start.state);
       const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-      const ClusterForces forces(bodies, start.model, bases);
+      ClusterTrees trees;
+      const ClusterForces forces(bodies, start.model, bases, trees);
       test.device->run(stepper.first_passes());
       test.device->run(forces.measuring_passes(physics::start_slot));
       const std::vector<ClusterErrors> errors = forces.errors();
@@ -174,7 +176,8 @@ TEST_CASE("springs of clustered bodies are summed again if a stage asks for it, 
     CAPTURE(test.name);
     DeviceBodies bodies(*test.device, start.model, start.state);
     const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-    const ClusterForces forces(bodies, start.model, bases_of(start.model));
+    ClusterTrees trees;
+    const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
     test.device->run(stepper.first_passes());
     const BufferId pulls = bodies.arrays.buffer("leaf_pull");
     const auto bytes_after = [&](bool only_stale) {
