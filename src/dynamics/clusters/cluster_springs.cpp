@@ -10,7 +10,6 @@
 #include <glm/matrix.hpp>
 
 #include "core/expect.hpp"
-#include "dynamics/forces/elongations.hpp"
 #include "physics/forces/spring.glsl"
 
 namespace pliant {
@@ -26,6 +25,31 @@ void for_all(ThreadPool& pool, std::size_t count, const std::function<void(std::
 }
 
 }  // namespace
+
+// A leaf's vertices behind a place for the other end of their springs.
+class ClusterSprings::LeafEnds {
+ public:
+  explicit LeafEnds(std::span<const Point> vertices) : end_(1 + vertices.size()) {
+    for (std::size_t k = 0; k < vertices.size(); ++k) set(k + 1, vertices[k]);
+  }
+
+  // Returns the sum of (|x| - L)^2 [m^2] over springs to a point.
+  double elongations_to(const Point& other, ElongationSum sum) {
+    set(0, other);
+    return sum({.rest = {rest_[0], rest_[1], rest_[2]}, .moved = {moved_[0], moved_[1], moved_[2]}}, 0, end_);
+  }
+
+ private:
+  void set(std::size_t place, const Point& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      rest_[axis][place] = point.rest[axis];
+      moved_[axis][place] = point.displacement[axis];
+    }
+  }
+
+  double rest_[3][1 + leaf_size + elongation_lanes] = {}, moved_[3][1 + leaf_size + elongation_lanes] = {};
+  std::size_t end_;
+};
 
 ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy, std::span<const glm::dvec3> shape)
     : ClusterSprings(std::make_shared<const ClusterTree>(make_cluster_tree(rest)), rest, accuracy, shape) {}
@@ -108,20 +132,17 @@ double ClusterSprings::weight_of(std::uint32_t cluster, std::uint32_t nodes) con
   return static_cast<double>(tree_->clusters[cluster].size()) / nodes;
 }
 
-// Half of that with near vertices, because each such pair comes twice, and all of that with far nodes.
+// That with near vertices of leaves that come no later, and with far nodes.
 double ClusterSprings::energy_of_leaf(const Points& points, std::uint32_t leaf) const {
   const Cluster& cluster = tree_->clusters[tree_->leaves[leaf]];
-  const auto energy_with = [&](const Point& other) {
-    double sum = 0;
-    for (std::uint32_t place = cluster.first; place < cluster.end; ++place)
-      sum += 0.5 * elongation_squared(points.vertices[place].rest - other.rest,
-                                      points.vertices[place].displacement - other.displacement);
-    return sum;
-  };
+  LeafEnds ends(std::span(points.vertices).subspan(cluster.first, cluster.size()));
+  const auto energy_with = [&](const Point& other) { return 0.5 * ends.elongations_to(other, sum_); };
   double sum = 0;
   for (std::uint32_t k = pairs_.near_begin[leaf]; k < pairs_.near_begin[leaf + 1]; ++k) {
+    if (pairs_.near[k] > leaf) continue;
     const Cluster& near = tree_->clusters[tree_->leaves[pairs_.near[k]]];
-    for (std::uint32_t place = near.first; place < near.end; ++place) sum += 0.5 * energy_with(points.vertices[place]);
+    const double part = pairs_.near[k] == leaf ? 0.5 : 1;  // each spring of its own comes twice
+    for (std::uint32_t place = near.first; place < near.end; ++place) sum += part * energy_with(points.vertices[place]);
   }
   for (std::uint32_t c = tree_->leaves[leaf];; c = tree_->clusters[c].parent) {
     for (const FarCluster& far : far_of(c))

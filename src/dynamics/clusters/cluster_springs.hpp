@@ -11,6 +11,7 @@
 #include "core/thread_pool.hpp"
 #include "dynamics/clusters/cluster_pairs.hpp"
 #include "dynamics/clusters/cluster_tree.hpp"
+#include "dynamics/forces/elongations.hpp"
 
 namespace pliant {
 
@@ -59,6 +60,9 @@ class ClusterSprings {
   [[nodiscard]] glm::dvec3 force_on_vertex(const Points& points, std::uint32_t leaf, std::uint32_t place) const;
   [[nodiscard]] Shared shared_by(const Points& points, std::uint32_t cluster) const;
 
+  class LeafEnds;
+
+  ElongationSum sum_ = elongation_sum(cpu::available_isas().back());
   std::shared_ptr<const ClusterTree> tree_;
   std::vector<glm::dvec3> rest_;  // by places in the tree [m]
   ClusterPairs pairs_;
