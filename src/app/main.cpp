@@ -213,8 +213,7 @@ CLI::App* add_suite(CLI::App& bench, app::BenchOptions& options, app::BenchSuite
   suite->add_option("--json", options.json, "File to write the results to")->check(not_empty());
   suite->add_flag("--quick", options.quick,
                   "Measure roughly: seconds for forces, contact, collision, dense and draw, one to three minutes for precision "
-                  "and stability. The "
-                  "suite steps leaves out what takes over a second");
+                  "and stability. The suite steps leaves out what takes over a second");
   return suite;
 }
 

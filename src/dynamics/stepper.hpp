@@ -31,10 +31,11 @@ class Stepper {
 
   /// Sums the springs of clustered bodies from here on as these say, one for each body. Where it is null, as the model says.
   /// Passes that were recorded before do not hold any more. Throws Error (input), and changes nothing, if lists would be too
-  /// long.
+  /// long. Throws Error (device) if there is no room for them. Then sums have to be changed again before the next step.
   void change_sums(const Model& model, const std::vector<std::shared_ptr<const ChangedSums>>& changed);
-  /// Returns the sums of clustered bodies, or null if there are none.
+  /// Returns the trees that lists of clusters are made of.
   [[nodiscard]] ClusterTrees& cluster_trees() { return cluster_trees_; }
+  /// Returns the sums of clustered bodies, or null if there are none.
   [[nodiscard]] const ClusterForces* cluster_forces() const { return cluster_forces_ ? &*cluster_forces_ : nullptr; }
 
   /// Returns the passes that run once, before the first step.

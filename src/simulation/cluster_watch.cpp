@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/bytes.hpp"
 #include "core/error.hpp"
@@ -134,7 +133,12 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
   else
     sums.accuracy = standard;
   sums.are_strained = true;
-  change(body, std::make_shared<const ChangedSums>(std::move(sums)));
+  const bool are_in_place = !sums.are_direct && kept->sums == changed_[body];
+  auto now = std::make_shared<const ChangedSums>(std::move(sums));
+  if (are_in_place)
+    changed_[body] = std::move(now);
+  else
+    change(body, std::move(now));
   note_lists(body, state, before);
   return changed_[body]->are_direct ? 0 : kept->error;
 }

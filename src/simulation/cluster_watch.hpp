@@ -20,7 +20,7 @@ namespace pliant {
 /// What checks have found and done since the start.
 struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
-  double largest_error = 0;           // that a check has found, over the force
+  double largest_error = 0;           // that a check has found, over the force, but for what the first one mends
   double largest_excess = 0;          // of those errors over their body's tolerance
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
   double energy_change = 0;           // of the elastic energy by other lists, sum of sizes; direct sums do not count [J]

@@ -1,5 +1,5 @@
 // Runs steps and reports on them. The passes of a step are recorded once. Nothing is read back between steps, but for checks of
-// clustered bodies and where steps fall into parts.
+// clustered bodies, and where steps fall into parts or may be quiet.
 #pragma once
 #include <array>
 #include <cstdint>

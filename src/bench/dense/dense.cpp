@@ -110,14 +110,14 @@ class StepsOf {
                     collision) {}
 
   struct Timed {
-    double seconds = 0;        // of a step; 0 if clusters can't meet the tolerance
+    double seconds = 0;        // of a step; 0 if clusters can't meet the tolerance, or the body breaks down
     double contact_share = 0;  // of the steps, or of parts if they fall into such
   };
 
   // Times steps after so many others. Without damping neighbours drift apart, and lists of clusters get longer. So the body goes
   // back to the start after most_steps_away. It does not go back for every batch, because a GPU lowers its clock while it waits
   // for a large body.
-  Timed seconds_after(std::uint64_t steps_before, const Effort& effort) {
+  Timed time_after(std::uint64_t steps_before, const Effort& effort) {
     simulation_.advance(steps_before);
     const std::string start = simulation_.save();
     std::uint64_t steps_away = 0, parts = 0, in_contact = 0;
@@ -140,7 +140,8 @@ class StepsOf {
       return times[1] - times[0];
     };
     const double seconds = seconds_each(effort, timer, load_seconds(device_, effort)).median;
-    return {met_tolerance ? seconds : 0, static_cast<double>(in_contact) / static_cast<double>(parts)};
+    if (!met_tolerance) return {};
+    return {seconds, static_cast<double>(in_contact) / static_cast<double>(parts)};
   }
 
  private:
@@ -297,13 +298,13 @@ class Suite {
                               double expected) {
     if (expected > longest_timed) return 0;
     displace_smoothly(body);
-    return StepsOf(device, std::move(body), tolerance, {.response = {"none"}}).seconds_after(1, effort).seconds;
+    return StepsOf(device, std::move(body), tolerance, {.response = {"none"}}).time_after(1, effort).seconds;
   }
 
   // Times those of a body that has fallen on a ground, if they do not take long.
   static void measure_contact_steps(Device& device, const Effort& effort, const TriangleMesh& mesh, DenseForceRow& row) {
     if (11 * row.seconds_per_sum > longest_contact_step) return;
-    const auto timed = StepsOf(device, body_above_ground(mesh), row.tolerance, {}).seconds_after(steps_until_contact, effort);
+    const auto timed = StepsOf(device, body_above_ground(mesh), row.tolerance, {}).time_after(steps_until_contact, effort);
     row.seconds_per_contact_step = timed.seconds;
     row.contact_share = timed.contact_share;
   }
