@@ -23,6 +23,9 @@ using Parameter = std::variant<std::uint32_t, double>;
 
 inline constexpr std::size_t part_alignment = 256;  // of the first byte of a buffer's part [bytes]. OpenGL asks for no more
 
+/// What a new buffer holds. One that holds anything is made sooner.
+enum class Content { zeros, anything };
+
 enum class ArrayUse { read, write, constants };
 
 /// What a kernel declares, in its own order. A call gives buffers and parameters in the same order.
@@ -83,8 +86,7 @@ class Device {
   /// Returns the bits of the forces' `real`: 32 or 64. Anything else is the same in both.
   [[nodiscard]] virtual int precision() const = 0;
 
-  /// Returns a zero-filled buffer.
-  [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label) = 0;
+  [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label, Content content) = 0;
   /// Gives a buffer more bytes. What it held is lost, and it is zero-filled again.
   virtual void enlarge(BufferId buffer, std::size_t bytes) = 0;
   /// Returns some bytes of a buffer, or of such a part, as a buffer of its own. The whole buffer must outlive it.
@@ -151,11 +153,12 @@ class DeviceArray {
 
  public:
   DeviceArray() = default;
-  DeviceArray(Device& device, std::size_t count, std::string_view label)
-      : device_(&device), count_(count), id_(device.allocate(std::max<std::size_t>(count, 1) * sizeof(T), label)) {}
+  DeviceArray(Device& device, std::size_t count, std::string_view label, Content content = Content::zeros)
+      : device_(&device), count_(count), id_(device.allocate(std::max<std::size_t>(count, 1) * sizeof(T), label, content)) {}
   /// Takes over a buffer that has room for the elements.
   DeviceArray(Device& device, BufferId buffer, std::size_t count) : device_(&device), count_(count), id_(buffer) {}
-  DeviceArray(Device& device, std::span<const T> values, std::string_view label) : DeviceArray(device, values.size(), label) {
+  DeviceArray(Device& device, std::span<const T> values, std::string_view label)
+      : DeviceArray(device, values.size(), label, Content::anything) {
     upload(values);
   }
   ~DeviceArray() {

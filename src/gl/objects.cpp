@@ -100,6 +100,9 @@ bool has_room_for(GLuint buffer, std::size_t bytes, const std::byte* content, GL
   return !allocation.ran_out();
 }
 
+// An empty buffer still gets storage, so that it can be bound.
+std::size_t stored_bytes(std::size_t bytes) { return std::max<std::size_t>(bytes, 4); }
+
 Error no_room(std::size_t bytes, std::string_view label) {
   return {ErrorKind::device, "GPU memory", fmt::format("no room for {} bytes of \"{}\"", bytes, label),
           "use coarser meshes or --device cpu"};
@@ -107,16 +110,28 @@ Error no_room(std::size_t bytes, std::string_view label) {
 
 }  // namespace
 
-Buffer::Buffer(std::size_t bytes, std::string_view label) : size_(bytes) {
+// Zeros are uploaded, because a clear is not safe. On NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued before
+// it and is lost.
+Buffer::Buffer(std::size_t bytes, std::string_view label) {
   expect_within_limit(bytes, label);
+  allocate(bytes, label, std::vector<std::byte>(stored_bytes(bytes)).data());
+}
+
+Buffer Buffer::unfilled(std::size_t bytes, std::string_view label) {
+  expect_within_limit(bytes, label);
+  Buffer buffer;
+  buffer.allocate(bytes, label, nullptr);
+  return buffer;
+}
+
+void Buffer::allocate(std::size_t bytes, std::string_view label, const std::byte* content) {
   glCreateBuffers(1, &id_);
-  // Zeros are uploaded, because a clear is not safe. On NVIDIA (driver 580) a write of over 64 KiB overtakes a clear queued
-  // before it and is lost. An empty buffer still gets storage, so that it can be bound.
-  const std::vector<std::byte> zeros(std::max<std::size_t>(bytes, 4));
-  if (!has_room_for(id_, zeros.size(), zeros.data(), GL_DYNAMIC_STORAGE_BIT)) {
+  if (!has_room_for(id_, stored_bytes(bytes), content, GL_DYNAMIC_STORAGE_BIT)) {
     glDeleteBuffers(1, &id_);
+    id_ = 0;
     throw no_room(bytes, label);
   }
+  size_ = bytes;
   set_label(GL_BUFFER, id_, label);
 }
 

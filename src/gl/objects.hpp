@@ -13,11 +13,14 @@ namespace pliant::gl {
 /// Sets what debug output and graphics debuggers call an object of this kind (GL_BUFFER, ...). Cuts off labels that are too long.
 void set_label(std::uint32_t kind, std::uint32_t id, std::string_view label);
 
-/// A buffer object with immutable, zero-filled storage. Throws Error (device) when the GPU has no room for it.
+/// A buffer object with immutable storage. Throws Error (device) when the GPU has no room for it.
 class Buffer {
  public:
   Buffer() = default;
+  /// Zero-filled.
   Buffer(std::size_t bytes, std::string_view label);
+  /// Returns a buffer that holds anything, and is made sooner.
+  [[nodiscard]] static Buffer unfilled(std::size_t bytes, std::string_view label);
   ~Buffer();
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
@@ -30,6 +33,8 @@ class Buffer {
   [[nodiscard]] std::size_t size() const { return size_; }  // [bytes]
 
  private:
+  void allocate(std::size_t bytes, std::string_view label, const std::byte* content);
+
   std::uint32_t id_ = 0;
   std::size_t size_ = 0;
 };
@@ -37,7 +42,7 @@ class Buffer {
 /// Returns a buffer of these elements. Throws Error (device) when the GPU has no room for it.
 template <class T>
 [[nodiscard]] Buffer buffer_of(const std::vector<T>& elements, std::string_view label) {
-  Buffer buffer(elements.size() * sizeof(T), label);
+  Buffer buffer = Buffer::unfilled(elements.size() * sizeof(T), label);
   buffer.write(0, std::as_bytes(std::span(elements)));
   return buffer;
 }

@@ -62,9 +62,17 @@ void expect_view(const KernelSignature::Array& declared) {
 
 }  // namespace
 
-DeviceArray<std::uint32_t>& Arrays::make_reals(std::string_view name, std::size_t count) {
+DeviceArray<std::uint32_t>& Arrays::make_reals(std::string_view name, std::size_t count, Content content) {
   const std::size_t words = count * static_cast<std::size_t>(device_.precision()) / 32;
-  return hold(name, "real", allocate<std::uint32_t>(name, words));
+  return hold(name, "real", allocate<std::uint32_t>(name, words, content));
+}
+
+void Arrays::make_roomy_reals(std::string_view name, std::size_t count) {
+  constexpr std::size_t more_in_ten = 6;
+  const auto found = held_.find(name);
+  const std::size_t bytes = count * static_cast<std::size_t>(device_.precision()) / 8;
+  if (found == held_.end() || found->second.bytes.byte_count < bytes)
+    make_reals(name, count + count / 10 * more_in_ten, Content::anything);
 }
 
 void Arrays::expect_element(std::string_view name, std::string_view element) {

@@ -106,21 +106,24 @@ class Arrays {
   Arrays(const Arrays&) = delete;
   Arrays& operator=(const Arrays&) = delete;
 
-  /// Makes an array of `count` elements. It replaces an earlier one of that name and makes references to it invalid. It is filled
-  /// with zeros, but an array that shares memory (state/shared_memory.hpp) may hold anything. Those are to be made before
-  /// anything is written to one of them.
+  /// Makes an array of `count` elements. It replaces an earlier one of that name and makes references to it invalid. An array
+  /// that shares memory (state/shared_memory.hpp) may hold anything. Those are to be made before anything is written to one of
+  /// them.
   template <class T>
-  DeviceArray<T>& make(std::string_view name, std::size_t count) {
-    return hold(name, expected_element<T>(), allocate<T>(name, count));
+  DeviceArray<T>& make(std::string_view name, std::size_t count, Content content = Content::zeros) {
+    return hold(name, expected_element<T>(), allocate<T>(name, count, content));
   }
   template <class T>
   DeviceArray<T>& make(std::string_view name, const std::vector<T>& values) {
-    DeviceArray<T>& array = make<T>(name, values.size());
+    DeviceArray<T>& array = make<T>(name, values.size(), Content::anything);
     array.upload(values);
     return array;
   }
   /// Makes an array of `count` numbers of the device's precision, as words of 32 bits.
-  DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count);
+  DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count, Content content = Content::zeros);
+  /// Makes an array of more than so many, which may hold anything. An earlier one of that name stays if it is large enough: fresh
+  /// memory of a GPU takes a millisecond for each megabyte.
+  void make_roomy_reals(std::string_view name, std::size_t count);
 
   template <class T>
   [[nodiscard]] DeviceArray<T>& get(std::string_view name) const {
@@ -147,8 +150,8 @@ class Arrays {
   };
 
   template <class T>
-  std::shared_ptr<DeviceArray<T>> allocate(std::string_view name, std::size_t count) {
-    if (!shares_memory(name)) return std::make_shared<DeviceArray<T>>(device_, count, name);
+  std::shared_ptr<DeviceArray<T>> allocate(std::string_view name, std::size_t count, Content content) {
+    if (!shares_memory(name)) return std::make_shared<DeviceArray<T>>(device_, count, name, content);
     const BufferId part = shared_.place(name, std::max<std::size_t>(count, 1) * sizeof(T));
     return std::make_shared<DeviceArray<T>>(device_, part, count);
   }

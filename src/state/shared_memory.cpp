@@ -87,7 +87,7 @@ BufferId SharedMemory::place(std::string_view array, std::size_t bytes) {
     first_byte = other.end;
   }
   const Place place{std::string(array), first_byte, first_byte + size};
-  if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases");
+  if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases", Content::zeros);
   if (device_.size_of(buffer_) < place.end) device_.enlarge(buffer_, place.end);
   places_.insert(std::ranges::upper_bound(places_, first_byte, {}, &Place::first_byte), place);
   return device_.part_of(buffer_, first_byte, bytes);

@@ -18,9 +18,9 @@ class FullDevice : public Device {
 
   const DeviceInfo& info() const override { return inner_->info(); }
   int precision() const override { return inner_->precision(); }
-  BufferId allocate(std::size_t bytes, std::string_view label) override {
+  BufferId allocate(std::size_t bytes, std::string_view label, Content content) override {
     expect_room(bytes);
-    return inner_->allocate(bytes, label);
+    return inner_->allocate(bytes, label, content);
   }
   void enlarge(BufferId buffer, std::size_t bytes) override {
     expect_room(bytes);

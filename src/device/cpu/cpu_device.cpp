@@ -93,7 +93,7 @@ class CpuDevice final : public Device {
   const DeviceInfo& info() const override { return info_; }
   int precision() const override { return precision_; }
 
-  BufferId allocate(std::size_t bytes, std::string_view) override {
+  BufferId allocate(std::size_t bytes, std::string_view, Content) override {
     buffers_.emplace(next_buffer_, Storage(bytes));
     return next_buffer_++;
   }

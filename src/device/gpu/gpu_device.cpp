@@ -54,9 +54,9 @@ class GpuDevice final : public Device {
   gl::Context& context() const { return context_; }
   GLuint gl_buffer(BufferId buffer) const { return storage(buffer).id(); }
 
-  BufferId allocate(std::size_t bytes, std::string_view label) override {
+  BufferId allocate(std::size_t bytes, std::string_view label, Content content) override {
     gpu::expect_room(bytes, allocated_bytes(), info_.free_memory);
-    buffers_.emplace(next_buffer_, gl::Buffer(bytes, label));
+    buffers_.emplace(next_buffer_, content == Content::zeros ? gl::Buffer(bytes, label) : gl::Buffer::unfilled(bytes, label));
     return next_buffer_++;
   }
   void enlarge(BufferId buffer, std::size_t bytes) override {

@@ -231,13 +231,17 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
   arrays.make("near_leaf", tables.near_leaves);
   arrays.make("above_cluster", tables.above_clusters);
   arrays.make("far_cluster", tables.far_clusters);
-  arrays.make_reals("spring_point", std::size_t{8} * (place_count + std::size_t{physics::nodes_of_cluster} * cluster_count_));
-  arrays.make<double>("leaf_moment", std::size_t{physics::moments_size} * leaves_and_samples_);
-  arrays.make_reals("leaf_pull", std::size_t{3} * place_count);
-  arrays.make_reals("node_pull", std::size_t{physics::pull_row_size} * tables.pull_row_count);
-  arrays.make<double>("cluster_pull", std::size_t{physics::moments_size} * cluster_count_);
-  arrays.make<double>("leaf_square", std::size_t{3} * leaves_and_samples_);
-  arrays.make<double>("spring_sum", std::size_t{3} * bodies.vertex_count);
+  const auto make_reals = [&](std::string_view name, std::size_t count) { arrays.make_reals(name, count, Content::anything); };
+  const auto make_doubles = [&](std::string_view name, std::size_t count) {
+    arrays.make<double>(name, count, Content::anything);
+  };
+  make_reals("spring_point", std::size_t{8} * (place_count + std::size_t{physics::nodes_of_cluster} * cluster_count_));
+  make_doubles("leaf_moment", std::size_t{physics::moments_size} * leaves_and_samples_);
+  make_reals("leaf_pull", std::size_t{3} * place_count);
+  arrays.make_roomy_reals("node_pull", std::size_t{physics::pull_row_size} * tables.pull_row_count);  // for exacter lists, too
+  make_doubles("cluster_pull", std::size_t{physics::moments_size} * cluster_count_);
+  make_doubles("leaf_square", std::size_t{3} * leaves_and_samples_);
+  make_doubles("spring_sum", std::size_t{3} * bodies.vertex_count);
 }
 
 std::vector<Pass> ClusterForces::passes(std::uint32_t slot, bool only_stale) const {

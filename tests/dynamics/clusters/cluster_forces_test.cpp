@@ -81,6 +81,10 @@ Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
   ClusterTrees trees;
   const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
+  for (const std::string_view name : {"spring_point", "leaf_moment", "leaf_pull", "node_pull", "cluster_pull"}) {
+    const BufferId buffer = bodies.arrays.buffer(name);
+    device.write(buffer, 0, std::vector<std::byte>(device.size_of(buffer), std::byte{0xff}));  // not a number
+  }
   device.run(stepper.first_passes());
   device.run(forces.passes(physics::start_slot, only_stale));
   return {bodies.arrays.get<double>("spring_sum").download()};
