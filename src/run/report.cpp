@@ -128,7 +128,7 @@ std::optional<std::string> instability_of(const RunStatus& status) {
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
                        shorter_steps(status));
   if (progress.most_gained < told_gain * std::max(energy_had(progress, model), smallest_energy(model))) return {};
-  if (report.clusters && report.clusters->energy_change >= 0.5 * progress.most_gained)
+  if (run.simulation->energy_changed_by_lists() >= 0.5 * progress.most_gained)
     return fmt::format("{}: lists of clusters that were made anew have changed it; try forces = \"direct\", or damping",
                        told_growth_of(progress, model));
   return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
@@ -222,7 +222,7 @@ Summary summary_of(const RunStatus& status) {
   for (const ScriptReport& script : report.response.scripts)
     s.scripts.push_back({run.start.model.bodies[script.body].name, script.time, script.waited, script.waits});
   if (const auto& clusters = report.clusters) {
-    s.clusters = {clusters->largest_error, clusters->lists_made, clusters->energy_change, {}};
+    s.clusters = {clusters->largest_error, clusters->lists_made, run.simulation->energy_changed_by_lists(), {}};
     for (const std::uint32_t body : clusters->direct) s.clusters->direct.push_back(run.start.model.bodies[body].name);
   }
   s.energy.slept = report.energy_slept;

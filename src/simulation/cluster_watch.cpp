@@ -163,9 +163,10 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
       }));
 }
 
-void ClusterWatch::take_energy_changes() {
-  for (std::future<double>& change : energy_changes_) report_.energy_change += change.get();
+double ClusterWatch::energy_change() {
+  for (std::future<double>& change : energy_changes_) energy_change_ += change.get();
   energy_changes_.clear();
+  return energy_change_;
 }
 
 void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> sums) {
@@ -182,8 +183,7 @@ void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> s
   bodies_.statuses.upload(statuses);
 }
 
-ClusterReport ClusterWatch::report() {
-  take_energy_changes();
+ClusterReport ClusterWatch::report() const {
   ClusterReport report = report_;
   for (std::uint32_t b = 0; b < changed_.size(); ++b)
     if (changed_[b] && changed_[b]->are_direct) report.direct.push_back(b);
@@ -204,10 +204,8 @@ bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& ch
 }
 
 std::string ClusterWatch::save() {
-  take_energy_changes();
   ByteWriter to;
-  to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, report_.energy_change,
-     counted_);
+  to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, energy_change(), counted_);
   for (const std::shared_ptr<const ChangedSums>& sums : changed_) {
     to(sums != nullptr);
     if (sums) to(sums->changes, sums->are_strained, sums->are_direct, sums->accuracy, sums->displacements);
@@ -220,6 +218,7 @@ bool ClusterWatch::restore(std::string_view saved) {
   std::vector<std::shared_ptr<const ChangedSums>> changed(model_.bodies.size());
   if (saved.empty()) {
     report_ = {};
+    energy_change_ = 0;
     next_check_ = 0;
     const std::vector<physics::Tally> tallies = bodies_.tallies.download();
     for (std::size_t b = 0; b < changed.size(); ++b) {
@@ -229,8 +228,7 @@ bool ClusterWatch::restore(std::string_view saved) {
     return use(changed);
   }
   ByteReader from(saved);
-  from(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, report_.energy_change,
-       counted_);
+  from(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, energy_change_, counted_);
   for (std::size_t b = 0; b < changed.size(); ++b) {
     if (!from.get<bool>()) continue;
     ChangedSums sums;

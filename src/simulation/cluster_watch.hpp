@@ -23,7 +23,6 @@ struct ClusterReport {
   double largest_error = 0;           // that a check has found, over the force, but for what the first one mends
   double largest_excess = 0;          // of those errors over their body's tolerance
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
-  double energy_change = 0;           // of the elastic energy by other lists, sum of sizes; direct sums do not count [J]
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
 
   bool operator==(const ClusterReport&) const = default;
@@ -49,7 +48,10 @@ class ClusterWatch {
   [[nodiscard]] const std::vector<std::shared_ptr<const ChangedSums>>& changed_sums() const { return changed_; }
   /// Sums springs as in a State. Returns whether passes that were recorded before do not hold any more.
   bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
-  [[nodiscard]] ClusterReport report();
+  [[nodiscard]] ClusterReport report() const;
+  /// Returns by how much other lists have changed the elastic energy: the sum of sizes. Direct sums do not count [J]. That is
+  /// found out while steps go on, and this waits for it.
+  [[nodiscard]] double energy_change();
   /// Returns how many forces of one point on another so many evaluations of a body's forces had.
   [[nodiscard]] std::uint64_t interactions(std::size_t body, std::uint64_t evaluations) const;
 
@@ -73,8 +75,6 @@ class ClusterWatch {
   // Counts new lists. Begins to find out how they change the energy, while steps go on.
   void note_lists(std::size_t body, const State& state, const std::shared_ptr<const ChangedSums>& before);
   void change(std::size_t body, std::shared_ptr<const ChangedSums> sums);
-  // Adds what has been begun by note_lists(), and waits for it.
-  void take_energy_changes();
   [[nodiscard]] double limit_of(std::size_t body) const;
 
   DeviceBodies& bodies_;
@@ -85,6 +85,7 @@ class ClusterWatch {
   std::vector<std::shared_ptr<const ChangedSums>> changed_;
   std::vector<Counted> counted_;                     // by bodies
   ClusterReport report_;                             // but for `direct`
+  double energy_change_ = 0;                         // of those that have been added [J]
   std::vector<std::future<double>> energy_changes_;  // that are still to be added [J]
 };
 
