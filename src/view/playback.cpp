@@ -21,10 +21,13 @@ void Playback::begin(double now, double simulated) {
 }
 
 void Playback::end(double now, double simulated, bool reached_goal) {
+  constexpr double longest_behind = 0.1;  // of real time [s]
   ended_ = now;
-  if (reached_goal) return;
-  goal_ = simulated;
-  span_.was_behind = true;
+  const double latest_goal = simulated + longest_behind * pace_.speed;
+  if (reached_goal || goal_ <= latest_goal) return;
+  dropped_ += goal_ - latest_goal;
+  goal_ = latest_goal;
+  span_.dropped_some = true;
 }
 
 void Playback::pause() {
@@ -44,7 +47,7 @@ void Playback::measure(double now, double simulated) {
   const double seconds = now - span_.began;
   if (seconds < long_enough) return;
   slow_factor_.reset();
-  if (span_.was_behind) slow_factor_ = (simulated - span_.simulated) / seconds;
+  if (span_.dropped_some) slow_factor_ = (simulated - span_.simulated) / seconds;
   span_ = {now, simulated};
 }
 

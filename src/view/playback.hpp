@@ -11,7 +11,8 @@ struct Pace {
 };
 
 /// For each picture, call begin(), step while the simulation is before goal() and has_time(), and call end(). Steps that do not
-/// fit into the budget are dropped. So a device that is too slow shows slow motion instead of ever longer pictures.
+/// fit into the budget are made up for in later pictures. But the simulation is never behind by more than a tenth of a second: it
+/// drops what is beyond. So a device that is too slow shows slow motion instead of ever longer pictures.
 class Playback {
  public:
   explicit Playback(const Pace& pace) : pace_(pace) {}
@@ -33,6 +34,8 @@ class Playback {
   /// Goes on from another time of the simulation.
   void restart() { in_stretch_ = false; }
 
+  /// Returns the simulated time that was dropped since the playback was made [s].
+  [[nodiscard]] double dropped() const { return dropped_; }
   /// Returns simulated time over real time. It is the speed, or a mean over half a second or more if the device is too slow.
   [[nodiscard]] double factor() const { return slow_factor_.value_or(pace_.speed); }
   [[nodiscard]] double speed() const { return pace_.speed; }
@@ -41,7 +44,7 @@ class Playback {
  private:
   struct Span {                       // stretch of time over which the factor is measured
     double began = 0, simulated = 0;  // times at its begin [s]
-    bool was_behind = false;          // a picture in it did not reach its goal
+    bool dropped_some = false;        // of the time that pictures in it were to show
   };
   void measure(double now, double simulated);
 
@@ -50,6 +53,7 @@ class Playback {
   bool in_stretch_ = false;                  // false: the next picture is the first since the start, a pause or a restart
   double began_ = 0, ended_ = 0, goal_ = 0;  // of this picture's steps [s]
   double budget_ = 0;                        // in this picture [s]
+  double dropped_ = 0;                       // in all pictures [s]
   Span span_;
   std::optional<double> slow_factor_;
 };

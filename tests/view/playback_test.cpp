@@ -107,6 +107,38 @@ TEST_CASE("a device that is too slow steps within its budget and is told by how 
   CHECK(playback.factor() == Approx(0.48).epsilon(0.03));
 }
 
+TEST_CASE("a picture that takes long drops nothing, and later ones make up for its steps") {
+  Playback playback({.speed = 1, .budget = 0.012});
+  Show show{.time_step = 0.002, .cost = 0.0005};
+  show.run(playback, 1, 1.0 / 60);
+  show.cost = 0.05;  // one step, and then no more
+  const double began = show.now;
+  show.picture(playback);
+  CHECK(show.now > began + 0.04);
+  show.cost = 0.0005;
+  show.run(playback, 1, 1.0 / 60);
+  CHECK(playback.dropped() == 0);
+  CHECK(playback.factor() == 1);
+  CHECK(show.simulated() <= show.now - 100);
+  CHECK(show.simulated() > show.now - 100 - 0.01);
+}
+
+TEST_CASE("a device that is too slow for a second drops that time but for a tenth of a second, and catches up with that") {
+  for (const double speed : {1.0, 0.5}) {
+    Playback playback({.speed = speed, .budget = 0.012});
+    Show show{.time_step = 0.002, .cost = 0.024 / speed};
+    show.run(playback, 1, 1.0 / 60);
+    const double behind = (show.now - 100) * speed - show.simulated();
+    const double dropped = playback.dropped();
+    CHECK(dropped > 0.3 * speed);
+    CHECK(dropped == Approx(behind - 0.1 * speed).margin(0.03));  // a picture's time
+    show.cost = 0;
+    show.run(playback, 1, 1.0 / 60);
+    CHECK(playback.dropped() == dropped);
+    CHECK(show.simulated() == Approx((show.now - 100) * speed - dropped).margin(2 * show.time_step));
+  }
+}
+
 TEST_CASE("where drawing takes long, so may stepping") {
   Playback playback({.speed = 1, .budget = 0.012});
   Show show{.time_step = 0.002, .cost = 0.004};
@@ -126,7 +158,7 @@ TEST_CASE("a single step longer than the budget still is made") {
   CHECK(playback.factor() == Approx(0.01).epsilon(0.2));
 }
 
-TEST_CASE("time lost is not made up for, and a device that keeps up again is not told of any more") {
+TEST_CASE("time dropped is not made up for, and a device that keeps up again is not told of any more") {
   Playback playback({});
   Show show{.time_step = 0.002, .cost = 0.02};
   show.run(playback, 2, 1.0 / 60);
@@ -134,8 +166,7 @@ TEST_CASE("time lost is not made up for, and a device that keeps up again is not
   show.cost = 0;
   const double before = show.simulated();
   show.run(playback, 2, 1.0 / 60);
-  CHECK(show.simulated() - before <= 2 + 1.0 / 60 + 0.02 + 1e-9);
-  CHECK(show.simulated() - before == Approx(2).margin(0.05));
+  CHECK(show.simulated() - before == Approx(2 + 0.1).margin(0.04));
   CHECK(playback.factor() == 1);
 }
 

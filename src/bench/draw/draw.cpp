@@ -1,7 +1,9 @@
 #include "bench/draw/draw.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "bench/common/step_cases.hpp"
@@ -11,6 +13,7 @@
 #include "gl/context.hpp"
 #include "render/frame_renderer.hpp"
 #include "simulation/simulation.hpp"
+#include "view/playback.hpp"
 
 namespace pliant::bench {
 namespace {
@@ -99,38 +102,54 @@ std::optional<double> steps_lost(Device& device, Drawing& drawing, int rounds) {
   return share_lost(median(std::move(with)), median(std::move(without)));
 }
 
-// Plays the scene from its start to its end, or for so long a time.
+// Plays the scene from its start to its end, or for so long a time. A picture begins when the display has shown the one before.
 Played play(Device& device, Drawing& drawing, const TimePlan& plan) {
+  using Clock = std::chrono::steady_clock;
   constexpr double longest_play = 20;  // [s]
-  const double duration = static_cast<double>(plan.steps) * plan.time_step;
   drawing.restart();
   device.finish();
+  view::Playback playback({});
+  view::BatchSize batch;
   Played played;
+  Stopwatch simulating, drawn;
   std::uint64_t made = 0;
-  double seconds = 0;
-  while ((played.pictures + 1) * a_sixtieth <= duration + 1e-9 && seconds < longest_play && !drawing.is_broken()) {
-    ++played.pictures;
-    const auto due = static_cast<std::uint64_t>(std::floor(played.pictures * a_sixtieth / plan.time_step + 1e-9));
-    Stopwatch simulating, drawn;
-    simulating.time([&] {
-      drawing.step(due - made);
-      device.finish();
-    });
-    made = due;
+  bool is_broken = false;
+  const auto start = Clock::now();
+  const auto now = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const auto time_of_steps = [&](std::uint64_t steps) { return static_cast<double>(steps) * plan.time_step; };
+  const auto is_due = [&] { return made < plan.steps && time_of_steps(made + 1) <= playback.goal() + 1e-6 * plan.time_step; };
+  const auto step = [&] {
+    double clock = now();
+    playback.begin(clock, time_of_steps(made));
+    while (!is_broken && is_due() && playback.has_time(clock)) {
+      const double due = (playback.goal() - time_of_steps(made)) / plan.time_step + 1e-6;
+      const std::uint64_t steps = std::min({batch.steps(), static_cast<std::uint64_t>(due), plan.steps - made});
+      drawing.step(steps);
+      is_broken = drawing.is_broken();
+      made += steps;
+      const double since = std::exchange(clock, now());
+      batch.took(clock - since);
+    }
+    playback.end(clock, time_of_steps(made), !is_due());
+  };
+  while (made < plan.steps && now() < longest_play && !is_broken) {
+    const double began = now();
+    simulating.time(step);
     drawn.time([&] {
       drawing.draw();
       device.finish();
     });
-    const double picture = simulating.seconds() + drawn.seconds();
-    seconds += picture;
+    const double picture = now() - began;
+    ++played.pictures;
     played.late += picture > a_sixtieth ? 1 : 0;
-    played.simulation_milliseconds += 1e3 * simulating.seconds();
-    played.drawing_milliseconds += 1e3 * drawn.seconds();
     played.slowest_picture_milliseconds = std::max(played.slowest_picture_milliseconds, 1e3 * picture);
+    const double shown = a_sixtieth * std::ceil(now() / a_sixtieth);
+    std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(shown)));
   }
+  played.seconds_dropped = playback.dropped();
   if (played.pictures > 0) {
-    played.simulation_milliseconds /= played.pictures;
-    played.drawing_milliseconds /= played.pictures;
+    played.simulation_milliseconds = 1e3 * simulating.seconds() / played.pictures;
+    played.drawing_milliseconds = 1e3 * drawn.seconds() / played.pictures;
   }
   return played;
 }

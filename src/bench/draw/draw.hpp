@@ -24,10 +24,11 @@ struct DrawOptions {
 /// steps with and without a picture [s].
 [[nodiscard]] double share_lost(double seconds_with_picture, double seconds_without);
 
-/// A scene that was played as a viewer does, 60 pictures a simulated second, each when its steps are made.
+/// A scene that was played as the viewer does, by its clock, on a display of 60 pictures a second.
 struct Played {
   std::uint32_t pictures = 0;
   std::uint32_t late = 0;                   // that took longer than a sixtieth of a second
+  double seconds_dropped = 0;               // of simulated time, because steps took too long
   double simulation_milliseconds = 0;       // mean over pictures
   double drawing_milliseconds = 0;          // the same
   double slowest_picture_milliseconds = 0;  // of both together

@@ -23,9 +23,10 @@ Json row_json(const DrawRow& row) {
                {"fastest_milliseconds_per_frame", row.fastest_milliseconds_per_frame},
                {"steps_lost", row.steps_lost}};
   if (row.played) {
-    const auto& [pictures, late, simulation, drawing, slowest] = *row.played;
+    const auto& [pictures, late, dropped, simulation, drawing, slowest] = *row.played;
     json.add("played_pictures", pictures);
     json.add("late_pictures", late);
+    json.add("seconds_dropped", dropped);
     json.add("simulation_milliseconds_per_picture", simulation);
     json.add("drawing_milliseconds_per_picture", drawing);
     json.add("slowest_picture_milliseconds", slowest);
@@ -49,13 +50,15 @@ std::string to_table(const DrawResult& result) {
     for (const auto& [pass, milliseconds] : row.milliseconds) table += fmt::format(" {:>9.4g}", milliseconds);
   }
   if (std::ranges::any_of(result.rows, [](const DrawRow& row) { return row.played.has_value(); }))
-    table += fmt::format("\n\n{:<{}} {:>9} {:>12} {:>12} {:>12} {:>9}", "played at 60 a second", std::max(width, std::size_t{21}),
-                         "pictures", "simulated ms", "drawn ms", "slowest ms", "late");
+    table +=
+        fmt::format("\n\n{:<{}} {:>9} {:>12} {:>12} {:>12} {:>9} {:>10}", "played at 60 a second",
+                    std::max(width, std::size_t{21}), "pictures", "simulated ms", "drawn ms", "slowest ms", "late", "s dropped");
   for (const DrawRow& row : result.rows)
     if (row.played)
-      table += fmt::format("\n{:<{}} {:>9} {:>12.3g} {:>12.3g} {:>12.3g} {:>9}", row.scene, std::max(width, std::size_t{21}),
-                           row.played->pictures, row.played->simulation_milliseconds, row.played->drawing_milliseconds,
-                           row.played->slowest_picture_milliseconds, row.played->late);
+      table +=
+          fmt::format("\n{:<{}} {:>9} {:>12.3g} {:>12.3g} {:>12.3g} {:>9} {:>10.3g}", row.scene, std::max(width, std::size_t{21}),
+                      row.played->pictures, row.played->simulation_milliseconds, row.played->drawing_milliseconds,
+                      row.played->slowest_picture_milliseconds, row.played->late, row.played->seconds_dropped);
   table += '\n';
   for (const std::string& note : result.notes) table += note + '\n';
   return table;
