@@ -95,7 +95,8 @@ std::vector<glm::dvec3> ClusterSprings::forces(ThreadPool& pool, std::span<const
 // Moments go up from leaves to the root: the sum of u, and that of u (X - centre)^T.
 ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> displacements) const {
   PLIANT_EXPECT(displacements.size() == rest_.size());
-  Points points{std::vector<Point>(rest_.size()), std::vector<std::array<Point, node_count>>(tree_->clusters.size())};
+  Points points{std::vector<Point>(rest_.size()),
+                std::vector<std::array<Point, physics::nodes_of_cluster>>(tree_->clusters.size())};
   std::vector<Shared> moments(tree_->clusters.size());
   for (std::uint32_t place = 0; place < rest_.size(); ++place)
     points.vertices[place] = {rest_[place], displacements[tree_->order[place]]};
@@ -111,7 +112,7 @@ ClusterSprings::Points ClusterSprings::points_at(std::span<const glm::dvec3> dis
     else
       for (const std::uint32_t child : {cluster.first_child, cluster.first_child + 1})
         add(moments[child].force, moments[child].slope, tree_->clusters[child].rest.centre);
-    for (std::uint32_t n = 0; n < node_count; ++n) {
+    for (std::uint32_t n = 0; n < physics::nodes_of_cluster; ++n) {
       points.nodes[c][n] = {cluster.rest.centre + cluster.offset_of(n),
                             (of_cluster.force + of_cluster.slope * cluster.gradient_of(n)) / static_cast<double>(cluster.size())};
     }

@@ -33,15 +33,13 @@ class ClusterSprings {
   [[nodiscard]] SpringCounts counts() const { return count_springs(*tree_, pairs_); }
 
  private:
-  static constexpr std::uint32_t node_count = 5;  // of a cluster
-
   // A vertex, or a node.
   struct Point {
     glm::dvec3 rest{0.0}, displacement{0.0};
   };
   struct Points {
-    std::vector<Point> vertices;                       // by their places in the tree
-    std::vector<std::array<Point, node_count>> nodes;  // of each cluster
+    std::vector<Point> vertices;                                      // by their places in the tree
+    std::vector<std::array<Point, physics::nodes_of_cluster>> nodes;  // of each cluster
   };
   // What a cluster's nodes hand down: a vertex at X gets force + slope (X - centre).
   struct Shared {
