@@ -67,14 +67,6 @@ DeviceArray<std::uint32_t>& Arrays::make_reals(std::string_view name, std::size_
   return hold(name, "real", allocate<std::uint32_t>(name, words, content));
 }
 
-void Arrays::make_roomy_reals(std::string_view name, std::size_t count) {
-  constexpr std::size_t more_in_ten = 6;
-  const auto found = held_.find(name);
-  const std::size_t bytes = count * static_cast<std::size_t>(device_.precision()) / 8;
-  if (found == held_.end() || found->second.bytes.byte_count < bytes)
-    make_reals(name, count + count / 10 * more_in_ten, Content::anything);
-}
-
 void Arrays::expect_element(std::string_view name, std::string_view element) {
   const std::string_view listed = row_of(name).element;
   if (listed != element) throw std::logic_error(fmt::format("the array \"{}\" has elements {}, not {}", name, listed, element));

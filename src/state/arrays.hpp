@@ -121,9 +121,6 @@ class Arrays {
   }
   /// Makes an array of `count` numbers of the device's precision, as words of 32 bits.
   DeviceArray<std::uint32_t>& make_reals(std::string_view name, std::size_t count, Content content = Content::zeros);
-  /// Makes an array of more than so many, which may hold anything. An earlier one of that name stays if it is large enough: fresh
-  /// memory of a GPU takes a millisecond for each megabyte.
-  void make_roomy_reals(std::string_view name, std::size_t count);
 
   template <class T>
   [[nodiscard]] DeviceArray<T>& get(std::string_view name) const {

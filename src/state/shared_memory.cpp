@@ -78,17 +78,17 @@ SharedMemory::~SharedMemory() {
 
 // Goes through the places that the array must not overlap, in their order, up to the first gap that is large enough.
 BufferId SharedMemory::place(std::string_view array, std::size_t bytes) {
-  std::erase_if(places_, [&](const Place& place) { return place.array == array; });
   const std::size_t size = (bytes + part_alignment - 1) / part_alignment * part_alignment;
   std::size_t first_byte = 0;
   for (const Place& other : places_) {
-    if (may_overlap(array, other.array) || other.end <= first_byte) continue;
+    if (other.array == array || may_overlap(array, other.array) || other.end <= first_byte) continue;
     if (first_byte + size <= other.first_byte) break;
     first_byte = other.end;
   }
   const Place place{std::string(array), first_byte, first_byte + size};
-  if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases", Content::zeros);
+  if (buffer_ == 0) buffer_ = device_.allocate(place.end, "shared by phases", Content::anything);
   if (device_.size_of(buffer_) < place.end) device_.enlarge(buffer_, place.end);
+  std::erase_if(places_, [&](const Place& earlier) { return earlier.array == array; });
   places_.insert(std::ranges::upper_bound(places_, first_byte, {}, &Place::first_byte), place);
   return device_.part_of(buffer_, first_byte, bytes);
 }

@@ -336,8 +336,10 @@ void compare_cluster_passes(std::set<std::string_view>& seen) {
     std::ranges::copy(forces.measuring_passes(physics::start_slot), std::back_inserter(passes));
     return passes;
   };
+  const std::vector<Pass> on_cpu = passes_of(cpu), on_gpu = passes_of(gpu);
+  for (std::size_t k = 0; k < on_cpu.size(); ++k) copy_state(cpu, gpu, on_cpu[k], on_gpu[k]);  // new arrays may hold anything
   SharedPhases phases;
-  compare_passes(cpu, gpu, phases, passes_of(cpu), passes_of(gpu), seen);
+  compare_passes(cpu, gpu, phases, on_cpu, on_gpu, seen);
 }
 
 std::uint32_t frame_changes(const Bench& bench) {

@@ -58,26 +58,6 @@ TEST_CASE("an array has the elements of the list and no others") {
   CHECK_THROWS_WITH(arrays.get<double>("mark"), Contains("mark"));
 }
 
-TEST_CASE("a roomy array stays until it is too small") {
-  for (const int precision : {32, 64}) {
-    const auto device = make_cpu_device(1, precision);
-    Arrays arrays(*device);
-    const auto has_room_for = [&](std::size_t count) {
-      return device->size_of(arrays.buffer("node_pull")) >= count * static_cast<std::size_t>(precision) / 8;
-    };
-    arrays.make_roomy_reals("node_pull", 1000);
-    const BufferId first = arrays.buffer("node_pull");
-    for (const std::size_t count : {1u, 1000u, 1600u}) {
-      arrays.make_roomy_reals("node_pull", count);
-      CHECK(arrays.buffer("node_pull") == first);
-      CHECK(has_room_for(count));
-    }
-    arrays.make_roomy_reals("node_pull", 1700);
-    CHECK(arrays.buffer("node_pull") != first);
-    CHECK(has_room_for(1700));
-  }
-}
-
 TEST_CASE("a view of an array has numbers of the array's type", "[gl]") {
   add_misread_kernel();  // before devices, which know the kernels of their time
   for (const TestDevice& test : all_devices()) {

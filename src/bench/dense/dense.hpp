@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,12 +38,12 @@ struct DenseForceRow {
   double list_seconds = 0;                                        // for tree and lists, on one thread of the CPU
   double seconds_per_sum = 0;                                     // median over the batches
   std::vector<std::pair<std::string, double>> pass_seconds = {};  // the same of each pass, which runs alone
-  double direct_seconds_per_sum = 0;    // of all springs; 0, and null in the file, where that would take too long
-  double seconds_per_step = 0;          // by cv8, which sums 11 times, with checks; 0, and null in the file, as above
-  double seconds_per_contact_step = 0;  // of a body that has fallen on a ground; 0, and null in the file, as above
-  double contact_share = 0;             // of those steps, or of parts if they fall into such, that had a contact
-  double direct_seconds_per_step = 0;   // the same with all springs
-  double bytes_per_vertex = 0;          // of tree, lists and sums on the device
+  double direct_seconds_per_sum = 0;         // of all springs; 0, and null in the file, where that would take too long
+  double seconds_per_step = 0;               // by cv8, which sums 11 times, with checks; 0, and null in the file, as above
+  double seconds_per_contact_step = 0;       // of a body that has fallen on a ground; 0, and null in the file, as above
+  std::optional<double> contact_share = {};  // of those steps, or of parts if they fall into such, that had a contact
+  double direct_seconds_per_step = 0;        // the same with all springs
+  double bytes_per_vertex = 0;               // of tree, lists and sums on the device
   double error = 0;  // as in a DenseErrorRow, of a body whose neighbours move apart by some percent of its size
 };
 

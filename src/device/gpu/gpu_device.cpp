@@ -63,8 +63,15 @@ class GpuDevice final : public Device {
     gpu::expect_room(bytes, allocated_bytes() - buffers_.at(buffer).size(), info_.free_memory);
     ahead_.clear();
     bound_ = {};
-    buffers_.at(buffer) = gl::Buffer();  // so that there is never room needed for both
-    buffers_.at(buffer) = gl::Buffer(bytes, "enlarged");
+    gl::Buffer& enlarged = buffers_.at(buffer);
+    const std::size_t before = enlarged.size();
+    enlarged = gl::Buffer();  // so that there is never room needed for both
+    try {
+      enlarged = gl::Buffer::unfilled(bytes, "enlarged");
+    } catch (const Error&) {
+      enlarged = gl::Buffer::unfilled(before, "not enlarged");
+      throw;
+    }
   }
   BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) override {
     parts_.emplace(next_buffer_, part(buffer).part(first_byte, bytes));

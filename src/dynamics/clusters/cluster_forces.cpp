@@ -40,7 +40,7 @@ physics::SpringCluster table_row(const Cluster& cluster) {
 
 class BodyTables {
  public:
-  BodyTables(Tables& tables, const Model& model, std::uint32_t body_index, const ListBasis& basis,
+  BodyTables(ThreadPool& pool, Tables& tables, const Model& model, std::uint32_t body_index, const ListBasis& basis,
              std::shared_ptr<const ClusterTree> tree)
       : tables_(tables),
         body_(model.bodies[body_index]),
@@ -49,10 +49,12 @@ class BodyTables {
         first_leaf_(static_cast<std::uint32_t>(tables.leaves.size())),
         tree_(std::move(tree)) {
     const std::vector<glm::dvec3> rest = model.rest_positions_of(body_);
-    pairs_ = pair_clusters(*tree_, basis.accuracy, extents_moved_by(*tree_, rest, basis.displacements));
+    pairs_ = pair_clusters(pool, *tree_, basis.accuracy, extents_moved_by(pool, *tree_, rest, basis.displacements));
     add_leaves();
     add_clusters();
-    set_places_of_pulls();
+    pool.for_ranges(
+        static_cast<std::uint32_t>(tables.clusters.size() - first_cluster_), 64,
+        [&](std::uint32_t first, std::uint32_t end) { set_places_of_pulls(first_cluster_ + first, first_cluster_ + end); });
   }
 
   [[nodiscard]] std::uint64_t spring_count() const { return count_springs(*tree_, pairs_).all(); }
@@ -115,8 +117,8 @@ class BodyTables {
   }
 
   // What leaves of far clusters pull a cluster's nodes with stands in the order of its list. Those clusters have to know where.
-  void set_places_of_pulls() {
-    for (auto c = first_cluster_; c < tables_.clusters.size(); ++c) {
+  void set_places_of_pulls(std::uint32_t first_cluster, std::uint32_t end_cluster) {
+    for (std::uint32_t c = first_cluster; c < end_cluster; ++c) {
       const physics::SpringCluster& row = tables_.clusters[c];
       std::uint32_t place = physics::pull_row_size * row.first_pull;
       for (std::uint32_t k = row.first_far; k < row.end_far; ++k) {
@@ -198,6 +200,9 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
                              ClusterTrees& trees)
     : bodies_(&bodies), springs_of_bodies_(model.bodies.size()) {
   PLIANT_EXPECT(bases.size() == model.bodies.size());
+  constexpr unsigned most_threads = 8;  // more would take longer to start
+  const DeviceInfo& device = bodies.arrays.device().info();
+  ThreadPool pool(std::min(device.kind == DeviceKind::cpu ? device.threads : thread_count(0), most_threads));
   Tables tables;
   std::vector<std::vector<std::uint32_t>> samples;
   const auto leaf_count = [&] { return static_cast<std::uint32_t>(tables.leaves.size()); };
@@ -205,7 +210,7 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
     if (!bases[b]) continue;
     Leaves leaves{
         .body = b, .vertices = model.bodies[b].vertex_count, .first = leaf_count(), .end = 0, .first_sample = 0, .end_sample = 0};
-    const BodyTables added(tables, model, b, *bases[b], trees.of(model, b));
+    const BodyTables added(pool, tables, model, b, *bases[b], trees.of(model, b));
     springs_of_bodies_[b] = added.spring_count();
     leaves.end = leaf_count();
     leaves_of_bodies_.push_back(leaves);
@@ -238,7 +243,7 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
   make_reals("spring_point", std::size_t{8} * (place_count + std::size_t{physics::nodes_of_cluster} * cluster_count_));
   make_doubles("leaf_moment", std::size_t{physics::moments_size} * leaves_and_samples_);
   make_reals("leaf_pull", std::size_t{3} * place_count);
-  arrays.make_roomy_reals("node_pull", std::size_t{physics::pull_row_size} * tables.pull_row_count);  // for exacter lists, too
+  make_reals("node_pull", std::size_t{physics::pull_row_size} * tables.pull_row_count);
   make_doubles("cluster_pull", std::size_t{physics::moments_size} * cluster_count_);
   make_doubles("leaf_square", std::size_t{3} * leaves_and_samples_);
   make_doubles("spring_sum", std::size_t{3} * bodies.vertex_count);

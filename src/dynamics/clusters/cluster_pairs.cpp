@@ -1,8 +1,10 @@
 #include "dynamics/clusters/cluster_pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,70 +15,88 @@ namespace pliant {
 namespace {
 
 constexpr std::uint64_t most_near = 1u << 31;  // entries of `near`, which are counted in 32 bits
+constexpr std::size_t enough_meetings = 200;   // to be shared among threads
 
 // Weighs the error of one node a side against that of four. Measured: gives the least work for the same error.
 double weight_of_one_node(double accuracy) { return accuracy > 3e-7 ? 0.05 : accuracy > 3e-8 ? 0.03 : 0.01; }
 
-template <class T>
-void flatten(const std::vector<std::vector<T>>& lists, std::vector<std::uint32_t>& begin, std::vector<T>& items) {
-  begin = {0};
-  for (const std::vector<T>& list : lists) {
-    items.insert(items.end(), list.begin(), list.end());
-    begin.push_back(static_cast<std::uint32_t>(items.size()));
-  }
-}
+// Two clusters, all of whose vertices are to see each other. They are the same one if its vertices are to see each other.
+struct Meeting {
+  std::uint32_t a, b;
+};
+
+// What becomes of a meeting: others in its place, or else a pair.
+struct Outcome {
+  std::array<Meeting, 3> meetings{};
+  std::uint32_t count = 0;  // of meetings
+  std::uint32_t nodes = 0;  // of a pair that is far from each other. 0: all leaves see each other's vertices
+};
+
+struct FarPair {
+  Meeting clusters;
+  std::uint32_t nodes;
+};
+
+struct Found {
+  std::vector<FarPair> far;
+  std::vector<Meeting> near;
+};
 
 class Walk {
  public:
   Walk(const ClusterTree& tree, double accuracy, std::span<const Extent> shape)
-      : clusters_(tree.clusters),
-        shape_(shape),
-        accuracy_(accuracy),
-        weight_of_one_node_(weight_of_one_node(accuracy)),
-        near_(tree.leaves.size()),
-        far_(tree.clusters.size()) {
+      : clusters_(tree.clusters), shape_(shape), accuracy_(accuracy), weight_of_one_node_(weight_of_one_node(accuracy)) {
     PLIANT_EXPECT(accuracy > 0 && (shape.empty() || shape.size() == clusters_.size()));
-    meet_itself(0);
   }
 
-  ClusterPairs take() {
-    ClusterPairs pairs;
-    for (std::vector<std::uint32_t>& leaves : near_) std::ranges::sort(leaves);
-    flatten(near_, pairs.near_begin, pairs.near);
-    flatten(far_, pairs.far_begin, pairs.far);
-    return pairs;
+  // Returns what has been found, in an order that does not depend on threads.
+  [[nodiscard]] std::vector<Found> find(ThreadPool& pool) const {
+    const std::vector<Meeting> meetings = first_meetings();
+    std::vector<Found> found(meetings.size());
+    pool.for_ranges(static_cast<std::uint32_t>(meetings.size()), 1, [&](std::uint32_t first, std::uint32_t end) {
+      for (std::uint32_t m = first; m < end; ++m) meet(meetings[m], found[m]);
+    });
+    return found;
   }
 
  private:
-  void meet_itself(std::uint32_t a) {
-    const Cluster& cluster = clusters_[a];
-    if (cluster.is_leaf()) {
-      near_[cluster.first_leaf()].push_back(cluster.first_leaf());
-      return;
+  // Returns meetings that cover all vertices.
+  [[nodiscard]] std::vector<Meeting> first_meetings() const {
+    std::vector<Meeting> meetings = {{0, 0}};
+    for (std::size_t before = 0; before != meetings.size() && meetings.size() < enough_meetings;) {
+      before = meetings.size();
+      std::vector<Meeting> next;
+      for (const Meeting& meeting : meetings) {
+        const Outcome outcome = outcome_of(meeting);
+        next.insert(next.end(), outcome.meetings.begin(), outcome.meetings.begin() + outcome.count);
+        if (outcome.count == 0) next.push_back(meeting);
+      }
+      meetings = std::move(next);
     }
-    meet_itself(cluster.first_child);
-    meet_itself(cluster.first_child + 1);
-    meet(cluster.first_child, cluster.first_child + 1);
+    return meetings;
   }
 
-  void meet(std::uint32_t a, std::uint32_t b) {
+  void meet(const Meeting& meeting, Found& found) const {
+    const Outcome outcome = outcome_of(meeting);
+    for (std::uint32_t k = 0; k < outcome.count; ++k) meet(outcome.meetings[k], found);
+    if (outcome.count > 0) return;
+    if (outcome.nodes > 0)
+      found.far.push_back({meeting, outcome.nodes});
+    else
+      found.near.push_back(meeting);
+  }
+
+  [[nodiscard]] Outcome outcome_of(const Meeting& meeting) const {
+    const auto [a, b] = meeting;
     const Cluster &first = clusters_[a], &second = clusters_[b];
-    if (const std::uint32_t nodes = nodes_between(a, b); nodes > 0) {
-      if (saves_work(first, second, nodes)) {
-        far_[a].push_back({b, nodes});
-        far_[b].push_back({a, nodes});
-      } else {
-        meet_closely(first, second);
-      }
-    } else if (first.is_leaf() && second.is_leaf()) {
-      meet_closely(first, second);
-    } else if (second.is_leaf() || (!first.is_leaf() && first.rest.radius >= second.rest.radius)) {
-      meet(first.first_child, b);
-      meet(first.first_child + 1, b);
-    } else {
-      meet(a, second.first_child);
-      meet(a, second.first_child + 1);
-    }
+    const std::uint32_t child = first.first_child;
+    if (a == b && first.is_leaf()) return {};
+    if (a == b) return {{{{child, child}, {child + 1, child + 1}, {child, child + 1}}}, 3};
+    if (const std::uint32_t nodes = nodes_between(a, b); nodes > 0) return {{}, 0, saves_work(first, second, nodes) ? nodes : 0};
+    if (first.is_leaf() && second.is_leaf()) return {};
+    if (second.is_leaf() || (!first.is_leaf() && first.rest.radius >= second.rest.radius))
+      return {{{{child, b}, {child + 1, b}}}, 2};
+    return {{{{a, second.first_child}, {a, second.first_child + 1}}}, 2};
   }
 
   // Returns the product of both spreads over the distance squared, or nothing if they reach each other.
@@ -104,30 +124,71 @@ class Walk {
     return std::uint64_t{a.size()} * b.size() > nodes * (std::uint64_t{a.size()} + b.size() + nodes);
   }
 
-  void meet_closely(const Cluster& a, const Cluster& b) {
-    near_count_ += 2 * std::uint64_t{a.end_leaf() - a.first_leaf()} * (b.end_leaf() - b.first_leaf());
-    if (near_count_ > most_near)
-      throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
-                  "weld them, or take a larger force_tolerance");
-    for (std::uint32_t i = a.first_leaf(); i < a.end_leaf(); ++i)
-      for (std::uint32_t j = b.first_leaf(); j < b.end_leaf(); ++j) {
-        near_[i].push_back(j);
-        near_[j].push_back(i);
-      }
-  }
-
   const std::vector<Cluster>& clusters_;
   std::span<const Extent> shape_;
   double accuracy_, weight_of_one_node_;
-  std::vector<std::vector<std::uint32_t>> near_;
-  std::vector<std::vector<FarCluster>> far_;
-  std::uint64_t near_count_ = 0;
 };
+
+// Calls `add` with two leaves for each pair of leaves that see each other's vertices, once for each side.
+template <class Add>
+void for_near_leaves(const ClusterTree& tree, const std::vector<Found>& found, const Add& add) {
+  for (const Found& part : found)
+    for (const auto& [a, b] : part.near) {
+      const Cluster &first = tree.clusters[a], &second = tree.clusters[b];
+      for (std::uint32_t i = first.first_leaf(); i < first.end_leaf(); ++i)
+        for (std::uint32_t j = second.first_leaf(); j < second.end_leaf(); ++j) {
+          add(i, j);
+          if (a != b) add(j, i);
+        }
+    }
+}
+
+template <class Add>
+void for_far_clusters(const std::vector<Found>& found, const Add& add) {
+  for (const Found& part : found)
+    for (const auto& [clusters, nodes] : part.far) {
+      add(clusters.a, FarCluster{clusters.b, nodes});
+      add(clusters.b, FarCluster{clusters.a, nodes});
+    }
+}
+
+// Puts what `for_each` finds into one list, by owners. Fills `begin` with where each owner's part begins.
+template <class Item, class ForEach>
+std::vector<Item> listed_by_owner(std::size_t owners, std::vector<std::uint32_t>& begin, const ForEach& for_each) {
+  begin.assign(owners + 1, 0);
+  for_each([&](std::uint32_t owner, const Item&) { ++begin[owner + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Item> items(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for_each([&](std::uint32_t owner, const Item& item) { items[next[owner]++] = item; });
+  return items;
+}
+
+void expect_countable(const ClusterTree& tree, const std::vector<Found>& found) {
+  std::uint64_t near_count = 0;
+  for (const Found& part : found)
+    for (const auto& [a, b] : part.near) {
+      const Cluster &first = tree.clusters[a], &second = tree.clusters[b];
+      near_count += 2 * std::uint64_t{first.end_leaf() - first.first_leaf()} * (second.end_leaf() - second.first_leaf());
+    }
+  if (near_count > most_near)
+    throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
+                "weld them, or take a larger force_tolerance");
+}
 
 }  // namespace
 
-ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy, std::span<const Extent> shape) {
-  return Walk(tree, accuracy, shape).take();
+ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy, std::span<const Extent> shape) {
+  const std::vector<Found> found = Walk(tree, accuracy, shape).find(pool);
+  expect_countable(tree, found);
+  ClusterPairs pairs;
+  pairs.near = listed_by_owner<std::uint32_t>(tree.leaves.size(), pairs.near_begin,
+                                              [&](const auto& add) { for_near_leaves(tree, found, add); });
+  pairs.far =
+      listed_by_owner<FarCluster>(tree.clusters.size(), pairs.far_begin, [&](const auto& add) { for_far_clusters(found, add); });
+  for (std::size_t leaf = 0; leaf < tree.leaves.size(); ++leaf)
+    std::sort(pairs.near.begin() + pairs.near_begin[leaf], pairs.near.begin() + pairs.near_begin[leaf + 1]);
+  return pairs;
 }
 
 SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/thread_pool.hpp"
 #include "dynamics/clusters/cluster_tree.hpp"
 
 namespace pliant {
@@ -40,7 +41,8 @@ struct SpringCounts {
 /// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. With `shape`, clusters are far from each other
 /// only if they are in that shape, too. It has the extent of each cluster there. Throws Error (input) if so many vertices share a
 /// place that lists would get too long.
-[[nodiscard]] ClusterPairs pair_clusters(const ClusterTree& tree, double accuracy, std::span<const Extent> shape = {});
+[[nodiscard]] ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy,
+                                         std::span<const Extent> shape = {});
 
 [[nodiscard]] SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs);
 

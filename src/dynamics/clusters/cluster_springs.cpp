@@ -56,7 +56,9 @@ ClusterSprings::ClusterSprings(std::span<const glm::dvec3> rest, double accuracy
 
 ClusterSprings::ClusterSprings(std::shared_ptr<const ClusterTree> tree, std::span<const glm::dvec3> rest, double accuracy,
                                std::span<const glm::dvec3> shape)
-    : tree_(std::move(tree)), pairs_(pair_clusters(*tree_, accuracy, extents_moved_by(*tree_, rest, shape))) {
+    : tree_(std::move(tree)) {
+  ThreadPool one(1);
+  pairs_ = pair_clusters(one, *tree_, accuracy, extents_moved_by(one, *tree_, rest, shape));
   for (const std::uint32_t v : tree_->order) rest_.push_back(rest[v]);
 }
 
@@ -133,7 +135,7 @@ double ClusterSprings::weight_of(std::uint32_t cluster, std::uint32_t nodes) con
   return static_cast<double>(tree_->clusters[cluster].size()) / nodes;
 }
 
-// That with near vertices of leaves that come no later, and with far nodes.
+// Returns the energy of springs to vertices of this leaf and of near leaves before it, and to far nodes.
 double ClusterSprings::energy_of_leaf(const Points& points, std::uint32_t leaf) const {
   const Cluster& cluster = tree_->clusters[tree_->leaves[leaf]];
   LeafEnds ends(std::span(points.vertices).subspan(cluster.first, cluster.size()));

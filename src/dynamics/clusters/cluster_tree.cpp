@@ -12,16 +12,20 @@
 namespace pliant {
 namespace {
 
-Extent extent_of(std::span<const glm::dvec3> positions, std::span<const std::uint32_t> vertices) {
+template <class PositionOf>
+Extent extent_of(std::size_t count, const PositionOf& position_of) {
   Extent extent;
-  for (const std::uint32_t v : vertices) extent.centre += positions[v];
-  extent.centre /= static_cast<double>(vertices.size());
-  for (const std::uint32_t v : vertices) {
-    const glm::dvec3 arm = positions[v] - extent.centre;
-    extent.radius = std::max(extent.radius, glm::length(arm));
-    extent.spread_squared += glm::dot(arm, arm);
+  for (std::size_t k = 0; k < count; ++k) extent.centre += position_of(k);
+  extent.centre /= static_cast<double>(count);
+  double radius_squared = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const glm::dvec3 arm = position_of(k) - extent.centre;
+    const double squared = glm::dot(arm, arm);
+    radius_squared = std::max(radius_squared, squared);
+    extent.spread_squared += squared;
   }
-  extent.spread_squared /= static_cast<double>(vertices.size());
+  extent.radius = std::sqrt(radius_squared);
+  extent.spread_squared /= static_cast<double>(count);
   return extent;
 }
 
@@ -41,7 +45,7 @@ class Builder {
   void serve(std::uint32_t c) {
     Cluster cluster = tree_.clusters[c];
     const std::span<std::uint32_t> vertices(tree_.order.data() + cluster.first, cluster.size());
-    cluster.rest = extent_of(rest_, vertices);
+    cluster.rest = extent_of(vertices.size(), [&](std::size_t k) { return rest_[vertices[k]]; });
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread = spread_of(cluster, vertices);
     set_axes(cluster, spread);
     if (cluster.size() > leaf_size) {
@@ -118,15 +122,18 @@ glm::dvec3 Cluster::gradient_of(std::uint32_t node) const {
   return gradient;
 }
 
-std::vector<Extent> extents_moved_by(const ClusterTree& tree, std::span<const glm::dvec3> rest,
+std::vector<Extent> extents_moved_by(ThreadPool& pool, const ClusterTree& tree, std::span<const glm::dvec3> rest,
                                      std::span<const glm::dvec3> displacements) {
   if (displacements.empty()) return {};
   PLIANT_EXPECT(displacements.size() == rest.size() && rest.size() == tree.order.size());
-  std::vector<glm::dvec3> positions(rest.begin(), rest.end());
-  for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += displacements[v];
-  std::vector<Extent> extents;
-  for (const Cluster& cluster : tree.clusters)
-    extents.push_back(extent_of(positions, std::span(tree.order).subspan(cluster.first, cluster.size())));
+  std::vector<glm::dvec3> positions;  // in the tree's order
+  positions.reserve(rest.size());
+  for (const std::uint32_t v : tree.order) positions.push_back(rest[v] + displacements[v]);
+  std::vector<Extent> extents(tree.clusters.size());
+  pool.for_ranges(static_cast<std::uint32_t>(extents.size()), 8, [&](std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t c = first; c < end; ++c)
+      extents[c] = extent_of(tree.clusters[c].size(), [&](std::size_t k) { return positions[tree.clusters[c].first + k]; });
+  });
   return extents;
 }
 

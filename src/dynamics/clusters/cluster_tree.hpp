@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/thread_pool.hpp"
 #include "physics/forces/clusters.glsl"
 
 namespace pliant {
@@ -56,7 +57,7 @@ struct ClusterTree {
 
 /// Returns the extent of each cluster of the tree where its vertices are moved by these displacements [m]. Returns nothing if
 /// there are none.
-[[nodiscard]] std::vector<Extent> extents_moved_by(const ClusterTree& tree, std::span<const glm::dvec3> rest,
+[[nodiscard]] std::vector<Extent> extents_moved_by(ThreadPool& pool, const ClusterTree& tree, std::span<const glm::dvec3> rest,
                                                    std::span<const glm::dvec3> displacements);
 
 }  // namespace pliant

@@ -76,15 +76,20 @@ struct Sums {
   }
 };
 
+// Fills what passes write before they read it with bytes that are not numbers.
+void fill_with_rubbish(const Arrays& arrays) {
+  for (const char* name : {"spring_point", "leaf_moment", "leaf_pull", "node_pull", "cluster_pull", "leaf_square"}) {
+    const BufferId buffer = arrays.buffer(name);
+    arrays.device().write(buffer, 0, std::vector<std::byte>(arrays.device().size_of(buffer), std::byte{0xff}));
+  }
+}
+
 Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false) {
   DeviceBodies bodies(device, start.model, start.state);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
   ClusterTrees trees;
   const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
-  for (const std::string_view name : {"spring_point", "leaf_moment", "leaf_pull", "node_pull", "cluster_pull"}) {
-    const BufferId buffer = bodies.arrays.buffer(name);
-    device.write(buffer, 0, std::vector<std::byte>(device.size_of(buffer), std::byte{0xff}));  // not a number
-  }
+  fill_with_rubbish(bodies.arrays);
   device.run(stepper.first_passes());
   device.run(forces.passes(physics::start_slot, only_stale));
   return {bodies.arrays.get<double>("spring_sum").download()};
@@ -144,6 +149,7 @@ TEST_CASE("errors that a device measures are those of samples beside all springs
       const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
       ClusterTrees trees;
       const ClusterForces forces(bodies, start.model, bases, trees);
+      fill_with_rubbish(bodies.arrays);
       test.device->run(stepper.first_passes());
       test.device->run(forces.measuring_passes(physics::start_slot));
       const std::vector<ClusterErrors> errors = forces.errors();

@@ -88,10 +88,11 @@ TEST_CASE("clusters cover every vertex once, and their nodes move with them in l
 }
 
 TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides list each other") {
+  ThreadPool pool(3);
   for (const double accuracy : {1e-4, 1e-6, 1e-8}) {
     const Vectors rest = random_points(1003, {1, 1, 0.3});
     const ClusterTree tree = make_cluster_tree(rest);
-    const ClusterPairs pairs = pair_clusters(tree, accuracy);
+    const ClusterPairs pairs = pair_clusters(pool, tree, accuracy);
     std::vector<std::vector<int>> covered(rest.size(), std::vector<int>(rest.size()));
     const auto cover = [&](const Cluster& a, const Cluster& b) {
       for (std::uint32_t i = a.first; i < a.end; ++i)
@@ -118,6 +119,26 @@ TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides l
     CHECK(2 * told.near + far_springs == std::uint64_t{rest.size()} * (rest.size() - 1));
     CHECK(told.far == counts.far);
     CHECK(2 * told.between_nodes == counts.between_nodes);
+  }
+}
+
+TEST_CASE("pairs of clusters and their order do not depend on the number of threads") {
+  const Vectors rest = random_points(3001, {1, 1, 0.3}), displacements = random_points(3001, {0.1, 0.1, 0.1});
+  const ClusterTree tree = make_cluster_tree(rest);
+  ThreadPool one(1);
+  const std::vector<Extent> shape = extents_moved_by(one, tree, rest, displacements);
+  const ClusterPairs expected = pair_clusters(one, tree, 1e-7, shape);
+  for (const unsigned threads : {2u, 7u}) {
+    ThreadPool pool(threads);
+    const std::vector<Extent> same_shape = extents_moved_by(pool, tree, rest, displacements);
+    for (std::size_t c = 0; c < shape.size(); ++c) CHECK(same_shape[c].spread_squared == shape[c].spread_squared);
+    const ClusterPairs pairs = pair_clusters(pool, tree, 1e-7, same_shape);
+    CHECK(pairs.near_begin == expected.near_begin);
+    CHECK(pairs.near == expected.near);
+    CHECK(pairs.far_begin == expected.far_begin);
+    CHECK(std::ranges::equal(pairs.far, expected.far, [](const FarCluster& a, const FarCluster& b) {
+      return a.cluster == b.cluster && a.nodes == b.nodes;
+    }));
   }
 }
 
