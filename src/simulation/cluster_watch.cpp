@@ -1,7 +1,9 @@
 #include "simulation/cluster_watch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/bytes.hpp"
 #include "core/error.hpp"
@@ -37,6 +39,8 @@ std::uint64_t interval_of(const Model& model, std::optional<double> time_step) {
   const double steps = radians_between_checks / (fastest * *time_step);
   return static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
 }
+
+bool is_ready(const std::future<double>& energy) { return energy.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
 
 bool sums_springs(const physics::Status& status) {
   return status.activity == physics::moving && status.deformed != 0 && !physics::is_still(status);
@@ -147,10 +151,11 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   const ChangedSums& now = *changed_[body];
   if (now.are_direct || now.changes == (before ? before->changes : 0)) return;  // the energy of all springs may take minutes
   ++report_.lists_made;
+  while (!energy_changes_.empty() && is_ready(energy_changes_.front())) add_energy_change();
   const DeviceInfo& device = bodies_.arrays.device().info();
   const ModelBody& of = model_.bodies[body];
   const auto tree = stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body));
-  const unsigned threads = device.kind == DeviceKind::cpu ? device.threads : 0;
+  const unsigned threads = std::max(1u, thread_count(device.kind == DeviceKind::cpu ? device.threads : 0) / 2);
   energy_changes_.push_back(
       std::async(std::launch::async, [of, tree, threads, before, after = changed_[body], rest = model_.rest_positions_of(of),
                                       displacements = state.displacements_of(of)] {
@@ -163,11 +168,18 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
       }));
 }
 
+void ClusterWatch::add_energy_change() {
+  std::future<double> first = std::move(energy_changes_.front());
+  energy_changes_.erase(energy_changes_.begin());
+  energy_change_ += first.get();
+}
+
 double ClusterWatch::energy_change() {
-  for (std::future<double>& change : energy_changes_) energy_change_ += change.get();
-  energy_changes_.clear();
+  while (!energy_changes_.empty()) add_energy_change();
   return energy_change_;
 }
+
+bool ClusterWatch::knows_energy_change() const { return std::ranges::all_of(energy_changes_, is_ready); }
 
 void ClusterWatch::change(std::size_t body, std::shared_ptr<const ChangedSums> sums) {
   const std::uint64_t evaluations = bodies_.tallies.download()[body].force_evaluations;

@@ -20,7 +20,7 @@ namespace pliant {
 /// What checks have found and done since the start.
 struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
-  double largest_error = 0;           // that a check has found, over the force, but for what the first one mends
+  double largest_error = 0;           // of a sum over the sum, at any check. The first check counts what it leaves
   double largest_excess = 0;          // of those errors over their body's tolerance
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
@@ -52,6 +52,8 @@ class ClusterWatch {
   /// Returns by how much other lists have changed the elastic energy: the sum of sizes. Direct sums do not count [J]. That is
   /// found out while steps go on, and this waits for it.
   [[nodiscard]] double energy_change();
+  /// Whether energy_change() and save() would not wait.
+  [[nodiscard]] bool knows_energy_change() const;
   /// Returns how many forces of one point on another so many evaluations of a body's forces had.
   [[nodiscard]] std::uint64_t interactions(std::size_t body, std::uint64_t evaluations) const;
 
@@ -72,6 +74,8 @@ class ClusterWatch {
   [[nodiscard]] std::vector<std::optional<double>> measure();
   // Returns the error that remains.
   double improve(std::size_t body, const State& state, double error);
+  // Adds the first of the changes that are still to be added, and waits for it.
+  void add_energy_change();
   // Counts new lists. Begins to find out how they change the energy, while steps go on.
   void note_lists(std::size_t body, const State& state, const std::shared_ptr<const ChangedSums>& before);
   void change(std::size_t body, std::shared_ptr<const ChangedSums> sums);

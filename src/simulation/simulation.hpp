@@ -134,8 +134,11 @@ class Simulation {
   /// Returns by how much lists of clusters that were made anew have changed elastic energies: the sum of sizes [J]. Waits until
   /// that is known.
   [[nodiscard]] double energy_changed_by_lists() { return watch_ ? watch_->energy_change() : 0; }
-  /// Returns as bytes everything that the next steps and reports depend on. Waits for the queued steps.
+  /// Returns as bytes everything that the next steps and reports depend on. Waits for the queued steps, and for
+  /// energy_changed_by_lists().
   [[nodiscard]] std::string save();
+  /// Whether save() waits for queued steps alone.
+  [[nodiscard]] bool can_save_soon() const { return !watch_ || watch_->knows_energy_change(); }
   /// Goes on from bytes of save(). The simulation that saved them must have the same bodies, plan and kind of collisions. On the
   /// same device it goes on bit for bit. Throws Error (input), without a place, if the bytes do not fit. The simulation can't be
   /// used after that.

@@ -222,7 +222,7 @@ void Viewer::play() {
     batch_.took(clock - since);
   }
   playback_.end(clock, session_->time(), !session_->is_due(playback_.goal()));
-  if (session_->step() != before && clock - recorded_at_ > record_interval) {
+  if (session_->step() != before && clock - recorded_at_ > record_interval && session_->simulation().can_save_soon()) {
     session_->record();
     recorded_at_ = clock;
   }
