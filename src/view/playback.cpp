@@ -11,10 +11,10 @@ void Playback::begin(double now, double simulated) {
   if (in_stretch_ && !paused_) {
     budget_ = std::max(budget_, now - ended_ - refresh);
     goal_ += (now - began_) * pace_.speed;
-    measure(now, simulated);
+    measure(now);
   } else {
     goal_ = simulated;
-    span_ = {now, simulated};
+    span_ = {now};
     in_stretch_ = !paused_;
   }
   began_ = now;
@@ -26,8 +26,8 @@ void Playback::end(double now, double simulated, bool reached_goal) {
   const double latest_goal = simulated + longest_behind * pace_.speed;
   if (reached_goal || goal_ <= latest_goal) return;
   dropped_ += goal_ - latest_goal;
+  span_.dropped += goal_ - latest_goal;
   goal_ = latest_goal;
-  span_.dropped_some = true;
 }
 
 void Playback::pause() {
@@ -42,13 +42,13 @@ void Playback::toggle_pause() {
     pause();
 }
 
-void Playback::measure(double now, double simulated) {
+void Playback::measure(double now) {
   constexpr double long_enough = 0.5;  // [s]
   const double seconds = now - span_.began;
   if (seconds < long_enough) return;
   slow_factor_.reset();
-  if (span_.dropped_some) slow_factor_ = (simulated - span_.simulated) / seconds;
-  span_ = {now, simulated};
+  if (span_.dropped > 0) slow_factor_ = std::max(0.0, pace_.speed - span_.dropped / seconds);
+  span_ = {now};
 }
 
 void BatchSize::took(double seconds) {

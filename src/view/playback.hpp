@@ -36,17 +36,16 @@ class Playback {
 
   /// Returns the simulated time that was dropped since the playback was made [s].
   [[nodiscard]] double dropped() const { return dropped_; }
-  /// Returns simulated time over real time. It is the speed, or a mean over half a second or more if the device is too slow.
+  /// Returns simulated time over real time. It is the speed, less what was dropped in half a second or more.
   [[nodiscard]] double factor() const { return slow_factor_.value_or(pace_.speed); }
   [[nodiscard]] double speed() const { return pace_.speed; }
   void set_speed(double speed) { pace_.speed = speed; }
 
  private:
-  struct Span {                       // stretch of time over which the factor is measured
-    double began = 0, simulated = 0;  // times at its begin [s]
-    bool dropped_some = false;        // of the time that pictures in it were to show
+  struct Span {                     // stretch of time over which the factor is measured
+    double began = 0, dropped = 0;  // [s]
   };
-  void measure(double now, double simulated);
+  void measure(double now);
 
   Pace pace_;
   bool paused_ = false;

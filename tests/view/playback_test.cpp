@@ -112,6 +112,7 @@ TEST_CASE("a picture that takes long drops nothing, and later ones make up for i
   Show show{.time_step = 0.002, .cost = 0.0005};
   show.run(playback, 1, 1.0 / 60);
   show.cost = 0.05;  // one step, and then no more
+  show.now += 1.0 / 60;
   const double began = show.now;
   show.picture(playback);
   CHECK(show.now > began + 0.04);
@@ -132,11 +133,27 @@ TEST_CASE("a device that is too slow for a second drops that time but for a tent
     const double dropped = playback.dropped();
     CHECK(dropped > 0.3 * speed);
     CHECK(dropped == Approx(behind - 0.1 * speed).margin(0.03));  // a picture's time
+    CHECK(playback.factor() < speed);
     show.cost = 0;
     show.run(playback, 1, 1.0 / 60);
     CHECK(playback.dropped() == dropped);
     CHECK(show.simulated() == Approx((show.now - 100) * speed - dropped).margin(2 * show.time_step));
   }
+}
+
+TEST_CASE("catching up is not told as more than the speed") {
+  Playback playback({.speed = 1, .budget = 0.012});
+  Show show{.time_step = 0.002, .cost = 0.0002};
+  show.run(playback, 0.85, 1.0 / 60);
+  show.now += 1.0 / 60;
+  show.cost = 0.3;
+  show.picture(playback);
+  show.cost = 0.0002;
+  for (int k = 0; k < 60; ++k) {
+    show.run(playback, 1.0 / 60, 1.0 / 60);
+    CHECK(playback.factor() <= 1);
+  }
+  CHECK(playback.dropped() > 0.05);
 }
 
 TEST_CASE("where drawing takes long, so may stepping") {
