@@ -182,8 +182,9 @@ std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
   for (const std::uint32_t b : status.report.clusters->direct) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(
-        fmt::format("\"{}\" went over to sums of all its springs, because clusters could not meet its force_tolerance of "
-                    "{:.3g}; that takes longer, and a larger tolerance may avoid it",
+        fmt::format("\"{}\" went over to sums of all its springs, because no lists of clusters met its force_tolerance of "
+                    "{:.3g}, they had changed too often, or the device had no room for more; that takes longer, and a larger "
+                    "tolerance or damping may avoid it",
                     body.name, force_tolerance_of(body)));
   }
   return told;

@@ -36,6 +36,33 @@ TEST_CASE("a run that blows up but stays finite says so in its summary") {
   CHECK_THAT(result.output, Catch::Contains("the energy has grown"));
 }
 
+// The sphere is a tenth as large as at rest, and passes through itself.
+TEST_CASE("a run tells of errors of a clustered body, of energy that new lists brought, and of a body that gave clusters up") {
+  const ScratchFolder folder;
+  std::ofstream(folder.path / "ball.toml") << R"([simulation]
+integrator = "verlet"
+duration = 1
+
+[[body]]
+mesh = "icosphere:4"
+total_mass = 1
+total_stiffness = 1000
+damping = 0
+forces = "clustered"
+stretch = [0.1, 0.1, 0.1]
+)";
+  const auto told_by = [&](const char* time_step) {
+    const std::string out = (folder.path / time_step).string();
+    const ProgramResult result =
+        run_program("run " + (folder.path / "ball.toml").string() + " --device cpu --time-step " + time_step + " --out " + out);
+    CHECK(result.exit_code == 0);
+    return result.output;
+  };
+  CHECK_THAT(told_by("0.01"), Catch::Contains("times its force_tolerance at a check") &&
+                                  Catch::Contains("lists of clusters that were made anew have changed it"));
+  CHECK_THAT(told_by("0.04"), Catch::Contains("went over to sums of all its springs"));
+}
+
 struct Energies {
   double first = 0, largest = 0, latest = 0;  // in rows of the history [J]
   double time_of_largest = 0;                 // [s]

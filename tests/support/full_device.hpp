@@ -9,7 +9,7 @@
 
 namespace pliant::test {
 
-/// Hands everything on to another device, and refuses large buffers when it is told to.
+/// Does what another device does, and refuses large buffers when it is told to.
 class FullDevice : public Device {
  public:
   explicit FullDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
