@@ -331,7 +331,7 @@ void compare_cluster_passes(std::set<std::string_view>& seen) {
   Bench cpu(make_cpu_device(2, 32), start, method, none), gpu(make_gpu_device(0), start, method, none);
   const auto passes_of = [&](Bench& bench) {
     std::vector<Pass> passes = bench.stepper.first_passes();
-    ClusterTrees trees;
+    ClusterTrees trees(2);
     const ClusterForces forces(bench.bodies, start.model, std::vector{std::optional(ListBasis{1e-7})}, trees);
     std::ranges::copy(forces.measuring_passes(physics::start_slot), std::back_inserter(passes));
     return passes;

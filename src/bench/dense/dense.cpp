@@ -196,7 +196,7 @@ class SumsOf {
     Stopwatch listing;
     listing.time([&] { return pair_clusters(one, make_cluster_tree(rest_), accuracy).far.size(); });
     row.list_seconds = listing.seconds();
-    ClusterTrees trees;
+    ClusterTrees trees(1);
     const ClusterForces forces(bodies_, model_, std::vector{std::optional(ListBasis{accuracy})}, trees);
     row.bytes_per_vertex = static_cast<double>(device_.allocated_bytes() - bytes_without_clusters_) / row.vertices;
     const std::vector<Pass> passes = forces.passes(physics::start_slot, false);

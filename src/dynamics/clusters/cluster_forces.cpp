@@ -189,6 +189,16 @@ double ClusterErrors::relative() const {
   return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
+// With half the processors a pool does not keep its threads on some of them.
+unsigned threads_beside_steps(const DeviceInfo& device) {
+  return std::clamp((device.kind == DeviceKind::cpu ? device.threads : thread_count(0)) / 2, 1u, 8u);
+}
+
+ThreadPool& ClusterTrees::pool() {
+  if (!pool_) pool_ = std::make_unique<ThreadPool>(threads_);
+  return *pool_;
+}
+
 std::shared_ptr<const ClusterTree> ClusterTrees::of(const Model& model, std::uint32_t body) {
   trees_.resize(model.bodies.size());
   if (!trees_[body])
@@ -200,9 +210,6 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
                              ClusterTrees& trees)
     : bodies_(&bodies), springs_of_bodies_(model.bodies.size()) {
   PLIANT_EXPECT(bases.size() == model.bodies.size());
-  constexpr unsigned most_threads = 8;  // more would take longer to start
-  const DeviceInfo& device = bodies.arrays.device().info();
-  ThreadPool pool(std::min(device.kind == DeviceKind::cpu ? device.threads : thread_count(0), most_threads));
   Tables tables;
   std::vector<std::vector<std::uint32_t>> samples;
   const auto leaf_count = [&] { return static_cast<std::uint32_t>(tables.leaves.size()); };
@@ -210,7 +217,7 @@ ClusterForces::ClusterForces(DeviceBodies& bodies, const Model& model, std::span
     if (!bases[b]) continue;
     Leaves leaves{
         .body = b, .vertices = model.bodies[b].vertex_count, .first = leaf_count(), .end = 0, .first_sample = 0, .end_sample = 0};
-    const BodyTables added(pool, tables, model, b, *bases[b], trees.of(model, b));
+    const BodyTables added(trees.pool(), tables, model, b, *bases[b], trees.of(model, b));
     springs_of_bodies_[b] = added.spring_count();
     leaves.end = leaf_count();
     leaves_of_bodies_.push_back(leaves);

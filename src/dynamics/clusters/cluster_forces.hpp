@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/thread_pool.hpp"
 #include "device/pass.hpp"
 #include "dynamics/clusters/cluster_tree.hpp"
 #include "dynamics/clusters/force_sums.hpp"
@@ -26,12 +27,19 @@ struct ClusterErrors {
   [[nodiscard]] double relative() const;
 };
 
-/// The trees of a model's bodies. Each is made when it is first asked for.
+/// Returns how many threads of the processor work for steps without making them.
+[[nodiscard]] unsigned threads_beside_steps(const DeviceInfo& device);
+
+/// The trees of a model's bodies, and the threads that list pairs of clusters. Each is made when it is first asked for.
 class ClusterTrees {
  public:
+  explicit ClusterTrees(unsigned threads) : threads_(threads) {}
   [[nodiscard]] std::shared_ptr<const ClusterTree> of(const Model& model, std::uint32_t body);
+  [[nodiscard]] ThreadPool& pool();
 
  private:
+  unsigned threads_;
+  std::unique_ptr<ThreadPool> pool_;
   std::vector<std::shared_ptr<const ClusterTree>> trees_;
 };
 

@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "core/thread_pool.hpp"
 
 namespace pliant {
 namespace {
 
-constexpr std::uint64_t most_near = 1u << 31;  // entries of `near`, which are counted in 32 bits
-constexpr std::size_t enough_meetings = 200;   // to be shared among threads
+constexpr std::uint64_t most_entries = 1u << 28;  // of both lists, for each of which a device keeps 4 bytes or more
+constexpr std::size_t enough_meetings = 200;      // to be shared among threads
 
 // Weighs the error of one node a side against that of four. Measured: gives the least work for the same error.
 double weight_of_one_node(double accuracy) { return accuracy > 3e-7 ? 0.05 : accuracy > 3e-8 ? 0.03 : 0.01; }
@@ -28,8 +31,8 @@ struct Meeting {
 // What becomes of a meeting: others in its place, or else a pair.
 struct Outcome {
   std::array<Meeting, 3> meetings{};
-  std::uint32_t count = 0;  // of meetings
-  std::uint32_t nodes = 0;  // of a pair that is far from each other. 0: all leaves see each other's vertices
+  std::uint32_t meeting_count = 0;
+  std::uint32_t nodes = 0;  // without meetings: of a pair that is far from each other. 0: all leaves see each other's vertices
 };
 
 struct FarPair {
@@ -40,6 +43,7 @@ struct FarPair {
 struct Found {
   std::vector<FarPair> far;
   std::vector<Meeting> near;
+  std::uint64_t entries = 0;  // of both lists that have not been counted yet
 };
 
 class Walk {
@@ -49,18 +53,30 @@ class Walk {
     PLIANT_EXPECT(accuracy > 0 && (shape.empty() || shape.size() == clusters_.size()));
   }
 
-  // Returns what has been found, in an order that does not depend on threads.
-  [[nodiscard]] std::vector<Found> find(ThreadPool& pool) const {
+  // Returns what has been found, in an order that does not depend on threads. Throws Error (input) if that is too much.
+  [[nodiscard]] std::vector<Found> find(ThreadPool& pool) {
     const std::vector<Meeting> meetings = first_meetings();
     std::vector<Found> found(meetings.size());
+    std::atomic<bool> has_memory = true;
     pool.for_ranges(static_cast<std::uint32_t>(meetings.size()), 1, [&](std::uint32_t first, std::uint32_t end) {
-      for (std::uint32_t m = first; m < end; ++m) meet(meetings[m], found[m]);
+      try {
+        for (std::uint32_t m = first; m < end; ++m) {
+          meet(meetings[m], found[m]);
+          count(found[m]);
+        }
+      } catch (const std::bad_alloc&) {
+        has_memory = false;
+      }
     });
+    if (!has_memory) throw std::bad_alloc();
+    if (entries_ > most_entries)
+      throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
+                  "weld them, or take a larger force_tolerance");
     return found;
   }
 
  private:
-  // Returns meetings that cover all vertices.
+  // Returns meetings that cover all pairs of vertices.
   [[nodiscard]] std::vector<Meeting> first_meetings() const {
     std::vector<Meeting> meetings = {{0, 0}};
     for (std::size_t before = 0; before != meetings.size() && meetings.size() < enough_meetings;) {
@@ -68,23 +84,30 @@ class Walk {
       std::vector<Meeting> next;
       for (const Meeting& meeting : meetings) {
         const Outcome outcome = outcome_of(meeting);
-        next.insert(next.end(), outcome.meetings.begin(), outcome.meetings.begin() + outcome.count);
-        if (outcome.count == 0) next.push_back(meeting);
+        next.insert(next.end(), outcome.meetings.begin(), outcome.meetings.begin() + outcome.meeting_count);
+        if (outcome.meeting_count == 0) next.push_back(meeting);
       }
       meetings = std::move(next);
     }
     return meetings;
   }
 
-  void meet(const Meeting& meeting, Found& found) const {
+  void meet(const Meeting& meeting, Found& found) {
+    if (entries_ > most_entries) return;
     const Outcome outcome = outcome_of(meeting);
-    for (std::uint32_t k = 0; k < outcome.count; ++k) meet(outcome.meetings[k], found);
-    if (outcome.count > 0) return;
-    if (outcome.nodes > 0)
+    for (std::uint32_t k = 0; k < outcome.meeting_count; ++k) meet(outcome.meetings[k], found);
+    if (outcome.meeting_count > 0) return;
+    if (outcome.nodes > 0) {
+      found.entries += 2;
       found.far.push_back({meeting, outcome.nodes});
-    else
+    } else {
+      found.entries += (meeting.a == meeting.b ? 1 : 2) * leaf_count(meeting.a) * leaf_count(meeting.b);
       found.near.push_back(meeting);
+    }
+    if (found.entries > 10'000) count(found);
   }
+
+  void count(Found& found) { entries_ += std::exchange(found.entries, 0); }
 
   [[nodiscard]] Outcome outcome_of(const Meeting& meeting) const {
     const auto [a, b] = meeting;
@@ -97,6 +120,10 @@ class Walk {
     if (second.is_leaf() || (!first.is_leaf() && first.rest.radius >= second.rest.radius))
       return {{{{child, b}, {child + 1, b}}}, 2};
     return {{{{a, second.first_child}, {a, second.first_child + 1}}}, 2};
+  }
+
+  [[nodiscard]] std::uint64_t leaf_count(std::uint32_t cluster) const {
+    return clusters_[cluster].end_leaf() - clusters_[cluster].first_leaf();
   }
 
   // Returns the product of both spreads over the distance squared, or nothing if they reach each other.
@@ -127,6 +154,7 @@ class Walk {
   const std::vector<Cluster>& clusters_;
   std::span<const Extent> shape_;
   double accuracy_, weight_of_one_node_;
+  std::atomic<std::uint64_t> entries_ = 0;  // of both lists that have been counted
 };
 
 // Calls `add` with two leaves for each pair of leaves that see each other's vertices, once for each side.
@@ -164,23 +192,10 @@ std::vector<Item> listed_by_owner(std::size_t owners, std::vector<std::uint32_t>
   return items;
 }
 
-void expect_countable(const ClusterTree& tree, const std::vector<Found>& found) {
-  std::uint64_t near_count = 0;
-  for (const Found& part : found)
-    for (const auto& [a, b] : part.near) {
-      const Cluster &first = tree.clusters[a], &second = tree.clusters[b];
-      near_count += 2 * std::uint64_t{first.end_leaf() - first.first_leaf()} * (second.end_leaf() - second.first_leaf());
-    }
-  if (near_count > most_near)
-    throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
-                "weld them, or take a larger force_tolerance");
-}
-
 }  // namespace
 
 ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy, std::span<const Extent> shape) {
   const std::vector<Found> found = Walk(tree, accuracy, shape).find(pool);
-  expect_countable(tree, found);
   ClusterPairs pairs;
   pairs.near = listed_by_owner<std::uint32_t>(tree.leaves.size(), pairs.near_begin,
                                               [&](const auto& add) { for_near_leaves(tree, found, add); });

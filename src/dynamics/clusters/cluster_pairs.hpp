@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "core/thread_pool.hpp"
 #include "dynamics/clusters/cluster_tree.hpp"
 
 namespace pliant {
@@ -27,7 +26,7 @@ struct ClusterPairs {
   std::vector<std::uint32_t> near_begin;  // [leaf + 1] where a leaf's part of `near` begins
   std::vector<std::uint32_t> near;        // leaves whose vertices it sees one by one, itself among them, in ascending order
   std::vector<std::uint32_t> far_begin;   // [cluster + 1] where a cluster's part of `far` begins
-  std::vector<FarCluster> far;            // in the order in which they were found
+  std::vector<FarCluster> far;            // in the order of a walk by one thread
 };
 
 /// How many springs stand for those between all pairs of vertices.

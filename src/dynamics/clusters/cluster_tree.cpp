@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/expect.hpp"
+#include "core/thread_pool.hpp"
 
 namespace pliant {
 namespace {

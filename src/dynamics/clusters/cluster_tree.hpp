@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "core/thread_pool.hpp"
 #include "physics/forces/clusters.glsl"
 
 namespace pliant {
 
+class ThreadPool;
 using physics::leaf_size;
 
 /// Where vertices stand, and how far from each other.

@@ -87,7 +87,7 @@ void fill_with_rubbish(const Arrays& arrays) {
 Sums sums_on(Device& device, const ModelAndState& start, bool only_stale = false) {
   DeviceBodies bodies(device, start.model, start.state);
   const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-  ClusterTrees trees;
+  ClusterTrees trees(2);
   const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
   fill_with_rubbish(bodies.arrays);
   device.run(stepper.first_passes());
@@ -147,7 +147,7 @@ TEST_CASE("errors that a device measures are those of samples beside all springs
       deform(start.state, start.model, d);
       DeviceBodies bodies(*test.device, start.model, start.state);
       const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-      ClusterTrees trees;
+      ClusterTrees trees(2);
       const ClusterForces forces(bodies, start.model, bases, trees);
       fill_with_rubbish(bodies.arrays);
       test.device->run(stepper.first_passes());
@@ -186,7 +186,7 @@ TEST_CASE("springs of clustered bodies are summed again if a stage asks for it, 
     CAPTURE(test.name);
     DeviceBodies bodies(*test.device, start.model, start.state);
     const Stepper stepper(bodies, start.model, find_integrator("verlet"), DampingLaw::none, 1e-3);
-    ClusterTrees trees;
+    ClusterTrees trees(2);
     const ClusterForces forces(bodies, start.model, bases_of(start.model), trees);
     test.device->run(stepper.first_passes());
     const BufferId pulls = bodies.arrays.buffer("leaf_pull");

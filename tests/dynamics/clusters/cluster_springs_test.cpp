@@ -12,6 +12,7 @@
 
 #include "bench/dense/deformations.hpp"
 #include "bench/dense/exact_forces.hpp"
+#include "core/error.hpp"
 #include "mesh/generators.hpp"
 
 namespace pliant {
@@ -122,6 +123,12 @@ TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides l
   }
 }
 
+TEST_CASE("where so many vertices share a place that lists would be too long, that is an error") {
+  ThreadPool pool(2);
+  const ClusterTree tree = make_cluster_tree(Vectors(265'000, glm::dvec3(1.0)));
+  CHECK_THROWS_AS(pair_clusters(pool, tree, 1e-7), Error);
+}
+
 TEST_CASE("pairs of clusters and their order do not depend on the number of threads") {
   const Vectors rest = random_points(3001, {1, 1, 0.3}), displacements = random_points(3001, {0.1, 0.1, 0.1});
   const ClusterTree tree = make_cluster_tree(rest);
@@ -131,7 +138,11 @@ TEST_CASE("pairs of clusters and their order do not depend on the number of thre
   for (const unsigned threads : {2u, 7u}) {
     ThreadPool pool(threads);
     const std::vector<Extent> same_shape = extents_moved_by(pool, tree, rest, displacements);
-    for (std::size_t c = 0; c < shape.size(); ++c) CHECK(same_shape[c].spread_squared == shape[c].spread_squared);
+    for (std::size_t c = 0; c < shape.size(); ++c) {
+      CHECK(same_shape[c].centre == shape[c].centre);
+      CHECK(same_shape[c].radius == shape[c].radius);
+      CHECK(same_shape[c].spread_squared == shape[c].spread_squared);
+    }
     const ClusterPairs pairs = pair_clusters(pool, tree, 1e-7, same_shape);
     CHECK(pairs.near_begin == expected.near_begin);
     CHECK(pairs.near == expected.near);
