@@ -151,21 +151,22 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   const ChangedSums& now = *changed_[body];
   if (now.are_direct || now.changes == (before ? before->changes : 0)) return;  // the energy of all springs may take minutes
   ++report_.lists_made;
-  while (!energy_changes_.empty() && is_ready(energy_changes_.front())) add_energy_change();
-  const DeviceInfo& device = bodies_.arrays.device().info();
   const ModelBody& of = model_.bodies[body];
   const auto tree = stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body));
-  const unsigned threads = std::max(1u, thread_count(device.kind == DeviceKind::cpu ? device.threads : 0) / 2);
-  energy_changes_.push_back(
-      std::async(std::launch::async, [of, tree, threads, before, after = changed_[body], rest = model_.rest_positions_of(of),
-                                      displacements = state.displacements_of(of)] {
-        ThreadPool pool(threads);
-        const auto energy_with = [&](const ChangedSums* sums) {
-          const ListBasis basis = *list_basis_of(of, sums);
-          return of.stiffness * ClusterSprings(tree, rest, basis.accuracy, basis.displacements).energy(pool, displacements);
-        };
-        return std::abs(energy_with(after.get()) - energy_with(before.get()));
-      }));
+  const unsigned threads = threads_beside_steps(bodies_.arrays.device().info());
+  auto summing = [of, tree, threads, before = before, after = changed_[body], rest = model_.rest_positions_of(of),
+                  displacements = state.displacements_of(of)]() mutable {
+    ThreadPool pool(threads);
+    const auto energy_with = [&](const ChangedSums* sums) {
+      const ListBasis basis = *list_basis_of(of, sums);
+      return of.stiffness * ClusterSprings(tree, rest, basis.accuracy, basis.displacements).energy(pool, displacements);
+    };
+    const double change = std::abs(energy_with(after.get()) - energy_with(before.get()));
+    rest = displacements = {};  // nobody may ask for the change for long
+    before = after = nullptr;
+    return change;
+  };
+  energy_changes_.push_back(std::async(std::launch::async, std::move(summing)));
 }
 
 void ClusterWatch::add_energy_change() {
