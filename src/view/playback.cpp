@@ -24,10 +24,18 @@ void Playback::end(double now, double simulated, bool reached_goal) {
   constexpr double longest_behind = 0.1;  // of real time [s]
   ended_ = now;
   const double latest_goal = simulated + longest_behind * pace_.speed;
+  behind_ = reached_goal ? 0 : std::min(goal_, latest_goal) - simulated;
   if (reached_goal || goal_ <= latest_goal) return;
   dropped_ += goal_ - latest_goal;
-  span_.dropped += goal_ - latest_goal;
+  span_.dropped += (goal_ - latest_goal) / pace_.speed;
   goal_ = latest_goal;
+}
+
+void Playback::set_speed(double speed) {
+  const double behind = pace_.speed > 0 ? behind_ * speed / pace_.speed : 0;
+  goal_ += behind - behind_;
+  behind_ = behind;
+  pace_.speed = speed;
 }
 
 void Playback::pause() {
@@ -47,7 +55,7 @@ void Playback::measure(double now) {
   const double seconds = now - span_.began;
   if (seconds < long_enough) return;
   slow_factor_.reset();
-  if (span_.dropped > 0) slow_factor_ = std::max(0.0, pace_.speed - span_.dropped / seconds);
+  if (span_.dropped > 0) slow_factor_ = pace_.speed * std::max(0.0, 1 - span_.dropped / seconds);
   span_ = {now};
 }
 

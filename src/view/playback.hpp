@@ -36,14 +36,15 @@ class Playback {
 
   /// Returns the simulated time that was dropped since the playback was made [s].
   [[nodiscard]] double dropped() const { return dropped_; }
-  /// Returns simulated time over real time. It is the speed, less what was dropped in half a second or more.
+  /// Returns the speed, less the share of time that was dropped in a span of half a second or more.
   [[nodiscard]] double factor() const { return slow_factor_.value_or(pace_.speed); }
   [[nodiscard]] double speed() const { return pace_.speed; }
-  void set_speed(double speed) { pace_.speed = speed; }
+  /// What the simulation is behind stays as much real time as it was.
+  void set_speed(double speed);
 
  private:
   struct Span {                     // stretch of time over which the factor is measured
-    double began = 0, dropped = 0;  // [s]
+    double began = 0, dropped = 0;  // of real time [s]
   };
   void measure(double now);
 
@@ -52,6 +53,7 @@ class Playback {
   bool in_stretch_ = false;                  // false: the next picture is the first since the start, a pause or a restart
   double began_ = 0, ended_ = 0, goal_ = 0;  // of this picture's steps [s]
   double budget_ = 0;                        // in this picture [s]
+  double behind_ = 0;                        // at the end of the latest picture's steps [s]
   double dropped_ = 0;                       // in all pictures [s]
   Span span_;
   std::optional<double> slow_factor_;
