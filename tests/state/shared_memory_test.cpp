@@ -17,6 +17,7 @@
 #include "state/arrays.hpp"
 #include "support/collision_scene.hpp"
 #include "support/device_bench.hpp"
+#include "support/full_device.hpp"
 #include "support/has.hpp"
 #include "support/shared_phases.hpp"
 
@@ -107,6 +108,17 @@ TEST_CASE("shared memory is as large as the phase that needs the most") {
     }
     CHECK(device->allocated_bytes() == most);
   }
+}
+
+TEST_CASE("where memory can't grow, arrays that share it keep their places") {
+  test::FullDevice device(make_cpu_device(1, 32));
+  Arrays arrays(device);
+  auto& way = arrays.make<double>("way", 3000);
+  device.refuse_beyond(3000 * sizeof(double));
+  CHECK_THROWS_AS(arrays.make<double>("way", 6000), Error);
+  way.upload(std::vector(3000, 1.5));
+  CHECK_THROWS_AS(arrays.make<std::uint32_t>("cut", 1000), Error);  // both are needed at once, and there is no room
+  CHECK(way.download() == std::vector(3000, 1.5));
 }
 
 TEST_CASE("arrays that share memory take none beside each other's") {
