@@ -54,10 +54,10 @@ struct Summary {
   };
   std::vector<Script> scripts;  // of scripted bodies
   struct Clusters {
-    double largest_error = 0;         // of forces, relative, that a check found
-    std::uint64_t lists_made = 0;     // beside those for the rest shape
-    double energy_change = 0;         // that came with them [J]
-    std::vector<std::string> direct;  // bodies that went over to direct sums
+    std::optional<double> largest_error;  // of forces, relative, that a check found; empty: there was none
+    std::uint64_t lists_made = 0;         // beside those for the rest shape
+    double energy_change = 0;             // that came with them [J]
+    std::vector<std::string> direct;      // bodies that went over to direct sums
   };
   std::optional<Clusters> clusters;                       // empty: no body is clustered
   std::uint64_t bodies_asleep = 0;                        // at the end

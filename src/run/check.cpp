@@ -72,8 +72,9 @@ std::string time_of_steps(const Estimate& estimate) {
 std::string sums_of(const ModelBody& body) {
   constexpr std::uint32_t dense = 10'000;  // vertices, from where on clusters take a third of the time or less
   if (body.is_clustered) return fmt::format(", springs by clusters to {:.3g}", force_tolerance_of(body));
-  const bool may_be_clustered = !body.is_rigid() && body.forces == ForceSum::automatic && !body.force_tolerance;
-  if (!may_be_clustered || body.vertex_count < dense) return "";
+  if (body.is_rigid() || body.forces != ForceSum::automatic) return "";
+  if (body.force_tolerance) return ", springs one by one: too few vertices for its force_tolerance";
+  if (body.vertex_count < dense) return "";
   const double vertices = body.vertex_count;
   return fmt::format(", {:.0f} million springs, which force_tolerance = 1e-3 would sum by clusters",
                      1e-6 * vertices * (vertices - 1) / 2);

@@ -75,7 +75,7 @@ std::string length_of_steps(const TimePlan& plan, const StepReport& report) {
 }
 
 std::string told_checks(const ClusterReport& clusters) {
-  if (clusters.checks == 0) return "forces of clustered bodies were never checked: none was deformed when a check was due";
+  if (clusters.checks == 0) return "forces of clustered bodies were never checked: no check was due while one was deformed";
   const std::string lists = clusters.lists_made == 0   ? ""
                             : clusters.lists_made == 1 ? "; clusters were listed anew once"
                                                        : fmt::format("; clusters were listed anew {} times", clusters.lists_made);
@@ -223,7 +223,8 @@ Summary summary_of(const RunStatus& status) {
   for (const ScriptReport& script : report.response.scripts)
     s.scripts.push_back({run.start.model.bodies[script.body].name, script.time, script.waited, script.waits});
   if (const auto& clusters = report.clusters) {
-    s.clusters = {clusters->largest_error, clusters->lists_made, run.simulation->energy_changed_by_lists(), {}};
+    s.clusters = {{}, clusters->lists_made, run.simulation->energy_changed_by_lists(), {}};
+    if (clusters->checks > 0) s.clusters->largest_error = clusters->largest_error;
     for (const std::uint32_t body : clusters->direct) s.clusters->direct.push_back(run.start.model.bodies[body].name);
   }
   s.energy.slept = report.energy_slept;

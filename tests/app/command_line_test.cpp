@@ -111,13 +111,16 @@ TEST_CASE("a check tells bodies in rows together, and those that differ apart") 
   std::ofstream(scene) << "[[body]]\nname = \"a\"\nmesh = \"icosphere:1\"\nposition = [0, 9, 0]\n"
                           "[[body]]\nname = \"b\"\nmesh = \"icosphere:1\"\ncount = [1, 1, 50]\nspacing = [0, 0, 3]\n"
                           "\"[0,0,48]\" = { mesh = \"cube:1\" }\n"
-                          "[[body]]\nname = \"c\"\nmesh = \"icosphere:1\"\nposition = [0, 18, 0]\nforces = \"clustered\"\n";
+                          "[[body]]\nname = \"c\"\nmesh = \"icosphere:1\"\nposition = [0, 18, 0]\nforces = \"clustered\"\n"
+                          "[[body]]\nname = \"d\"\nmesh = \"icosphere:1\"\nposition = [0, 27, 0]\nforce_tolerance = 1e-3\n";
   const ProgramResult result = run_program("run " + scene.string() + " --device cpu --check");
   CHECK_THAT(result.output, Catch::Contains("body:             a (42 vertices, 80 triangles)\n"
                                             "bodies:           48, b[0,0,0] to b[0,0,47] (42 vertices, 80 triangles each)\n"
                                             "body:             b[0,0,48] (8 vertices, 12 triangles)\n"
                                             "body:             b[0,0,49] (42 vertices, 80 triangles)\n"
-                                            "body:             c (42 vertices, 80 triangles, springs by clusters to 0.001)\n"));
+                                            "body:             c (42 vertices, 80 triangles, springs by clusters to 0.001)\n"
+                                            "body:             d (42 vertices, 80 triangles, springs one by one: too few "
+                                            "vertices for its force_tolerance)\n"));
 }
 
 // Steps of this scene would take longer than ctest's limit.

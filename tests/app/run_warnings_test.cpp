@@ -52,7 +52,7 @@ forces = "clustered"
 stretch = [0.1, 0.1, 0.1]
 )";
   const auto told_by = [&](const char* time_step) {
-    const std::string out = (folder.path / time_step).string();
+    const std::string out = (folder.path / "out").string();
     const ProgramResult result =
         run_program("run " + (folder.path / "ball.toml").string() + " --device cpu --time-step " + time_step + " --out " + out);
     CHECK(result.exit_code == 0);
@@ -61,6 +61,8 @@ stretch = [0.1, 0.1, 0.1]
   CHECK_THAT(told_by("0.01"), Catch::Contains("times its force_tolerance at a check") &&
                                   Catch::Contains("lists of clusters that were made anew have changed it"));
   CHECK_THAT(told_by("0.04"), Catch::Contains("went over to sums of all its springs"));
+  CHECK_THAT(told_by("0.04 --steps 0"), Catch::Contains("were never checked"));
+  CHECK(summary_in(folder.path / "out")["clusters"]["largest_error"].is_null());
 }
 
 struct Energies {
