@@ -189,7 +189,7 @@ double ClusterErrors::relative() const {
   return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
-// With half the processors a pool does not keep its threads on some of them.
+// Steps that go on meanwhile have the others.
 unsigned threads_beside_steps(const DeviceInfo& device) {
   return std::clamp((device.kind == DeviceKind::cpu ? device.threads : thread_count(0)) / 2, 1u, 8u);
 }

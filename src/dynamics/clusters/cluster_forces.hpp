@@ -27,7 +27,7 @@ struct ClusterErrors {
   [[nodiscard]] double relative() const;
 };
 
-/// Returns how many threads of the processor work for steps without making them.
+/// Returns how many threads make lists of clusters, or sum the energies of some.
 [[nodiscard]] unsigned threads_beside_steps(const DeviceInfo& device);
 
 /// The trees of a model's bodies, and the threads that list pairs of clusters. Each is made when it is first asked for.

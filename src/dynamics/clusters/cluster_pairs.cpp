@@ -17,8 +17,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::uint64_t most_entries = 1u << 28;  // of both lists, for each of which a device keeps 4 bytes or more
-constexpr std::size_t enough_meetings = 200;      // to be shared among threads
+constexpr std::size_t enough_meetings = 200;  // to be shared among threads
 
 // Weighs the error of one node a side against that of four. Measured: gives the least work for the same error.
 double weight_of_one_node(double accuracy) { return accuracy > 3e-7 ? 0.05 : accuracy > 3e-8 ? 0.03 : 0.01; }
@@ -48,8 +47,12 @@ struct Found {
 
 class Walk {
  public:
-  Walk(const ClusterTree& tree, double accuracy, std::span<const Extent> shape)
-      : clusters_(tree.clusters), shape_(shape), accuracy_(accuracy), weight_of_one_node_(weight_of_one_node(accuracy)) {
+  Walk(const ClusterTree& tree, double accuracy, std::span<const Extent> shape, std::uint64_t most_entries)
+      : clusters_(tree.clusters),
+        shape_(shape),
+        accuracy_(accuracy),
+        weight_of_one_node_(weight_of_one_node(accuracy)),
+        most_entries_(most_entries) {
     PLIANT_EXPECT(accuracy > 0 && (shape.empty() || shape.size() == clusters_.size()));
   }
 
@@ -57,7 +60,6 @@ class Walk {
   [[nodiscard]] std::vector<Found> find(ThreadPool& pool) {
     const std::vector<Meeting> meetings = first_meetings();
     std::vector<Found> found(meetings.size());
-    std::atomic<bool> has_memory = true;
     pool.for_ranges(static_cast<std::uint32_t>(meetings.size()), 1, [&](std::uint32_t first, std::uint32_t end) {
       try {
         for (std::uint32_t m = first; m < end; ++m) {
@@ -65,11 +67,10 @@ class Walk {
           count(found[m]);
         }
       } catch (const std::bad_alloc&) {
-        has_memory = false;
+        entries_ += most_entries_ + 1;
       }
     });
-    if (!has_memory) throw std::bad_alloc();
-    if (entries_ > most_entries)
+    if (entries_ > most_entries_)
       throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
                   "weld them, or take a larger force_tolerance");
     return found;
@@ -93,7 +94,7 @@ class Walk {
   }
 
   void meet(const Meeting& meeting, Found& found) {
-    if (entries_ > most_entries) return;
+    if (entries_ > most_entries_) return;
     const Outcome outcome = outcome_of(meeting);
     for (std::uint32_t k = 0; k < outcome.meeting_count; ++k) meet(outcome.meetings[k], found);
     if (outcome.meeting_count > 0) return;
@@ -104,7 +105,7 @@ class Walk {
       found.entries += (meeting.a == meeting.b ? 1 : 2) * leaf_count(meeting.a) * leaf_count(meeting.b);
       found.near.push_back(meeting);
     }
-    if (found.entries > 10'000) count(found);
+    if (found.entries > 1000) count(found);
   }
 
   void count(Found& found) { entries_ += std::exchange(found.entries, 0); }
@@ -154,6 +155,7 @@ class Walk {
   const std::vector<Cluster>& clusters_;
   std::span<const Extent> shape_;
   double accuracy_, weight_of_one_node_;
+  std::uint64_t most_entries_;
   std::atomic<std::uint64_t> entries_ = 0;  // of both lists that have been counted
 };
 
@@ -194,8 +196,9 @@ std::vector<Item> listed_by_owner(std::size_t owners, std::vector<std::uint32_t>
 
 }  // namespace
 
-ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy, std::span<const Extent> shape) {
-  const std::vector<Found> found = Walk(tree, accuracy, shape).find(pool);
+ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy, std::span<const Extent> shape,
+                           std::uint64_t most_entries) {
+  const std::vector<Found> found = Walk(tree, accuracy, shape, most_entries).find(pool);
   ClusterPairs pairs;
   pairs.near = listed_by_owner<std::uint32_t>(tree.leaves.size(), pairs.near_begin,
                                               [&](const auto& add) { for_near_leaves(tree, found, add); });

@@ -37,11 +37,14 @@ struct SpringCounts {
   [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
 };
 
+/// For each entry of both lists a device keeps 4 bytes or more.
+inline constexpr std::uint64_t most_list_entries = 1u << 28;
+
 /// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. With `shape`, clusters are far from each other
 /// only if they are in that shape, too. It has the extent of each cluster there. Throws Error (input) if so many vertices share a
-/// place that lists would get too long.
+/// place that both lists would have more entries than that, or that memory runs out.
 [[nodiscard]] ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy,
-                                         std::span<const Extent> shape = {});
+                                         std::span<const Extent> shape = {}, std::uint64_t most_entries = most_list_entries);
 
 [[nodiscard]] SpringCounts count_springs(const ClusterTree& tree, const ClusterPairs& pairs);
 
