@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <system_error>
 #include <utility>
 
 #include "core/bytes.hpp"
@@ -20,7 +22,8 @@ namespace {
 constexpr std::string_view measured[] = {"control", "status", "leaf_square"};
 constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
-constexpr double most_strained = 2;           // error over the tolerance up to which lists still beat direct sums
+constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // which is told, and must not end a run
+constexpr double most_strained = 2;  // error over the tolerance up to which lists still beat direct sums
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -156,17 +159,24 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   const unsigned threads = threads_beside_steps(bodies_.arrays.device().info());
   auto summing = [of, tree, threads, before = before, after = changed_[body], rest = model_.rest_positions_of(of),
                   displacements = state.displacements_of(of)]() mutable {
-    ThreadPool pool(threads);
-    const auto energy_with = [&](const ChangedSums* sums) {
-      const ListBasis basis = *list_basis_of(of, sums);
-      return of.stiffness * ClusterSprings(tree, rest, basis.accuracy, basis.displacements).energy(pool, displacements);
-    };
-    const double change = std::abs(energy_with(after.get()) - energy_with(before.get()));
-    rest = displacements = {};  // nobody may ask for the change for long
-    before = after = nullptr;
-    return change;
+    const auto old_sums = std::move(before), new_sums = std::move(after);  // so that they go, though nobody may ask for long
+    const std::vector<glm::dvec3> at_rest = std::move(rest), moved = std::move(displacements);
+    try {
+      ThreadPool pool(threads);
+      const auto energy_with = [&](const ChangedSums* sums) {
+        const ListBasis basis = *list_basis_of(of, sums);
+        return of.stiffness * ClusterSprings(tree, at_rest, basis.accuracy, basis.displacements).energy(pool, moved);
+      };
+      return std::abs(energy_with(new_sums.get()) - energy_with(old_sums.get()));
+    } catch (const std::exception&) {  // too little memory, or too few threads
+      return unknown_energy;
+    }
   };
-  energy_changes_.push_back(std::async(std::launch::async, std::move(summing)));
+  try {
+    energy_changes_.push_back(std::async(std::launch::async, std::move(summing)));
+  } catch (const std::system_error&) {
+    energy_change_ = unknown_energy;
+  }
 }
 
 void ClusterWatch::add_energy_change() {

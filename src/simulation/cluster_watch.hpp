@@ -50,7 +50,7 @@ class ClusterWatch {
   bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
   [[nodiscard]] ClusterReport report() const;
   /// Returns by how much other lists have changed the elastic energy: the sum of sizes. Direct sums do not count [J]. That is
-  /// found out while steps go on, and this waits for it.
+  /// found out while steps go on, and this waits for it. Returns NaN if there was no memory or thread for that.
   [[nodiscard]] double energy_change();
   /// Whether energy_change() and save() would not wait.
   [[nodiscard]] bool knows_energy_change() const;
