@@ -86,9 +86,9 @@ class Device {
   /// Returns the bits of the forces' `real`: 32 or 64. Anything else is the same in both.
   [[nodiscard]] virtual int precision() const = 0;
 
-  /// Throws Error (device) if there is no room.
+  /// Throws Error (device) if a GPU has no room, or std::bad_alloc.
   [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label, Content content) = 0;
-  /// Gives a buffer more bytes. It may hold anything then. Throws Error (device) if there is no room: the buffer keeps its size.
+  /// Gives a buffer more bytes. It may hold anything then. Throws as allocate() does, and the buffer keeps its size.
   virtual void enlarge(BufferId buffer, std::size_t bytes) = 0;
   /// Returns some bytes of a buffer, or of such a part, as a buffer of its own. The whole buffer must outlive it.
   [[nodiscard]] virtual BufferId part_of(BufferId buffer, std::size_t first_byte, std::size_t bytes) = 0;
