@@ -94,7 +94,7 @@ std::size_t Stepper::most_drags(const Integrator& integrator) {
 Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& integrator, DampingLaw law, double time_step,
                  Stages stages)
     : bodies_(bodies),
-      cluster_trees_(threads_beside_steps(bodies.arrays.device().info())),
+      cluster_trees_(list_threads(bodies.arrays.device().info())),
       added_forces_(bodies, model),
       internal_damping_(bodies, model, law),
       integrator_(integrator),

@@ -156,7 +156,7 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   ++report_.lists_made;
   const ModelBody& of = model_.bodies[body];
   const auto tree = stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body));
-  const unsigned threads = threads_beside_steps(bodies_.arrays.device().info());
+  const unsigned threads = list_threads(bodies_.arrays.device().info());
   auto summing = [of, tree, threads, before = before, after = changed_[body], rest = model_.rest_positions_of(of),
                   displacements = state.displacements_of(of)]() mutable {
     const auto old_sums = std::move(before), new_sums = std::move(after);  // so that they go, though nobody may ask for long

@@ -189,8 +189,8 @@ double ClusterErrors::relative() const {
   return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
-// Steps that go on meanwhile have the others.
-unsigned threads_beside_steps(const DeviceInfo& device) {
+// Steps that go on while energies are summed have the others.
+unsigned list_threads(const DeviceInfo& device) {
   return std::clamp((device.kind == DeviceKind::cpu ? device.threads : thread_count(0)) / 2, 1u, 8u);
 }
 

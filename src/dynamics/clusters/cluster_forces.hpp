@@ -28,7 +28,7 @@ struct ClusterErrors {
 };
 
 /// Returns how many threads make lists of clusters, or sum the energies of some.
-[[nodiscard]] unsigned threads_beside_steps(const DeviceInfo& device);
+[[nodiscard]] unsigned list_threads(const DeviceInfo& device);
 
 /// The trees of a model's bodies, and the threads that list pairs of clusters. Each is made when it is first asked for.
 class ClusterTrees {
