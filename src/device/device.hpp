@@ -86,7 +86,7 @@ class Device {
   /// Returns the bits of the forces' `real`: 32 or 64. Anything else is the same in both.
   [[nodiscard]] virtual int precision() const = 0;
 
-  /// Throws Error (device) if a GPU has no room, or std::bad_alloc.
+  /// Throws Error (device) if a GPU has no room, and std::bad_alloc if the processor has none.
   [[nodiscard]] virtual BufferId allocate(std::size_t bytes, std::string_view label, Content content) = 0;
   /// Gives a buffer more bytes. It may hold anything then. Throws as allocate() does, and the buffer keeps its size.
   virtual void enlarge(BufferId buffer, std::size_t bytes) = 0;

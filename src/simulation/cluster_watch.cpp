@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -22,8 +23,9 @@ namespace {
 constexpr std::string_view measured[] = {"control", "status", "leaf_square"};
 constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
-constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // which is told, and must not end a run
-constexpr double most_strained = 2;  // error over the tolerance up to which lists still beat direct sums
+constexpr double unknown_energy =
+    std::numeric_limits<double>::quiet_NaN();  // stands for one that there was no memory or thread to sum
+constexpr double most_strained = 2;            // error over the tolerance up to which lists still beat direct sums
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -50,6 +52,23 @@ bool sums_springs(const physics::Status& status) {
 }
 
 }  // namespace
+
+double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree, unsigned threads,
+                        std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
+                        std::vector<glm::dvec3> rest, std::vector<glm::dvec3> displacements) {
+  try {
+    ThreadPool pool(threads);
+    const auto energy_with = [&](const std::shared_ptr<const ChangedSums>& sums) {
+      const ListBasis basis = *list_basis_of(body, sums.get());
+      return body.stiffness * ClusterSprings(tree, rest, basis.accuracy, basis.displacements).energy(pool, displacements);
+    };
+    return std::abs(energy_with(after) - energy_with(before));
+  } catch (const std::bad_alloc&) {
+    return unknown_energy;
+  } catch (const Error&) {  // too few threads
+    return unknown_energy;
+  }
+}
 
 ClusterWatch::ClusterWatch(DeviceBodies& bodies, const Model& model, Stepper& stepper, std::optional<double> time_step)
     : bodies_(bodies),
@@ -119,9 +138,12 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
     lists.accuracy = accuracy;
     try {
       change(body, std::make_shared<const ChangedSums>(lists));
-    } catch (const Error& problem) {  // so many vertices have come together that lists would be too long, or the device is full
+    } catch (const std::bad_alloc&) {
+      has_room = false;
+      break;
+    } catch (const Error& problem) {
       if (problem.kind() != ErrorKind::input && problem.kind() != ErrorKind::device) throw;
-      has_room = problem.kind() == ErrorKind::input;
+      has_room = problem.kind() == ErrorKind::input;  // so many vertices have come together that lists would be too long
       break;
     }
     all_tried.push_back({changed_[body], measure()[body].value_or(0)});
@@ -155,25 +177,13 @@ void ClusterWatch::note_lists(std::size_t body, const State& state, const std::s
   if (now.are_direct || now.changes == (before ? before->changes : 0)) return;  // the energy of all springs may take minutes
   ++report_.lists_made;
   const ModelBody& of = model_.bodies[body];
-  const auto tree = stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body));
-  const unsigned threads = list_threads(bodies_.arrays.device().info());
-  auto summing = [of, tree, threads, before = before, after = changed_[body], rest = model_.rest_positions_of(of),
-                  displacements = state.displacements_of(of)]() mutable {
-    const auto old_sums = std::move(before), new_sums = std::move(after);  // so that they go, though nobody may ask for long
-    const std::vector<glm::dvec3> at_rest = std::move(rest), moved = std::move(displacements);
-    try {
-      ThreadPool pool(threads);
-      const auto energy_with = [&](const ChangedSums* sums) {
-        const ListBasis basis = *list_basis_of(of, sums);
-        return of.stiffness * ClusterSprings(tree, at_rest, basis.accuracy, basis.displacements).energy(pool, moved);
-      };
-      return std::abs(energy_with(new_sums.get()) - energy_with(old_sums.get()));
-    } catch (const std::exception&) {  // too little memory, or too few threads
-      return unknown_energy;
-    }
-  };
   try {
-    energy_changes_.push_back(std::async(std::launch::async, std::move(summing)));
+    energy_changes_.push_back(std::async(std::launch::async, energy_change_of, of,
+                                         stepper_.cluster_trees().of(model_, static_cast<std::uint32_t>(body)),
+                                         list_threads(bodies_.arrays.device().info()), before, changed_[body],
+                                         model_.rest_positions_of(of), state.displacements_of(of)));
+  } catch (const std::bad_alloc&) {
+    energy_change_ = unknown_energy;
   } catch (const std::system_error&) {
     energy_change_ = unknown_energy;
   }

@@ -28,6 +28,13 @@ struct ClusterReport {
   bool operator==(const ClusterReport&) const = default;
 };
 
+/// Returns by how much other lists change the elastic energy of a body with these displacements [J]. The tree is of its positions
+/// at rest [m]. Returns NaN if there is no memory or thread to sum energies. It frees what it is given, because the future of a
+/// call may wait for long.
+[[nodiscard]] double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree, unsigned threads,
+                                      std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
+                                      std::vector<glm::dvec3> rest, std::vector<glm::dvec3> displacements);
+
 class ClusterWatch {
  public:
   /// All must outlive the watch. It checks each half period of the fastest vibration by steps of this length [s], or after each
@@ -50,7 +57,8 @@ class ClusterWatch {
   bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
   [[nodiscard]] ClusterReport report() const;
   /// Returns by how much other lists have changed the elastic energy: the sum of sizes. Direct sums do not count [J]. That is
-  /// found out while steps go on, and this waits for it. Returns NaN if there was no memory or thread for that.
+  /// found out while steps go on, on list_threads() threads for each change, and this waits for it. Returns NaN if there was no
+  /// memory or thread for that.
   [[nodiscard]] double energy_change();
   /// Whether energy_change() and save() would not wait.
   [[nodiscard]] bool knows_energy_change() const;

@@ -131,8 +131,8 @@ class Simulation {
   /// Puts the state into one whose memory is used again.
   void read_state(State& into);
   [[nodiscard]] std::vector<glm::vec4> world_positions();
-  /// Returns by how much lists of clusters that were made anew have changed elastic energies: the sum of sizes [J]. Waits until
-  /// that is known.
+  /// Returns by how much lists of clusters that were made anew have changed elastic energies: the sum of sizes [J], or NaN if
+  /// there was no memory or thread to sum them. Waits until that is known.
   [[nodiscard]] double energy_changed_by_lists() { return watch_ ? watch_->energy_change() : 0; }
   /// Returns as bytes everything that the next steps and reports depend on. Waits for the queued steps, and for
   /// energy_changed_by_lists().

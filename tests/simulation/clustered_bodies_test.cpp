@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <utility>
 
 #include "bench/dense/deformations.hpp"
 #include "bench/dense/exact_forces.hpp"
@@ -10,10 +12,12 @@
 #include "dynamics/clusters/cluster_springs.hpp"
 #include "dynamics/clusters/force_sums.hpp"
 #include "mesh/generators.hpp"
+#include "simulation/cluster_watch.hpp"
 #include "support/device_bench.hpp"
 #include "support/evolve.hpp"
 #include "support/full_device.hpp"
 #include "support/impulse_scene.hpp"
+#include "support/no_more_memory.hpp"
 
 namespace pliant {
 namespace {
@@ -238,6 +242,29 @@ TEST_CASE("a state from before lists changed is gone back to, with the same bits
   CHECK(simulation.state().motion == motion);
 }
 
+TEST_CASE("other lists change a body's energy by what the energies by both say, or nobody knows by how much if memory runs out") {
+  const ModelAndState start = clustered(deformed_sphere(4, "dent"));
+  const ModelBody& body = start.model.bodies[0];
+  const std::vector<glm::dvec3> rest = rest_of(start.model), moved = displacements_of(start.state);
+  const double accuracy = accuracy_of(allowed_error);
+  const auto finer = std::make_shared<const ChangedSums>(ChangedSums{.accuracy = 0.1 * accuracy, .displacements = moved});
+  const auto tree_of = [](const std::vector<glm::dvec3>& points) {
+    return std::make_shared<const ClusterTree>(make_cluster_tree(points));
+  };
+  ThreadPool pool(1);
+  const double before = ClusterSprings(rest, accuracy).energy(pool, moved);
+  const double after = ClusterSprings(rest, 0.1 * accuracy, moved).energy(pool, moved);
+  const double change = energy_change_of(body, tree_of(rest), 1, nullptr, finer, rest, moved);
+  CHECK(change > 0);
+  CHECK(change == Approx(body.stiffness * std::abs(after - before)).epsilon(1e-6));
+#ifdef PLIANT_CAN_RUN_OUT_OF_MEMORY
+  std::vector<glm::dvec3> in_one_place(1u << 18, glm::dvec3(1.0)), unmoved(in_one_place.size());
+  const auto tree = tree_of(in_one_place);
+  const test::NoMoreMemory tight;
+  CHECK(std::isnan(energy_change_of(body, tree, 1, nullptr, nullptr, std::move(in_one_place), std::move(unmoved))));
+#endif
+}
+
 TEST_CASE("energies of a body that goes over to all springs and comes back are those of the way it is summed") {
   ThreadPool pool(2);
   const ModelAndState start = clustered(deformed_sphere(2, "smooth 0.01"));
@@ -345,15 +372,17 @@ TEST_CASE("a body whose vertices scatter too much goes over to all springs, and 
 TEST_CASE("a body goes over to all springs where a device has no room for other lists, and then moves as one that had them") {
   const ModelAndState start = clustered(deformed_sphere(4, "flat"));
   const Method method{"verlet", 0.1 / omega};
-  test::FullDevice device(make_cpu_device(2, 64));
-  Simulation simulation(device, start.model, start.state, plan_of(method), no_contacts);
-  device.refuse_beyond(3 * sizeof(double) * start.model.vertex_count());  // enough for all springs
-  simulation.advance(10);
-  REQUIRE(simulation.report().clusters->direct == std::vector<std::uint32_t>{0});
-  CHECK(simulation.report().clusters->lists_made == 0);
   const std::vector<glm::dvec3> direct =
       displacements_of(evolve(*make_cpu_device(2, 64), deformed_sphere(4, "flat"), method, 10));
-  CHECK(distance(displacements_of(simulation.state()), direct) < 1e-12 * size_of(direct));
+  for (const DeviceKind kind : {DeviceKind::cpu, DeviceKind::gpu}) {
+    test::FullDevice device(make_cpu_device(2, 64));
+    Simulation simulation(device, start.model, start.state, plan_of(method), no_contacts);
+    device.refuse_beyond(3 * sizeof(double) * start.model.vertex_count(), kind);  // enough for all springs
+    simulation.advance(10);
+    REQUIRE(simulation.report().clusters->direct == std::vector<std::uint32_t>{0});
+    CHECK(simulation.report().clusters->lists_made == 0);
+    CHECK(distance(displacements_of(simulation.state()), direct) < 1e-12 * size_of(direct));
+  }
 }
 
 TEST_CASE("lists that miss the tolerance by little stay if others do no better") {

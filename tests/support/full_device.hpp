@@ -2,6 +2,7 @@
 #pragma once
 #include <limits>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "core/error.hpp"
@@ -13,8 +14,11 @@ namespace pliant::test {
 class FullDevice : public Device {
  public:
   explicit FullDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
-  /// From here on no buffer can be larger.
-  void refuse_beyond(std::size_t bytes) { most_bytes_ = bytes; }
+  /// From here on no buffer can be larger. To ask for one is the error that it is on a device of that kind.
+  void refuse_beyond(std::size_t bytes, DeviceKind kind = DeviceKind::gpu) {
+    most_bytes_ = bytes;
+    kind_ = kind;
+  }
 
   const DeviceInfo& info() const override { return inner_->info(); }
   int precision() const override { return inner_->precision(); }
@@ -55,11 +59,14 @@ class FullDevice : public Device {
 
  private:
   void expect_room(std::size_t bytes) const {
-    if (bytes > most_bytes_) throw Error(ErrorKind::device, "", "no room is left", "");
+    if (bytes <= most_bytes_) return;
+    if (kind_ == DeviceKind::cpu) throw std::bad_alloc();
+    throw Error(ErrorKind::device, "", "no room is left", "");
   }
 
   std::unique_ptr<Device> inner_;
   std::size_t most_bytes_ = std::numeric_limits<std::size_t>::max();
+  DeviceKind kind_ = DeviceKind::gpu;
 };
 
 }  // namespace pliant::test

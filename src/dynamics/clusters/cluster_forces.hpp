@@ -27,7 +27,7 @@ struct ClusterErrors {
   [[nodiscard]] double relative() const;
 };
 
-/// Returns how many threads make lists of clusters, or sum the energies of some.
+/// Returns how many threads make lists of clusters. As many sum a body's energies after a change of lists.
 [[nodiscard]] unsigned list_threads(const DeviceInfo& device);
 
 /// The trees of a model's bodies, and the threads that list pairs of clusters. Each is made when it is first asked for.
@@ -46,7 +46,7 @@ class ClusterTrees {
 class ClusterForces {
  public:
   /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this. Throws Error (input) if lists
-  /// would be too long, before it makes any.
+  /// would be too long, before it makes any, Error (device) if a GPU has no room, and std::bad_alloc if the processor has none.
   ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases, ClusterTrees& trees);
 
   /// Returns passes that set `spring_sum` at the placements in a slot, for clustered bodies that move and are deformed. With

@@ -17,7 +17,8 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t enough_meetings = 200;  // to be shared among threads
+constexpr std::size_t enough_meetings = 200;            // to be shared among threads
+constexpr std::uint64_t entries_between_counts = 1000;  // of a thread. All stop at the limit, so that they overrun it by little
 
 // Weighs the error of one node a side against that of four. Measured: gives the least work for the same error.
 double weight_of_one_node(double accuracy) { return accuracy > 3e-7 ? 0.05 : accuracy > 3e-8 ? 0.03 : 0.01; }
@@ -56,7 +57,7 @@ class Walk {
     PLIANT_EXPECT(accuracy > 0 && (shape.empty() || shape.size() == clusters_.size()));
   }
 
-  // Returns what has been found, in an order that does not depend on threads. Throws Error (input) if that is too much.
+  // Returns what has been found, in an order that does not depend on threads. Throws as pair_clusters() does.
   [[nodiscard]] std::vector<Found> find(ThreadPool& pool) {
     const std::vector<Meeting> meetings = first_meetings();
     std::vector<Found> found(meetings.size());
@@ -66,10 +67,11 @@ class Walk {
           meet(meetings[m], found[m]);
           count(found[m]);
         }
-      } catch (const std::bad_alloc&) {
-        entries_ += most_entries_ + 1;
+      } catch (const std::bad_alloc&) {  // a pool's loop must not throw
+        lacks_memory_ = true;
       }
     });
+    if (lacks_memory_) throw std::bad_alloc();
     if (entries_ > most_entries_)
       throw Error(ErrorKind::input, "", "too many vertices are near each other for lists of clusters",
                   "weld them, or take a larger force_tolerance");
@@ -94,7 +96,7 @@ class Walk {
   }
 
   void meet(const Meeting& meeting, Found& found) {
-    if (entries_ > most_entries_) return;
+    if (entries_ > most_entries_ || lacks_memory_) return;
     const Outcome outcome = outcome_of(meeting);
     for (std::uint32_t k = 0; k < outcome.meeting_count; ++k) meet(outcome.meetings[k], found);
     if (outcome.meeting_count > 0) return;
@@ -105,7 +107,7 @@ class Walk {
       found.entries += (meeting.a == meeting.b ? 1 : 2) * leaf_count(meeting.a) * leaf_count(meeting.b);
       found.near.push_back(meeting);
     }
-    if (found.entries > 1000) count(found);
+    if (found.entries >= entries_between_counts) count(found);
   }
 
   void count(Found& found) { entries_ += std::exchange(found.entries, 0); }
@@ -157,6 +159,7 @@ class Walk {
   double accuracy_, weight_of_one_node_;
   std::uint64_t most_entries_;
   std::atomic<std::uint64_t> entries_ = 0;  // of both lists that have been counted
+  std::atomic<bool> lacks_memory_ = false;
 };
 
 // Calls `add` with two leaves for each pair of leaves that see each other's vertices, once for each side.

@@ -37,12 +37,12 @@ struct SpringCounts {
   [[nodiscard]] std::uint64_t all() const { return near + far + between_nodes; }
 };
 
-/// For each entry of both lists a device keeps 4 bytes or more.
+/// The most entries that both lists of a body have together. A device keeps 4 bytes or more for each.
 inline constexpr std::uint64_t most_list_entries = 1u << 28;
 
 /// A smaller `accuracy` (tau) makes more pairs near. Expects it to be positive. With `shape`, clusters are far from each other
-/// only if they are in that shape, too. It has the extent of each cluster there. Throws Error (input) if so many vertices share a
-/// place that both lists would have more entries than that, or that memory runs out.
+/// only if they are in that shape, too. It has the extent of each cluster there. Throws Error (input) if so many vertices are
+/// near each other that both lists would have more than `most_entries`, and std::bad_alloc if memory runs out before.
 [[nodiscard]] ClusterPairs pair_clusters(ThreadPool& pool, const ClusterTree& tree, double accuracy,
                                          std::span<const Extent> shape = {}, std::uint64_t most_entries = most_list_entries);
 

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <new>
 #include <random>
 
 #include "bench/dense/deformations.hpp"
 #include "bench/dense/exact_forces.hpp"
 #include "core/error.hpp"
 #include "mesh/generators.hpp"
+#include "support/no_more_memory.hpp"
 
 namespace pliant {
 namespace {
@@ -123,17 +125,40 @@ TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides l
   }
 }
 
-// All pairs of leaves would take 17 GB.
-TEST_CASE("where so many vertices share a place that lists would be too long, that is an error before they are") {
+TEST_CASE("lists may have as many entries as are allowed, and no more") {
   ThreadPool pool(2);
-  const ClusterTree tree = make_cluster_tree(Vectors(1u << 20, glm::dvec3(1.0)));
+  const ClusterTree tree = make_cluster_tree(random_points(1003, {1, 1, 0.3}));
+  const ClusterPairs pairs = pair_clusters(pool, tree, 1e-7);
+  const std::uint64_t entries = pairs.near.size() + pairs.far.size();
+  CHECK(pair_clusters(pool, tree, 1e-7, {}, entries).near == pairs.near);
   try {
-    static_cast<void>(pair_clusters(pool, tree, 1e-7, {}, 1'000'000));
+    static_cast<void>(pair_clusters(pool, tree, 1e-7, {}, entries - 1));
     FAIL("no error");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::input);
   }
 }
+
+#ifdef PLIANT_CAN_RUN_OUT_OF_MEMORY
+// All pairs of leaves would take 17 GB.
+TEST_CASE("where so many vertices share a place that lists would be too long, that is an error before memory runs out") {
+  ThreadPool pool(2);
+  const ClusterTree tree = make_cluster_tree(Vectors(1u << 20, glm::dvec3(1.0)));
+  const auto check_error = [&](std::uint64_t most_entries, auto check) {
+    try {
+      const test::NoMoreMemory tight;
+      static_cast<void>(pair_clusters(pool, tree, 1e-7, {}, most_entries));
+      FAIL("no error");
+    } catch (const Error& error) {
+      check(error.kind() == ErrorKind::input);
+    } catch (const std::bad_alloc&) {
+      check(false);
+    }
+  };
+  check_error(100'000, [](bool is_limit) { CHECK(is_limit); });
+  check_error(most_list_entries, [](bool is_limit) { CHECK_FALSE(is_limit); });
+}
+#endif
 
 TEST_CASE("pairs of clusters and their order do not depend on the number of threads") {
   const Vectors rest = random_points(3001, {1, 1, 0.3}), displacements = random_points(3001, {0.1, 0.1, 0.1});
