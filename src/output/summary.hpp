@@ -56,7 +56,7 @@ struct Summary {
   struct Clusters {
     std::optional<double> largest_error;  // of forces, relative, that a check found; empty: there was none
     std::uint64_t lists_made = 0;         // beside those for the rest shape
-    double energy_change = 0;             // that came with them [J]
+    double energy_change = 0;             // that came with them [J]; NaN: unknown
     std::vector<std::string> direct;      // bodies that went over to direct sums
   };
   std::optional<Clusters> clusters;                       // empty: no body is clustered

@@ -128,13 +128,23 @@ std::optional<std::string> instability_of(const RunStatus& status) {
     return fmt::format("{}, which ends the run at step {}; try {}", told_growth_of(progress, model), report.steps,
                        shorter_steps(status));
   if (progress.most_gained < told_gain * std::max(energy_had(progress, model), smallest_energy(model))) return {};
-  if (run.simulation->energy_changed_by_lists() >= 0.5 * progress.most_gained)
-    return fmt::format("{}: lists of clusters that were made anew have changed it; try forces = \"direct\", or damping",
-                       told_growth_of(progress, model));
-  return fmt::format("{}: {}; try {}", told_growth_of(progress, model),
+  return fmt::format(
+      "{}: {}", told_growth_of(progress, model),
+      cause_of_growth(progress.most_gained, run.simulation->energy_changed_by_lists(), report, shorter_steps(status)));
+}
+
+std::string cause_of_growth(double gained, double by_lists, const StepReport& report, std::string_view shorter) {
+  if (std::isnan(by_lists))
+    return fmt::format(
+        "lists of clusters that were made anew may have changed it, or the motion is unstable; try forces = "
+        "\"direct\", damping or {}",
+        shorter);
+  if (by_lists >= 0.5 * gained)
+    return "lists of clusters that were made anew have changed it; try forces = \"direct\", or damping";
+  return fmt::format("{}; try {}",
                      report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                               : "the motion is unstable, or the steps are too long for the method",
-                     shorter_steps(status));
+                     shorter);
 }
 
 std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices, int precision) {

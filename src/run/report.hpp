@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "output/summary.hpp"
@@ -29,6 +30,10 @@ struct RunStatus {
 /// Describes a breakdown, or the largest growth of the energy in any row of the history, or returns nothing. A step beyond its
 /// bound is already among the run's warnings.
 [[nodiscard]] std::optional<std::string> instability_of(const RunStatus& status);
+
+/// Returns what has made the energy grow by so much [J], and what to try against it. `by_lists` is what lists of clusters that
+/// were made anew have changed it by [J], or NaN if nobody knows. `shorter` says what makes steps shorter.
+[[nodiscard]] std::string cause_of_growth(double gained, double by_lists, const StepReport& report, std::string_view shorter);
 
 /// Says how often contact by impulses held bodies or cut motions of vertices short, a text each, if that was often.
 /// `moving_vertices` are those of all bodies that are not static. docs/output.md says how often is often.

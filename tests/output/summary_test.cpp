@@ -113,6 +113,12 @@ TEST_CASE("a summary's values read back as they were") {
   CHECK(json["timings_ms"]["passes"]["refit"] == 0.25);
 }
 
+TEST_CASE("an energy that lists of clusters changed by nobody knows how much is null") {
+  Summary summary;
+  summary.clusters.emplace().energy_change = std::numeric_limits<double>::quiet_NaN();
+  CHECK(written(summary)["clusters"]["energy_change"].is_null());
+}
+
 TEST_CASE("steps that a tolerance governs have no one length, but are counted") {
   Summary summary;
   summary.adaptive = {

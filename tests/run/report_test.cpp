@@ -2,6 +2,7 @@
 #include "run/report.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 namespace pliant {
 namespace {
@@ -43,6 +44,15 @@ TEST_CASE("a shorter time step is no remedy for motions cut short where a tolera
   CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), Catch::Contains("or a shorter time step"));
   report.adaptive.emplace();
   CHECK_THAT(contact_troubles_of(report, 100, 64).at(0), Catch::Contains("or a fixed time_step in place of the tolerance"));
+}
+
+TEST_CASE("lists of clusters are named for growth if they changed half as much, and as a possible cause if nobody knows") {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto cause = [](double by_lists) { return cause_of_growth(2, by_lists, {}, "a shorter time step"); };
+  CHECK_THAT(cause(1), Catch::Contains("lists of clusters that were made anew have changed it"));
+  CHECK_THAT(cause(0.99), !Catch::Contains("lists") && Catch::Contains("unstable") && Catch::Contains("a shorter time step"));
+  CHECK_THAT(cause(unknown), Catch::Contains("lists of clusters that were made anew may have changed it") &&
+                                 Catch::Contains("unstable") && Catch::Contains("a shorter time step"));
 }
 
 }  // namespace
