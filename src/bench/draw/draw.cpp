@@ -123,8 +123,8 @@ Played play(Device& device, Drawing& drawing, const TimePlan& plan) {
     playback.begin(clock, time_of_steps(made));
     while (!is_broken && is_due() && playback.has_time(clock)) {
       const double due = (playback.goal() - time_of_steps(made)) / plan.time_step + 1e-6;
-      const std::uint64_t all_due = std::max<std::uint64_t>(static_cast<std::uint64_t>(due), 1);  // one is, and `due` is rounded
-      const std::uint64_t steps = std::min({batch.steps(), all_due, plan.steps - made});
+      const double most = static_cast<double>(std::min(batch.steps(), plan.steps - made));
+      const auto steps = static_cast<std::uint64_t>(std::clamp(due, 1.0, most));  // one is due, though `due` may round to less
       drawing.step(steps);
       is_broken = drawing.is_broken();
       made += steps;
