@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "bench/common/shapes.hpp"
 #include "bench/common/timing.hpp"
@@ -35,10 +36,7 @@ struct Shape {
   TriangleMesh mesh;
 };
 
-Shape sphere(int level) {
-  const std::string name = fmt::format("icosphere:{}", level);
-  return {name, generate_mesh(name)};
-}
+Shape generated(const std::string& name) { return {name, generate_mesh(name)}; }
 
 Shape large_cube() { return {"cube:51 split three times", subdivide(generate_mesh("cube:51"), 3)}; }
 
@@ -229,8 +227,10 @@ class Suite {
  public:
   Suite(const DenseOptions& options, const Progress& progress)
       : quick_(options.quick), progress_(progress), places_(places_of(options.devices, std::array{32, 64})) {
-    for (const int level : quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8}) shapes_.push_back(sphere(level));
+    for (const int level : quick_ ? std::vector{3, 4} : std::vector{4, 5, 6, 7, 8})
+      shapes_.push_back(generated(fmt::format("icosphere:{}", level)));
     if (!quick_) {
+      shapes_.push_back(generated("cube:78"));  // 36,506 vertices: about as many as the Stanford bunny
       shapes_.push_back(bunny_split_twice(options.scenes));
       shapes_.push_back(large_cube());
     }
