@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// Raise it whenever the content of a checkpoint changes: fields, their order, or the device's structs.
-inline constexpr std::uint32_t checkpoint_version = 40;
+inline constexpr std::uint32_t checkpoint_version = 41;
 
 /// Throws Error (command_line) if no checkpoint can be written to `path`, or if anything but a checkpoint stands there, because
 /// that would be lost.

@@ -18,7 +18,7 @@ namespace {
 
 // A checkpoint holds these structs as bytes of memory. If you change one, raise checkpoint_version too: the sizes here do not
 // show a changed order. It also holds a scene's text. If a default of scenes changes, raise it, too: a run must end as it began.
-static_assert(checkpoint_version == 40 && sizeof(physics::Cluster) == 304 && sizeof(physics::Pose) == 200 &&
+static_assert(checkpoint_version == 41 && sizeof(physics::Cluster) == 304 && sizeof(physics::Pose) == 200 &&
                   sizeof(physics::Status) == 56 && sizeof(physics::Tally) == 20 && sizeof(physics::Control) == 184 &&
                   sizeof(physics::Pace) == 192 && sizeof(physics::StepParts) == 40 && sizeof(physics::Debt) == 40 &&
                   sizeof(RunProgress) == 344 && sizeof(physics::PathState) == 248,

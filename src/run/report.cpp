@@ -186,9 +186,10 @@ std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
   if (!status.report.clusters) return told;
   if (const double excess = status.report.clusters->largest_excess; excess > told_excess)
     told.push_back(
-        fmt::format("forces of a clustered body were off by {:.3g} times its force_tolerance at a check, and maybe for some "
-                    "steps before; try forces = \"direct\"{}",
-                    excess, status.report.adaptive ? "" : ", or a tolerance for steps, which brings more checks"));
+        fmt::format("forces of \"{}\" were off by {:.3g} times its force_tolerance at a check, and maybe for some steps before; "
+                    "try forces = \"direct\"{}",
+                    status.run.start.model.bodies[status.report.clusters->worst_body].name, excess,
+                    status.report.adaptive ? "" : ", or a tolerance for steps, which brings more checks"));
   for (const std::uint32_t b : status.report.clusters->direct) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(

@@ -95,7 +95,10 @@ bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& stat
       if (steps == 0) error = mended;  // no step has had the first one
     }
     report_.largest_error = std::max(report_.largest_error, error);
-    report_.largest_excess = std::max(report_.largest_excess, error / force_tolerance_of(model_.bodies[b]));
+    const double excess = error / force_tolerance_of(model_.bodies[b]);
+    if (excess <= report_.largest_excess) continue;
+    report_.largest_excess = excess;
+    report_.worst_body = static_cast<std::uint32_t>(b);
   }
   return changed_ != before;
 }
@@ -238,7 +241,8 @@ bool ClusterWatch::use(const std::vector<std::shared_ptr<const ChangedSums>>& ch
 
 std::string ClusterWatch::save() {
   ByteWriter to;
-  to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, energy_change(), counted_);
+  to(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.worst_body, report_.lists_made,
+     energy_change(), counted_);
   for (const std::shared_ptr<const ChangedSums>& sums : changed_) {
     to(sums != nullptr);
     if (sums) to(sums->changes, sums->are_strained, sums->are_direct, sums->accuracy, sums->displacements);
@@ -261,7 +265,8 @@ bool ClusterWatch::restore(std::string_view saved) {
     return use(changed);
   }
   ByteReader from(saved);
-  from(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.lists_made, energy_change_, counted_);
+  from(next_check_, report_.checks, report_.largest_error, report_.largest_excess, report_.worst_body, report_.lists_made,
+       energy_change_, counted_);
   for (std::size_t b = 0; b < changed.size(); ++b) {
     if (!from.get<bool>()) continue;
     ChangedSums sums;

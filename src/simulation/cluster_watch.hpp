@@ -22,6 +22,7 @@ struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
   double largest_error = 0;           // of forces over the forces, at any check. Of the first one what it has left counts
   double largest_excess = 0;          // of those errors over their body's tolerance
+  std::uint32_t worst_body = 0;       // which that was
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
 

@@ -44,6 +44,7 @@ integrator = "verlet"
 duration = 1
 
 [[body]]
+name = "ball"
 mesh = "icosphere:4"
 total_mass = 1
 total_stiffness = 1000
@@ -58,7 +59,7 @@ stretch = [0.1, 0.1, 0.1]
     CHECK(result.exit_code == 0);
     return result.output;
   };
-  CHECK_THAT(told_by("0.01"), Catch::Contains("times its force_tolerance at a check") &&
+  CHECK_THAT(told_by("0.01"), Catch::Contains("forces of \"ball\" were off by") &&
                                   Catch::Contains("lists of clusters that were made anew have changed it"));
   CHECK_THAT(told_by("0.04"), Catch::Contains("went over to sums of all its springs"));
   CHECK_THAT(told_by("0.04 --steps 0"), Catch::Contains("were never checked"));

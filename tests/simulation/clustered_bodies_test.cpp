@@ -404,6 +404,25 @@ TEST_CASE("lists that miss the tolerance by little stay if others do no better")
   CHECK(state.changed_sums[0]->displacements.empty());
 }
 
+TEST_CASE("a report names the body whose forces were off the most") {
+  std::vector<BodySetup> setups = {soft(generate_mesh("icosphere:3"), "hardly pressed"),
+                                   soft(generate_mesh("icosphere:3"), "flat")};
+  setups[1].description.position = {5, 0, 0};
+  ModelAndState start = clustered(clustered(build_model(setups, {0, 0, 0})), 1);
+  for (const ModelBody& body : start.model.bodies) {
+    const std::vector<glm::dvec3> rest = start.model.rest_positions_of(body);
+    const double pressed = body.name == "flat" ? 0.9 : 0.01;
+    for (std::uint32_t i = 0; i < rest.size(); ++i)
+      start.state.motion[physics::displacement_of(body.first_vertex + i) + 1] = -pressed * rest[i].y;
+  }
+  const auto device = make_cpu_device(2, 32);
+  Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 0.1 / omega}), no_contacts);
+  simulation.advance(1);
+  const ClusterReport report = *simulation.report().clusters;
+  CHECK(report.checks == 2);
+  CHECK(report.worst_body == 1);
+}
+
 TEST_CASE("a body whose lists have changed as often as they may goes over to all springs") {
   const auto device = make_cpu_device(2, 32);
   const auto changed_before = [&](std::uint32_t changes) {
