@@ -134,17 +134,13 @@ std::optional<std::string> instability_of(const RunStatus& status) {
 }
 
 std::string cause_of_growth(double gained, double by_lists, const StepReport& report, std::string_view shorter) {
-  if (std::isnan(by_lists))
-    return fmt::format(
-        "lists of clusters that were made anew may have changed it, or the motion is unstable; try forces = "
-        "\"direct\", damping or {}",
-        shorter);
   if (by_lists >= 0.5 * gained)
     return "lists of clusters that were made anew have changed it; try forces = \"direct\", or damping";
-  return fmt::format("{}; try {}",
+  const bool may_be_lists = std::isnan(by_lists);
+  return fmt::format("{}{}; try {}{}", may_be_lists ? "lists of clusters that were made anew may have changed it, or " : "",
                      report.contact_steps > 0 ? "contacts have added it, or the motion is unstable"
                                               : "the motion is unstable, or the steps are too long for the method",
-                     shorter);
+                     may_be_lists ? "forces = \"direct\", damping or " : "", shorter);
 }
 
 std::vector<std::string> contact_troubles_of(const StepReport& report, std::uint64_t moving_vertices, int precision) {
@@ -194,7 +190,7 @@ std::vector<std::string> cluster_troubles_of(const RunStatus& status) {
     const ModelBody& body = status.run.start.model.bodies[b];
     told.push_back(
         fmt::format("\"{}\" went over to sums of all its springs, because no lists of clusters met its force_tolerance of "
-                    "{:.3g}, they had changed too often, or the device had no room for more; that takes longer, and a larger "
+                    "{:.3g}, they had changed too often, or there was no room for more; that takes longer, and a larger "
                     "tolerance or damping may avoid it",
                     body.name, force_tolerance_of(body)));
   }

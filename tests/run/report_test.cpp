@@ -47,12 +47,21 @@ TEST_CASE("a shorter time step is no remedy for motions cut short where a tolera
 }
 
 TEST_CASE("lists of clusters are named for growth if they changed half as much, and as a possible cause if nobody knows") {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto cause = [](double by_lists) { return cause_of_growth(2, by_lists, {}, "a shorter time step"); };
-  CHECK_THAT(cause(1), Catch::Contains("lists of clusters that were made anew have changed it"));
-  CHECK_THAT(cause(0.99), !Catch::Contains("lists") && Catch::Contains("unstable") && Catch::Contains("a shorter time step"));
-  CHECK_THAT(cause(unknown), Catch::Contains("lists of clusters that were made anew may have changed it") &&
-                                 Catch::Contains("unstable") && Catch::Contains("a shorter time step"));
+  const auto cause = [](double by_lists, std::uint64_t contact_steps) {
+    StepReport report;
+    report.contact_steps = contact_steps;
+    return cause_of_growth(2, by_lists, report, "a shorter time step");
+  };
+  CHECK_THAT(cause(1, 0), Catch::Contains("lists of clusters that were made anew have changed it"));
+  for (const std::uint64_t contact_steps : {0u, 1u}) {
+    const std::string other = cause(0.99, contact_steps);
+    CHECK_THAT(other, !Catch::Contains("lists") && Catch::Contains("unstable") && Catch::EndsWith("; try a shorter time step"));
+    CHECK((other.find("contacts") != std::string::npos) == (contact_steps > 0));
+    const std::string unknown = cause(std::numeric_limits<double>::quiet_NaN(), contact_steps);
+    CHECK_THAT(unknown, Catch::StartsWith("lists of clusters that were made anew may have changed it, or " +
+                                          other.substr(0, other.find(';'))) &&
+                            Catch::EndsWith("damping or a shorter time step"));
+  }
 }
 
 }  // namespace
