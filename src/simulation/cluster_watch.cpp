@@ -23,9 +23,8 @@ namespace {
 constexpr std::string_view measured[] = {"control", "status", "leaf_square"};
 constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
-constexpr double unknown_energy =
-    std::numeric_limits<double>::quiet_NaN();  // stands for one that there was no memory or thread to sum
-constexpr double most_strained = 2;            // error over the tolerance up to which lists still beat direct sums
+constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // of one that could not be summed
+constexpr double most_strained = 2;  // error over the tolerance up to which lists still beat direct sums
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -65,8 +64,9 @@ double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree,
     return std::abs(energy_with(after) - energy_with(before));
   } catch (const std::bad_alloc&) {
     return unknown_energy;
-  } catch (const Error&) {  // too few threads
-    return unknown_energy;
+  } catch (const Error& problem) {
+    if (problem.kind() != ErrorKind::device) throw;
+    return unknown_energy;  // there are too few threads
   }
 }
 
@@ -95,10 +95,10 @@ bool ClusterWatch::check(std::uint64_t steps, const std::function<State()>& stat
       if (steps == 0) error = mended;  // no step has had the first one
     }
     report_.largest_error = std::max(report_.largest_error, error);
-    const double excess = error / force_tolerance_of(model_.bodies[b]);
-    if (excess <= report_.largest_excess) continue;
-    report_.largest_excess = excess;
-    report_.worst_body = static_cast<std::uint32_t>(b);
+    if (const double excess = error / force_tolerance_of(model_.bodies[b]); excess > report_.largest_excess) {
+      report_.largest_excess = excess;
+      report_.worst_body = static_cast<std::uint32_t>(b);
+    }
   }
   return changed_ != before;
 }

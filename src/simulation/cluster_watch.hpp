@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <future>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dynamics/clusters/cluster_tree.hpp"
 #include "dynamics/stepper.hpp"
 #include "model/model.hpp"
 #include "state/device_bodies.hpp"
@@ -22,16 +24,16 @@ struct ClusterReport {
   std::uint64_t checks = 0;           // of one body each
   double largest_error = 0;           // of forces over the forces, at any check. Of the first one what it has left counts
   double largest_excess = 0;          // of those errors over their body's tolerance
-  std::uint32_t worst_body = 0;       // which that was
+  std::uint32_t worst_body = 0;       // which that was; 0 while no body has erred
   std::uint64_t lists_made = 0;       // for another shape than that at rest, or more exact ones
   std::vector<std::uint32_t> direct;  // bodies that went over to direct sums
 
   bool operator==(const ClusterReport&) const = default;
 };
 
-/// Returns by how much other lists change the elastic energy of a body with these displacements [J]. The tree is of its positions
-/// at rest [m]. Returns NaN if there is no memory or thread to sum energies. It frees what it is given, because the future of a
-/// call may wait for long.
+/// Returns by how much a body's elastic energy at these displacements [m] changes from the lists of `before` to those of `after`:
+/// the size [J]. Null stands for the first lists. Neither may be direct sums. `tree` has been made of `rest` [m]. Returns NaN if
+/// there is no memory or thread. Takes all by value: so memory is free when the call ends, not when somebody asks its future.
 [[nodiscard]] double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree, unsigned threads,
                                       std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
                                       std::vector<glm::dvec3> rest, std::vector<glm::dvec3> displacements);
@@ -58,8 +60,8 @@ class ClusterWatch {
   bool use(const std::vector<std::shared_ptr<const ChangedSums>>& changed);
   [[nodiscard]] ClusterReport report() const;
   /// Returns by how much other lists have changed the elastic energy: the sum of sizes. Direct sums do not count [J]. That is
-  /// found out while steps go on, on list_threads() threads for each change, and this waits for it. Returns NaN if there was no
-  /// memory or thread for that.
+  /// found out while steps go on, and this waits for it. Energies of each change are summed on list_threads() threads. Returns
+  /// NaN if there was no memory or thread for that.
   [[nodiscard]] double energy_change();
   /// Whether energy_change() and save() would not wait.
   [[nodiscard]] bool knows_energy_change() const;

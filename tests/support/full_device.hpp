@@ -14,7 +14,7 @@ namespace pliant::test {
 class FullDevice : public Device {
  public:
   explicit FullDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
-  /// From here on no buffer can be larger. To ask for one is the error that it is on a device of that kind.
+  /// From here on no buffer can be larger. Asking for one throws what a device of that kind throws.
   void refuse_beyond(std::size_t bytes, DeviceKind kind = DeviceKind::gpu) {
     most_bytes_ = bytes;
     kind_ = kind;

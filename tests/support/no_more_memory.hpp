@@ -10,7 +10,7 @@
 
 namespace pliant::test {
 
-/// Lets the process have hardly more memory than it has, as long as it lives.
+/// While it lives, the process gets hardly more memory than it has.
 class NoMoreMemory {
  public:
   NoMoreMemory() {

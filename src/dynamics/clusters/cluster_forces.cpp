@@ -189,8 +189,8 @@ double ClusterErrors::relative() const {
   return std::isfinite(larger) ? larger : std::numeric_limits<double>::infinity();
 }
 
-// Steps go on while energies are summed, so half the processors are left to them. A pool of all processors would also keep its
-// threads on them.
+// Half, because steps go on while energies of a change are summed. A pool with a thread for each processor would also pin its
+// threads (core/thread_pool.hpp).
 unsigned list_threads(const DeviceInfo& device) {
   return std::clamp((device.kind == DeviceKind::cpu ? device.threads : thread_count(0)) / 2, 1u, 8u);
 }

@@ -46,7 +46,8 @@ class ClusterTrees {
 class ClusterForces {
  public:
   /// Makes the arrays. `bases` has one for each body that is clustered. `bodies` must outlive this. Throws Error (input) if lists
-  /// would be too long, before it makes any, Error (device) if a GPU has no room, and std::bad_alloc if the processor has none.
+  /// would be too long. It has made no array then. Throws Error (device) if a GPU has no room or there are too few threads, and
+  /// std::bad_alloc if the processor has no room. Some arrays may be new then, so those of before do not hold together.
   ClusterForces(DeviceBodies& bodies, const Model& model, std::span<const std::optional<ListBasis>> bases, ClusterTrees& trees);
 
   /// Returns passes that set `spring_sum` at the placements in a slot, for clustered bodies that move and are deformed. With

@@ -18,7 +18,7 @@ namespace pliant {
 namespace {
 
 constexpr std::size_t enough_meetings = 200;            // to be shared among threads
-constexpr std::uint64_t entries_between_counts = 1000;  // of a thread. All stop at the limit, so that they overrun it by little
+constexpr std::uint64_t entries_between_counts = 1000;  // of a thread: it counts so often that the limit is overrun by little
 
 // Weighs the error of one node a side against that of four. Measured: gives the least work for the same error.
 double weight_of_one_node(double accuracy) { return accuracy > 3e-7 ? 0.05 : accuracy > 3e-8 ? 0.03 : 0.01; }

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <new>
 #include <random>
+#include <stdexcept>
 
 #include "bench/dense/deformations.hpp"
 #include "bench/dense/exact_forces.hpp"
@@ -141,22 +142,22 @@ TEST_CASE("lists may have as many entries as are allowed, and no more") {
 
 #ifdef PLIANT_CAN_RUN_OUT_OF_MEMORY
 // All pairs of leaves would take 17 GB.
-TEST_CASE("where so many vertices share a place that lists would be too long, that is an error before memory runs out") {
+TEST_CASE("lists that would be too long are an error before memory runs out, and if it runs out first, that is another") {
   ThreadPool pool(2);
   const ClusterTree tree = make_cluster_tree(Vectors(1u << 20, glm::dvec3(1.0)));
-  const auto check_error = [&](std::uint64_t most_entries, auto check) {
+  const auto ends_at_limit = [&](std::uint64_t most_entries) {
     try {
       const test::NoMoreMemory tight;
       static_cast<void>(pair_clusters(pool, tree, 1e-7, {}, most_entries));
-      FAIL("no error");
     } catch (const Error& error) {
-      check(error.kind() == ErrorKind::input);
+      return error.kind() == ErrorKind::input;
     } catch (const std::bad_alloc&) {
-      check(false);
+      return false;
     }
+    throw std::logic_error("there was memory");
   };
-  check_error(100'000, [](bool is_limit) { CHECK(is_limit); });
-  check_error(most_list_entries, [](bool is_limit) { CHECK_FALSE(is_limit); });
+  CHECK(ends_at_limit(100'000));
+  CHECK_FALSE(ends_at_limit(most_list_entries));
 }
 #endif
 
