@@ -109,7 +109,7 @@ class Device {
   /// build.
   [[nodiscard]] virtual KernelId kernel(std::string_view name) = 0;
   /// Returns a kernel whose items are served by a group of so many threads each (shaders/compute/groups.comp). On a CPU that is
-  /// one thread. On a GPU it is a power of two, from physics::group_size to 1024.
+  /// one thread. On a GPU it is a power of two, from 32 to 1024.
   [[nodiscard]] virtual KernelId group_kernel(std::string_view name, std::uint32_t threads) = 0;
   /// Returns a kernel that goes in rounds (shaders/compute/rounds.comp). Its items are work groups that wait for each other: at
   /// most groups_at_once() of them.

@@ -8,7 +8,7 @@ SHARED_BEGIN
 const uint certified_test = 0u;
 const uint moller_test = 1u;
 
-const uint group_size = 64u;  // threads in a work group of main.comp. One of groups.comp has as many or more
+const uint group_size = 64u;  // threads in a work group of main.comp, and of most in groups.comp
 const uint max_groups = 65535u;  // in a dispatch: what OpenGL guarantees
 
 // What is counted in each step and summed over the run.

@@ -16,6 +16,8 @@ namespace {
 
 static_assert(physics::bank_row == physics::group_size + 1 && physics::places_of_tile == physics::group_size);
 
+constexpr std::uint32_t threads_of_nodes = 32;  // most clusters have one leaf or two: half of more threads would only wait
+
 struct Tables {
   std::vector<std::uint32_t> tree_vertices;
   std::vector<physics::SpringCluster> clusters;
@@ -268,7 +270,8 @@ std::vector<Pass> ClusterForces::passes_up_to(std::uint32_t end_leaf, std::uint3
   };
   Parameters in_slot = of_leaves_before(end_leaf);
   in_slot.emplace_back("slot", slot);
-  return {group_pass("sum_leaf_moments", tiles_of(end_leaf), in_slot), group_pass("place_nodes", cluster_count_, of_clusters),
+  return {group_pass("sum_leaf_moments", tiles_of(end_leaf), in_slot),
+          group_pass("place_nodes", cluster_count_, of_clusters, threads_of_nodes),
           group_pass("sum_leaf_springs", end_leaf, of_leaves_before(end_leaf)),
           group_pass("sum_node_pulls", cluster_count_, of_clusters),
           group_pass("share_pulls", tiles_of(leaf_count_), of_leaves_before(leaf_count_))};
@@ -282,8 +285,9 @@ std::vector<Pass> ClusterForces::measuring_passes(std::uint32_t slot) const {
   return all;
 }
 
-Pass ClusterForces::group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters) const {
-  return make_pass(bodies_->arrays, name, bodies_->arrays.device().group_kernel(name, physics::group_size), parameters, items);
+Pass ClusterForces::group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters,
+                               std::uint32_t threads) const {
+  return make_pass(bodies_->arrays, name, bodies_->arrays.device().group_kernel(name, threads), parameters, items);
 }
 
 std::vector<ClusterErrors> ClusterForces::errors() const {

@@ -13,6 +13,7 @@
 #include "dynamics/clusters/cluster_tree.hpp"
 #include "dynamics/clusters/force_sums.hpp"
 #include "model/model.hpp"
+#include "physics/control.glsl"
 #include "state/device_bodies.hpp"
 
 namespace pliant {
@@ -65,7 +66,8 @@ class ClusterForces {
  private:
   // Springs of leaves of samples are summed, too, if they stand before the end.
   [[nodiscard]] std::vector<Pass> passes_up_to(std::uint32_t end_leaf, std::uint32_t slot, bool only_stale) const;
-  [[nodiscard]] Pass group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters) const;
+  [[nodiscard]] Pass group_pass(std::string_view name, std::uint32_t items, const Parameters& parameters,
+                                std::uint32_t threads = physics::group_size) const;
 
   // Leaves of samples stand behind all others.
   struct Leaves {
