@@ -24,7 +24,9 @@ constexpr std::string_view measured[] = {"control", "status", "leaf_square"};
 constexpr double radians_between_checks = 3;  // half a period: as long as a body takes to collapse and open again
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
 constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // of one that could not be summed
-constexpr double most_strained = 2;  // error over the tolerance up to which lists still beat direct sums
+constexpr double most_strained = 2;   // error over the tolerance up to which lists still beat direct sums
+constexpr double aimed_at = 0.7;      // the same of more exact lists: less has room for the shapes to come, and costs more
+constexpr double finest_lists = 0.1;  // accuracy of any lists over that of a body's first ones
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -136,8 +138,7 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
   std::vector<Tried> all_tried = {{before, error}};
   ChangedSums lists{.changes = 1 + (before ? before->changes : 0), .displacements = state.displacements_of(model_.bodies[body])};
   bool has_room = true;
-  for (const double accuracy : {before ? before->accuracy : standard, standard / 10}) {
-    if (lists.changes > most_changes || accuracy == lists.accuracy) break;
+  for (double accuracy = before ? before->accuracy : standard; lists.changes <= most_changes;) {
     lists.accuracy = accuracy;
     try {
       change(body, std::make_shared<const ChangedSums>(lists));
@@ -154,6 +155,10 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
       note_lists(body, state, before);
       return all_tried.back().error;
     }
+    if (accuracy <= finest_lists * standard) break;
+    const bool is_first = all_tried.size() == 2;  // behind those of before
+    const double wanted = is_first ? accuracy * accuracy_of(aimed_at * tolerance) / accuracy_of(all_tried.back().error) : 0;
+    accuracy = std::max(wanted, finest_lists * standard);
   }
   const auto kept = std::ranges::find_if(all_tried, [&](const Tried& tried) { return tried.error <= most_strained * tolerance; });
   ChangedSums sums;

@@ -406,6 +406,27 @@ TEST_CASE("lists that miss the tolerance by little stay if others do no better")
   CHECK(state.changed_sums[0]->displacements.empty());
 }
 
+TEST_CASE("lists become as much more exact as an error asks for, down to a tenth of their first accuracy") {
+  const auto device = make_cpu_device(2, 64);
+  const auto accuracy_for = [&](double tolerance) {
+    ModelAndState start = clustered(deformed_sphere(4, "poke"));
+    start.model.bodies[0].force_tolerance = tolerance;
+    Simulation simulation(*device, start.model, start.state, plan_of({"verlet", 0.1 / omega}), no_contacts);
+    simulation.advance(1);
+    const ClusterReport report = *simulation.report().clusters;
+    CHECK(report.largest_excess <= 1);
+    CHECK(report.lists_made == 1);
+    const State state = simulation.state();
+    REQUIRE(state.changed_sums[0]);
+    CHECK(state.changed_sums[0]->changes == 1);
+    return state.changed_sums[0]->accuracy / accuracy_of(tolerance);
+  };
+  CHECK(accuracy_for(2e-4) == Approx(0.1));
+  const double between = accuracy_for(5e-4);
+  CHECK(between > 0.11);
+  CHECK(between < 0.9);
+}
+
 TEST_CASE("a report names the body whose forces were off the most") {
   std::vector<BodySetup> setups;
   for (const char* name : {"first", "pressed most", "last"}) setups.push_back(soft(generate_mesh("icosphere:3"), name));
