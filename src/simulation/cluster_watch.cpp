@@ -25,8 +25,9 @@ constexpr double radians_between_checks = 3;  // half a period: as long as a bod
 constexpr std::uint32_t most_changes = 8;     // of how a body's springs are summed: each changes its energy
 constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // of one that could not be summed
 constexpr double most_strained = 2;   // error over the tolerance up to which lists still beat direct sums
-constexpr double aimed_at = 0.7;      // the same of more exact lists: less has room for the shapes to come, and costs more
-constexpr double finest_lists = 0.1;  // accuracy of any lists over that of a body's first ones
+constexpr double aimed_at = 0.7;      // error over the tolerance that more exact lists are made for. Less costs more
+constexpr double finest_share = 0.1;  // least accuracy of lists, over that of the body's first ones
+constexpr std::uint32_t most_aimed = most_changes / 2;  // changes. Those behind them take the finest lists, which last longest
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -44,6 +45,13 @@ std::uint64_t interval_of(const Model& model, std::optional<double> time_step) {
     if (body.is_clustered) fastest = std::max(fastest, stiffest_frequency(body));
   const double steps = radians_between_checks / (fastest * *time_step);
   return static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
+}
+
+// Returns the accuracy of lists to try after others that miss the tolerance, or nothing if none are finer.
+std::optional<double> next_accuracy(double accuracy, double excess, double least, bool aims) {
+  if (accuracy <= least) return {};
+  const double wanted = aims ? accuracy * accuracy_of(aimed_at) / accuracy_of(excess) : 0;
+  return wanted < 2 * least ? least : wanted;
 }
 
 bool is_ready(const std::future<double>& energy) { return energy.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
@@ -138,8 +146,10 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
   std::vector<Tried> all_tried = {{before, error}};
   ChangedSums lists{.changes = 1 + (before ? before->changes : 0), .displacements = state.displacements_of(model_.bodies[body])};
   bool has_room = true;
-  for (double accuracy = before ? before->accuracy : standard; lists.changes <= most_changes;) {
-    lists.accuracy = accuracy;
+  std::optional<double> accuracy;
+  if (lists.changes <= most_changes) accuracy = before ? before->accuracy : standard;
+  while (accuracy) {
+    lists.accuracy = *accuracy;
     try {
       change(body, std::make_shared<const ChangedSums>(lists));
     } catch (const std::bad_alloc&) {
@@ -155,10 +165,8 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
       note_lists(body, state, before);
       return all_tried.back().error;
     }
-    if (accuracy <= finest_lists * standard) break;
-    const bool is_first = all_tried.size() == 2;  // behind those of before
-    const double wanted = is_first ? accuracy * accuracy_of(aimed_at * tolerance) / accuracy_of(all_tried.back().error) : 0;
-    accuracy = std::max(wanted, finest_lists * standard);
+    const bool aims = all_tried.size() == 2 && lists.changes <= most_aimed;  // after the first of them
+    accuracy = next_accuracy(*accuracy, all_tried.back().error / tolerance, finest_share * standard, aims);
   }
   const auto kept = std::ranges::find_if(all_tried, [&](const Tried& tried) { return tried.error <= most_strained * tolerance; });
   ChangedSums sums;

@@ -31,9 +31,9 @@ struct ClusterReport {
   bool operator==(const ClusterReport&) const = default;
 };
 
-/// Returns by how much a body's elastic energy at these displacements [m] changes from the lists of `before` to those of `after`:
-/// the size [J]. Null stands for the first lists. Neither may be direct sums. `tree` has been made of `rest` [m]. Returns NaN if
-/// there is no memory or thread. Takes all by value: so memory is free when the call ends, not when somebody asks its future.
+/// Returns the size of the change of a body's elastic energy at these displacements [m] from the lists of `before` to those of
+/// `after` [J]. Null stands for the first lists. Neither may be direct sums. `tree` has been made of `rest` [m]. Returns NaN if
+/// there is no memory or thread. It takes all by value, so that memory is free when the call ends.
 [[nodiscard]] double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree, unsigned threads,
                                       std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
                                       std::vector<glm::dvec3> rest, std::vector<glm::dvec3> displacements);

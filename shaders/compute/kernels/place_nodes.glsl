@@ -8,7 +8,7 @@ READ(leaf_moment)
 WRITE(spring_point)
 PARAMETER(uint, place_count)
 #include "parts/sums_clusters.glsl"
-NEAR(double, part, 64u)
+NEAR(double, part, 64u)  // for 64 threads at most
 NEAR(double, all, moments_size)
 
 // Sums the moments of leaves, of which several rows of threads take turns.

@@ -16,7 +16,7 @@ namespace {
 
 static_assert(physics::bank_row == physics::group_size + 1 && physics::places_of_tile == physics::group_size);
 
-constexpr std::uint32_t threads_of_nodes = 32;  // most clusters have one leaf or two: half of more threads would only wait
+constexpr std::uint32_t threads_of_nodes = 32;  // most clusters have one leaf or two, which 24 threads sum
 
 struct Tables {
   std::vector<std::uint32_t> tree_vertices;
