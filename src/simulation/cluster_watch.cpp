@@ -26,8 +26,10 @@ constexpr std::uint32_t most_changes = 8;     // of how a body's springs are sum
 constexpr double unknown_energy = std::numeric_limits<double>::quiet_NaN();  // of one that could not be summed
 constexpr double most_strained = 2;   // error over the tolerance up to which lists still beat direct sums
 constexpr double aimed_at = 0.7;      // error over the tolerance that more exact lists are made for. Less costs more
-constexpr double finest_share = 0.1;  // least accuracy of lists, over that of the body's first ones
-constexpr std::uint32_t most_aimed = most_changes / 2;  // changes. Those behind them take the finest lists, which last longest
+constexpr double finest_share = 0.1;  // tau of the finest lists, over that of the body's first ones
+
+// Changes up to this number aim at an error. Later ones that need more exact lists take the finest, which last longest.
+constexpr std::uint32_t last_aimed = most_changes / 2;
 
 double epsilon_of(int precision) { return precision == 64 ? 0x1p-52 : 0x1p-23; }
 
@@ -47,13 +49,6 @@ std::uint64_t interval_of(const Model& model, std::optional<double> time_step) {
   return static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
 }
 
-// Returns the accuracy of lists to try after others that miss the tolerance, or nothing if none are finer.
-std::optional<double> next_accuracy(double accuracy, double excess, double least, bool aims) {
-  if (accuracy <= least) return {};
-  const double wanted = aims ? accuracy * accuracy_of(aimed_at) / accuracy_of(excess) : 0;
-  return wanted < 2 * least ? least : wanted;
-}
-
 bool is_ready(const std::future<double>& energy) { return energy.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
 
 bool sums_springs(const physics::Status& status) {
@@ -61,6 +56,12 @@ bool sums_springs(const physics::Status& status) {
 }
 
 }  // namespace
+
+std::optional<double> next_accuracy(double accuracy, double excess, double finest, bool aims) {
+  if (accuracy <= finest) return {};
+  const double wanted = aims ? accuracy * accuracy_of(aimed_at) / accuracy_of(excess) : 0;
+  return wanted < 2 * finest ? finest : wanted;
+}
 
 double energy_change_of(ModelBody body, std::shared_ptr<const ClusterTree> tree, unsigned threads,
                         std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
@@ -165,7 +166,7 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
       note_lists(body, state, before);
       return all_tried.back().error;
     }
-    const bool aims = all_tried.size() == 2 && lists.changes <= most_aimed;  // after the first of them
+    const bool aims = lists.changes <= last_aimed && all_tried.size() == 2;  // once: the first of these are from before
     accuracy = next_accuracy(*accuracy, all_tried.back().error / tolerance, finest_share * standard, aims);
   }
   const auto kept = std::ranges::find_if(all_tried, [&](const Tried& tried) { return tried.error <= most_strained * tolerance; });

@@ -38,6 +38,11 @@ struct ClusterReport {
                                       std::shared_ptr<const ChangedSums> before, std::shared_ptr<const ChangedSums> after,
                                       std::vector<glm::dvec3> rest, std::vector<glm::dvec3> displacements);
 
+/// Returns the accuracy (tau) of lists to try after some of this accuracy, or nothing if those were the finest. `excess` is their
+/// error over the tolerance. With `aims` the next ones should err by 0.7 times the tolerance. If that takes nearly the finest
+/// lists, those come at once: one try more would cost more than it saves.
+[[nodiscard]] std::optional<double> next_accuracy(double accuracy, double excess, double finest, bool aims);
+
 class ClusterWatch {
  public:
   /// All must outlive the watch. It checks each half period of the fastest vibration by steps of this length [s], or after each

@@ -17,6 +17,7 @@ namespace {
 static_assert(physics::bank_row == physics::group_size + 1 && physics::places_of_tile == physics::group_size);
 
 constexpr std::uint32_t threads_of_nodes = 32;  // most clusters have one leaf or two, which 24 threads sum
+static_assert(threads_of_nodes <= 64, "place_nodes.glsl has no more memory in common");
 
 struct Tables {
   std::vector<std::uint32_t> tree_vertices;
