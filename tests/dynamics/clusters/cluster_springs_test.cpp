@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <new>
@@ -124,6 +125,19 @@ TEST_CASE("pairs of clusters cover every pair of vertices once, and both sides l
     CHECK(told.far == counts.far);
     CHECK(2 * told.between_nodes == counts.between_nodes);
   }
+}
+
+TEST_CASE("vertices in one place pull each other in no direction, and others as before") {
+  Vectors rest = random_points(301, {1, 1, 0.3});
+  for (glm::dvec3& p : rest) p = glm::round(1024.0 * p) / 1024.0;  // so that they can meet without rounding
+  Vectors displacements(rest.size());
+  for (std::size_t i = 1; i < 20; ++i) displacements[i] = rest[0] - rest[i];
+  ThreadPool pool(1);
+  const ClusterSprings all_near(rest, 1e-30);
+  REQUIRE(all_near.counts().far == 0);
+  const Vectors forces = all_near.forces(pool, displacements);
+  const bench::ExactForces exact(pool, rest, displacements, rest.size());
+  CHECK(exact.error_of([&](std::size_t i) { return forces[i]; }) < 1e-12);
 }
 
 TEST_CASE("lists may have as many entries as are allowed, and no more") {
