@@ -166,7 +166,7 @@ double ClusterWatch::improve(std::size_t body, const State& state, double error)
       note_lists(body, state, before);
       return all_tried.back().error;
     }
-    const bool aims = lists.changes <= last_aimed && all_tried.size() == 2;  // once: the first of these are from before
+    const bool aims = lists.changes <= last_aimed && all_tried.size() == 2;  // only the first try: all_tried[0] is from before
     accuracy = next_accuracy(*accuracy, all_tried.back().error / tolerance, finest_share * standard, aims);
   }
   const auto kept = std::ranges::find_if(all_tried, [&](const Tried& tried) { return tried.error <= most_strained * tolerance; });

@@ -13,7 +13,7 @@ glm::dvec3 force_on(std::span<const glm::dvec3> rest, std::span<const glm::dvec3
     if (j == i) continue;
     const glm::dvec3 before = rest[i] - rest[j], change = displacements[i] - displacements[j], x = before + change;
     const double length = glm::length(x), rest_length = glm::length(before);
-    if (length < 1e-12 * rest_length) continue;  // vertices in one place, but for rounding, pull each other in no direction
+    if (length <= 1e-12 * rest_length) continue;  // vertices in one place, but for rounding, pull each other in no direction
     sum -= glm::dot(change, before + x) / (length * (length + rest_length)) * x;
   }
   return sum;
