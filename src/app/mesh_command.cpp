@@ -20,7 +20,7 @@ TriangleMesh subdivide_as_asked(const TriangleMesh& mesh, const MeshOptions& opt
   try {
     return subdivide(mesh, options.subdivide, options.subdivision);
   } catch (const Error& error) {
-    throw Error(ErrorKind::command_line, "--subdivide", error.what(), "");
+    throw error.within(ErrorKind::command_line, "--subdivide");
   }
 }
 
