@@ -1,29 +1,31 @@
 #include "model/body_motion.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 
 #include "physics/rigid_motion.glsl"
 
 namespace pliant {
 namespace {
 
-// By Newton's method: a small turn of the rest shape about its centre lets the distances fall fastest where it is the spin of a
-// body with this spread and this angular momentum. `correlation` is the sum of each place times its rest place.
+// B. K. P. Horn, "Closed-form solution of absolute orientation using unit quaternions" (1987). `correlation` is the sum of each
+// place times its rest place. Where several rotations are as near, as for vertices on a line, it is the least one.
 glm::dquat nearest_rotation(const glm::dmat3& correlation) {
-  constexpr int most_turns = 50;
-  glm::dquat rotation(1, 0, 0, 0);
-  for (int i = 0; i < most_turns; ++i) {
-    const glm::dmat3 c = correlation * glm::transpose(glm::mat3_cast(rotation)), both = 0.5 * (c + glm::transpose(c));
-    const glm::dvec3 moment(c[1].z - c[2].y, c[2].x - c[0].z, c[0].y - c[1].x);  // columns first
-    const glm::dvec3 turn = physics::least_spin({both[0].x, both[1].y, both[2].z}, {both[0].y, both[1].z, both[2].x}, moment);
-    const double angle = glm::length(turn);
-    if (!(angle > 1e-15)) break;
-    rotation = glm::normalize(glm::angleAxis(angle, turn / angle) * rotation);
-  }
-  return rotation;
+  const auto s = [&](int rest, int place) { return correlation[rest][place]; };  // columns first
+  const double trace = s(0, 0) + s(1, 1) + s(2, 2);
+  Eigen::Matrix4d n;
+  n.row(0) << trace, s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s(0, 1) - s(1, 0);
+  n.row(1) << n(0, 1), 2 * s(0, 0) - trace, s(0, 1) + s(1, 0), s(2, 0) + s(0, 2);
+  n.row(2) << n(0, 2), n(1, 2), 2 * s(1, 1) - trace, s(1, 2) + s(2, 1);
+  n.row(3) << n(0, 3), n(1, 3), n(2, 3), 2 * s(2, 2) - trace;
+  n(0, 0) += 1e-14 * n.norm() + std::numeric_limits<double>::min();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(n);
+  const Eigen::Vector4d q = solver.eigenvectors().col(3);  // that of the largest eigenvalue
+  return glm::normalize(q[0] < 0 ? glm::dquat(-q[0], -q[1], -q[2], -q[3]) : glm::dquat(q[0], q[1], q[2], q[3]));
 }
 
 }  // namespace

@@ -38,6 +38,27 @@ TEST_CASE("a body has the motion that its description gives it, also if it is st
     }
 }
 
+TEST_CASE("a rotation is found however far the body has turned, and vertices on a line turn no more than the line") {
+  for (const glm::dvec3& angles : {glm::dvec3(0), glm::dvec3(-30, 100, 40), glm::dvec3(180, 0, 0), glm::dvec3(90, 90, 90)}) {
+    CAPTURE(angles.x, angles.y, angles.z);
+    ModelAndState bodies = turned("icosphere:1", {0.6, 1, 1.7});
+    const glm::dquat turn = rotation_of(angles);
+    for (std::uint32_t i = 0; i < bodies.model.vertex_count(); ++i) {
+      const glm::dvec3 rest = bodies.model.rest_position(i), u = turn * (rest + bodies.state.displacement(i)) - rest;
+      STORE3(bodies.state.motion, physics::displacement_of(i), u)
+    }
+    CHECK(angle_between(body_motion(bodies.model, bodies.state, 0).rotation, rotation_of({20, -70, 130}) * turn) < 1e-6);
+  }
+  BodySetup line{{{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {}}, {}};
+  ModelAndState bodies = build_model(std::array{line}, {});
+  const glm::dquat turn = rotation_of({0, 0, 30});
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const glm::dvec3 rest = bodies.model.rest_position(i), u = turn * rest - rest;
+    STORE3(bodies.state.motion, physics::displacement_of(i), u)
+  }
+  CHECK(angle_between(body_motion(bodies.model, bodies.state, 0).rotation, turn) < 1e-6);
+}
+
 TEST_CASE("a turn that a body has in its frame counts as its rotation, and shear leaves what is nearest") {
   ModelAndState bodies = turned("box:2,1,0.5,6", glm::dvec3(1));
   const glm::dquat turn = rotation_of({30, 10, -50});
