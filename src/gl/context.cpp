@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -215,6 +216,7 @@ void enable_debug_output() {
 struct Context::Impl {
   OpenAdapter open;
   EGLContext context = EGL_NO_CONTEXT;
+  std::thread::id maker = std::this_thread::get_id();
   std::optional<WindowContext> window;  // whose context this is, if not its own
 };
 
@@ -256,7 +258,12 @@ const Adapter& Context::adapter() const { return impl_->open.adapter; }
 
 void Context::make_current() {
   if (!impl_->window) {
-    make_current_and_load(impl_->open.display, impl_->context);
+    if (impl_->maker != std::this_thread::get_id())
+      throw Error(ErrorKind::device, "", "the OpenGL context belongs to another thread",
+                  "use what simulates or draws by OpenGL in the thread that made it");
+    if (eglGetCurrentContext() == impl_->context) return;
+    if (!make_current_and_load(impl_->open.display, impl_->context))
+      throw Error(ErrorKind::device, "", fmt::format("{} has lost its OpenGL context", impl_->open.adapter.renderer), "");
     return;
   }
   impl_->window->make_current();

@@ -45,6 +45,7 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
   [[nodiscard]] const Adapter& adapter() const;
+  /// Takes no time if it is current already. Throws Error (device) on another thread than that which made it.
   void make_current();
 
  private:
