@@ -255,6 +255,24 @@ std::vector<PathKeyDescription> path_from(const BodyDescription& description, do
   return left;
 }
 
+std::vector<physics::PathKey> keys_toward(const BodyPath& path, const physics::PathState& now, const glm::dvec3& centre,
+                                          double seconds) {
+  PLIANT_EXPECT(path.way.repeats == 0 && path.keys.size() >= 2 && seconds > 0);
+  const physics::PathPoint& at = now.now;
+  const glm::dquat rotation(at.quaternion[3], at.quaternion[0], at.quaternion[1], at.quaternion[2]);
+  const glm::dvec3 arm = rotation * glm::make_vec3(path.way.arm);
+  const glm::dvec3 from = glm::make_vec3(at.centre) - arm, to = centre - arm, velocity = now.pace * glm::make_vec3(at.velocity);
+  std::vector<physics::PathKey> keys(path.keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    physics::PathKey& key = keys[k];
+    key.time = static_cast<double>(k) * seconds;  // later keys than the second one rest
+    STORE3(key.position, 0, (k == 0 ? from : to))
+    STORE3(key.velocity, 0, (k == 0 ? velocity : glm::dvec3(0.0)))
+    std::ranges::copy(at.quaternion, key.quaternion);
+  }
+  return keys;
+}
+
 BodyPath make_path(const BodyDescription& description, const glm::dvec3& centroid) {
   PLIANT_EXPECT(description.path.size() != 1);
   BodyPath path = description.path.empty() ? path_by_motion(description, centroid) : path_by_keys(description, centroid);

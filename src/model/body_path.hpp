@@ -31,6 +31,11 @@ struct BodyPath {
 /// a path that does not repeat begins at rest.
 [[nodiscard]] std::vector<PathKeyDescription> path_from(const BodyDescription& description, double time);
 
+/// Returns as many keys as the path has. They lead from where the body is now to another place of its centre [m], which it
+/// reaches after so long [s], and let it rest there. Expects a path with keys that does not repeat, and a positive time.
+[[nodiscard]] std::vector<physics::PathKey> keys_toward(const BodyPath& path, const physics::PathState& now,
+                                                        const glm::dvec3& centre, double seconds);
+
 /// Returns the path of a scripted body. `centroid` is the mean of its vertices before it is turned and moved [m].
 ///
 /// Positions and the three angles of keys are interpolated by monotone cubics, so that nothing overshoots a key, and a body that

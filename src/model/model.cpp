@@ -16,6 +16,7 @@
 #include "mesh/report.hpp"
 #include "model/body_error.hpp"
 #include "model/inflation.hpp"
+#include "model/pose.hpp"
 
 namespace pliant {
 namespace {
@@ -34,18 +35,6 @@ std::vector<glm::dvec3> scaled_positions(const BodySetup& setup) {
   std::vector<glm::dvec3> positions = setup.mesh.positions;
   for (glm::dvec3& position : positions) position *= setup.description.scale;
   return positions;
-}
-
-physics::Pose make_pose(const glm::dvec3& origin, const glm::dquat& q, const glm::dvec3& gravity) {
-  physics::Pose pose{};
-  const glm::dmat3 rotation = glm::mat3_cast(q);  // columns first
-  const glm::dvec3 local_gravity = glm::transpose(rotation) * gravity;
-  STORE3(pose.origin, 0, origin);
-  STORE3(pose.gravity, 0, local_gravity);
-  for (int i = 0; i < 4; ++i) pose.quaternion[i] = glm::dvec4(q.x, q.y, q.z, q.w)[i];
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) pose.rotation[3 * row + column] = rotation[column][row];
-  return pose;
 }
 
 int winding_of(const TriangleMesh& mesh) {
@@ -240,6 +229,17 @@ ModelAndState without_bodies(const ModelAndState& bodies) {
   return none;
 }
 
+// Of each body the loop keeps its own copy of the frame, so that the compiler need not read it again for each vertex.
+template <class Of>
+void fill_by_body(const Model& model, const std::vector<physics::Pose>& poses, std::span<glm::dvec3> into, const Of& of) {
+  PLIANT_EXPECT(into.size() == model.vertex_count());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const physics::Pose pose = poses[b];
+    const std::size_t first = model.bodies[b].first_vertex, end = first + model.bodies[b].vertex_count;
+    for (std::size_t vertex = first; vertex < end; ++vertex) into[vertex] = of(pose, vertex);
+  }
+}
+
 }  // namespace
 
 ModelAndState with_body(const ModelAndState& bodies, std::size_t index, const BodySetup& setup, const glm::dvec3& gravity) {
@@ -280,9 +280,20 @@ Model with_materials(Model model, std::span<const Material> materials) {
   return model;
 }
 
+void State::read_world_positions(const Model& model, std::span<glm::dvec3> into) const {
+  fill_by_body(model, poses, into, [&](const physics::Pose& pose, std::size_t vertex) {
+    return physics::to_world(pose, model.rest_position(vertex) + displacement(vertex));
+  });
+}
+
+void State::read_world_velocities(const Model& model, std::span<glm::dvec3> into) const {
+  fill_by_body(model, poses, into,
+               [&](const physics::Pose& pose, std::size_t vertex) { return physics::rotate(pose, velocity(vertex)); });
+}
+
 std::vector<glm::dvec3> State::world_positions(const Model& model) const {
   std::vector<glm::dvec3> positions(model.vertex_count());
-  for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) positions[vertex] = world_position(model, vertex);
+  read_world_positions(model, positions);
   return positions;
 }
 
@@ -301,7 +312,7 @@ std::vector<glm::dvec3> State::displacements_of(const ModelBody& body) const {
 
 std::vector<glm::dvec3> State::world_velocities(const Model& model) const {
   std::vector<glm::dvec3> velocities(model.vertex_count());
-  for (std::size_t vertex = 0; vertex < velocities.size(); ++vertex) velocities[vertex] = world_velocity(model, vertex);
+  read_world_velocities(model, velocities);
   return velocities;
 }
 

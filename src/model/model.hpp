@@ -128,6 +128,9 @@ struct State {
   [[nodiscard]] glm::dvec3 world_velocity(const Model& model, std::size_t vertex) const {
     return physics::rotate(poses[model.body_index(vertex)], velocity(vertex));
   }
+  /// Put those of every vertex into memory that is there, one for each.
+  void read_world_positions(const Model& model, std::span<glm::dvec3> into) const;
+  void read_world_velocities(const Model& model, std::span<glm::dvec3> into) const;
   /// Return those of every vertex.
   [[nodiscard]] std::vector<glm::dvec3> world_positions(const Model& model) const;
   [[nodiscard]] std::vector<glm::dvec3> world_velocities(const Model& model) const;

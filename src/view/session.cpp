@@ -336,19 +336,10 @@ void Session::take_hand() {
   if (hand_) remove(hand_->body);
 }
 
-// The path begins with the place and velocity that the hand has there.
 void Session::send_hand(const glm::dvec3& target, double seconds) {
   PLIANT_EXPECT(hand_ && seconds > 0);
   const physics::PathState now = simulation_->path_state(hand_->body);
-  std::vector<physics::PathKey> keys = simulation_->path_keys(hand_->body);
-  physics::PathKey &from = keys.front(), &to = keys.back();
-  from.time = 0;
-  to.time = seconds;
-  std::ranges::copy(now.now.centre, from.position);
-  std::ranges::transform(now.now.velocity, from.velocity, [&](double v) { return now.pace * v; });
-  STORE3(to.position, 0, target)
-  STORE3(to.velocity, 0, glm::dvec3(0.0))
-  simulation_->send(hand_->body, keys);
+  simulation_->send(hand_->body, keys_toward(*model().bodies[hand_->body].path, now, target, seconds));
 }
 
 void Session::time_passes(bool timed) { simulation_->time_passes(times_passes_ = timed); }

@@ -169,5 +169,29 @@ TEST_CASE("a scripted body without keys keeps its velocity and its spin about th
   }
 }
 
+TEST_CASE("a body that is sent elsewhere goes on as it went, arrives in time and rests, without a turn") {
+  BodyDescription description = scripted(winding);
+  description.position = {3, 0, 1};
+  const BodyPath path = make_path(description, {0.2, -0.1, 0.3});
+  physics::PathState now{};
+  now.now = path.at(0.8);
+  now.pace = 0.5;
+  const glm::dvec3 target{7, 8, 9};
+  BodyPath sent = path;
+  sent.keys = keys_toward(path, now, target, 0.25);
+  CHECK(sent.keys.size() == path.keys.size());
+  const physics::PathPoint begin = sent.at(0), end = sent.at(0.25), later = sent.at(10);
+  CHECK(glm::distance(glm::make_vec3(begin.centre), glm::make_vec3(now.now.centre)) < 1e-14);
+  CHECK(glm::distance(glm::make_vec3(begin.velocity), 0.5 * glm::make_vec3(now.now.velocity)) < 1e-12);
+  for (const physics::PathPoint& p : {end, later}) {
+    CHECK(glm::distance(glm::make_vec3(p.centre), target) < 1e-14);
+    CHECK(glm::length(glm::make_vec3(p.velocity)) < 1e-12);
+  }
+  for (const double time : {0.0, 0.1, 0.2, 0.5}) {
+    CHECK(glm::length(glm::make_vec3(sent.at(time).spin)) < 1e-12);
+    CHECK(std::abs(glm::dot(rotation_at(sent, time), rotation_at(path, 0.8))) > 1 - 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace pliant
