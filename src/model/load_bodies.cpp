@@ -34,22 +34,35 @@ void subdivide_as_described(const BodyDescription& body, TriangleMesh& mesh) {
   try {
     mesh = subdivide(mesh, body.subdivide, body.subdivision);
   } catch (const Error& error) {
-    throw Error(body.subdivide_where, error.what(), "");
+    throw error.within(body.subdivide_where);
   }
 }
 
-LoadedMesh load_welded(const BodyDescription& body, const std::filesystem::path& folder, const ReadProgress& progress) {
+// Where meshes come from.
+struct MeshSource {
+  std::filesystem::path folder;
+  const ReadProgress& progress;
+  const GivenMeshes& given;
+};
+
+LoadedMesh find_mesh(const std::string& name, const MeshSource& source) {
+  const auto found = source.given.find(name);
+  if (found != source.given.end()) return {.mesh = found->second, .warnings = {}};
+  return load_mesh(name, source.folder, source.progress);
+}
+
+LoadedMesh load_welded(const BodyDescription& body, const MeshSource& source) {
   try {
-    LoadedMesh loaded = load_mesh(body.mesh, folder, progress);
+    LoadedMesh loaded = find_mesh(body.mesh, source);
     weld_as_described(body, loaded);
     return loaded;
   } catch (const Error& error) {
-    throw Error(body.mesh_where, error.what(), "");
+    throw error.within(body.mesh_where);
   }
 }
 
-LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& folder, const ReadProgress& progress) {
-  LoadedMesh loaded = load_welded(body, folder, progress);
+LoadedMesh load_one(const BodyDescription& body, const MeshSource& source) {
+  LoadedMesh loaded = load_welded(body, source);
   subdivide_as_described(body, loaded.mesh);
   return loaded;
 }
@@ -57,14 +70,15 @@ LoadedMesh load_one(const BodyDescription& body, const std::filesystem::path& fo
 }  // namespace
 
 std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings,
-                                   const ReadProgress& progress) {
+                                   const ReadProgress& progress, const GivenMeshes& given) {
+  const MeshSource source{scene.file.parent_path(), progress, given};
   std::vector<BodySetup> setups;
   std::map<std::tuple<std::string, double, unsigned, Subdivision>, TriangleMesh> meshes;  // by what makes them what they are
   for (const BodyDescription& body : scene.bodies) {
     const auto [found, is_new] =
         meshes.try_emplace({body.mesh, body.weld.value_or(0) / body.scale, body.subdivide, body.subdivision});
     if (is_new) {
-      LoadedMesh loaded = load_one(body, scene.file.parent_path(), progress);
+      LoadedMesh loaded = load_one(body, source);
       found->second = std::move(loaded.mesh);
       if (warnings != nullptr)
         for (const std::string& warning : loaded.warnings) warnings->push_back(fmt::format("{}: {}", body.name, warning));

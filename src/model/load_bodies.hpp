@@ -1,5 +1,6 @@
 // Loads, welds and subdivides the meshes that a scene names.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,13 @@
 
 namespace pliant {
 
-/// Returns one setup for each body, in the scene's order. Paths are relative to the scene file's folder. Adds warnings of
-/// each mesh, beginning with the name of the first body that has it, unless `warnings` is null. Throws Error that blames the
-/// mesh's origin.
+/// Meshes that a program has in memory, by what a scene calls them.
+using GivenMeshes = std::map<std::string, TriangleMesh>;
+
+/// Returns one setup for each body, in the scene's order. A mesh that is not given is generated or read. Paths are relative to
+/// the scene file's folder. Adds warnings of each mesh, beginning with the name of the first body that has it, unless `warnings`
+/// is null. Throws Error that blames the mesh's origin.
 [[nodiscard]] std::vector<BodySetup> load_bodies(const SceneDescription& scene, std::vector<std::string>* warnings = nullptr,
-                                                 const ReadProgress& progress = {});
+                                                 const ReadProgress& progress = {}, const GivenMeshes& given = {});
 
 }  // namespace pliant
