@@ -9,4 +9,6 @@ std::string version() { return PLIANT_VERSION; }
 
 std::string commit() { return PLIANT_COMMIT; }
 
+std::string full_version() { return version() + " (" + commit() + ")"; }
+
 }  // namespace pliant

@@ -10,4 +10,7 @@ namespace pliant {
 /// Returns the commit that it was built from, or "unknown" outside a git checkout. "-dirty" stands behind it if files differed.
 [[nodiscard]] std::string commit();
 
+/// Returns both, because bits can change between commits, too.
+[[nodiscard]] std::string full_version();
+
 }  // namespace pliant

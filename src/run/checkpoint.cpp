@@ -28,7 +28,7 @@ static_assert(checkpoint_version == 41 && sizeof(physics::Cluster) == 304 && siz
 template <class Archive, class Options>
 void visit_options(Archive& archive, Options& options) {
   auto& [base, scene, device, steps, duration, time_step, tolerance, integrator, overrides, out, frames, video, checkpoint,
-         interval, resume, scene_text, timings, skipping, check, quiet] = options;
+         interval, resume, scene_text, meshes, timings, skipping, check, quiet] = options;
   auto& [kind, gpu_index, precision, threads] = device;
   archive(scene, kind, gpu_index, precision, threads, steps, duration, time_step, tolerance, integrator, overrides, out, frames,
           interval);
@@ -44,9 +44,6 @@ void visit(Archive& archive, Held& held) {
   visit_options(archive, options);
   archive(working_folder, device_name, scene_text, mesh_checksums, warnings, progress, history, simulation);
 }
-
-// Includes the commit, because bits can change between commits too.
-std::string full_version() { return fmt::format("{} ({})", version(), commit()); }
 
 // If the folder is gone, the project was moved. Relative paths then start in the current folder.
 bool is_here_or_gone(const std::filesystem::path& folder) {
@@ -223,7 +220,7 @@ void resume(const RunOptions& given, const Checkpoint& checkpoint, PreparedRun& 
     run.simulation->restore(checkpoint.simulation);
     add_warnings(checkpoint, run);
   } catch (const Error& error) {
-    throw Error(error.kind(), given.resume.string(), error.what(), "");
+    throw error.within(error.kind(), given.resume.string());
   }
   if (!is_over(run) && run.device->precision() < precision_of(checkpoint))
     expect_provable(*run.simulation, run.start.model, run.scene.collision, given.resume.string());

@@ -6,16 +6,11 @@
 #include <cstdio>
 
 #include "core/counted.hpp"
-#include "device/gpu/gpu_device.hpp"
 #include "output/png.hpp"
-#include "render/contact_marks.hpp"
-#include "render/drawn_buffers.hpp"
-#include "render/frame_renderer.hpp"
+#include "run/painter.hpp"
 
 namespace pliant {
 namespace {
-
-render::SceneBox box_of(const PreparedRun& run) { return render::box_around(run.start.state.world_positions(run.start.model)); }
 
 // If steps are longer than frames, each step is a frame. The lower rate lets a second of video still be a second of the run.
 VideoFormat video_format_of(const PreparedRun& run) {
@@ -23,47 +18,11 @@ VideoFormat video_format_of(const PreparedRun& run) {
   return {run.scene.output.size.x, run.scene.output.size.y, run.plan.tolerance ? rate : std::min(rate, 1 / run.plan.time_step)};
 }
 
-std::unique_ptr<gl::Context> context_for_drawing() {
-  std::string reason;
-  if (gl::list_adapters(&reason).empty())
-    throw Error(ErrorKind::device, "--frames png or --video", "drawing needs OpenGL 4.5: " + reason,
-                "install libegl1 and libgl1-mesa-dri, or write obj, ply or vtk frames");
-  return std::make_unique<gl::Context>(0);
-}
-
 }  // namespace
 
-/// Draws on the GPU device's context. For a CPU device it makes its own context.
-class FrameSink::Painter {
- public:
-  explicit Painter(PreparedRun& run)
-      : run_(run),
-        own_context_(gpu::context_of(*run.device) == nullptr ? context_for_drawing() : nullptr),
-        renderer_(run.start.model, render::options_for(box_of(run), run.scene.output)) {}
-
-  render::Image paint() {
-    const render::DrawnBuffer positions = buffers_.positions(*run_.device, *run_.simulation);
-    renderer_.draw(positions.id, positions.first_vertex);
-    if (run_.scene.output.marks == Marks::contacts) renderer_.draw_lines(contacts());
-    return renderer_.read();
-  }
-
- private:
-  render::Lines contacts() {
-    render::Lines lines;
-    const Model& model = run_.start.model;
-    render::add_contacts(lines, *run_.simulation, model, run_.simulation->state().world_positions(model));
-    return lines;
-  }
-
-  PreparedRun& run_;
-  std::unique_ptr<gl::Context> own_context_;
-  render::DrawnBuffers buffers_;
-  render::FrameRenderer renderer_;
-};
-
 FrameSink::FrameSink(PreparedRun& run, FrameTargets targets) : run_(run), targets_(std::move(targets)), count_(targets_.first) {
-  if (targets_.format == FrameFormat::png || !targets_.video.empty()) painter_ = std::make_unique<Painter>(run);
+  if (targets_.format == FrameFormat::png || !targets_.video.empty())
+    painter_ = std::make_unique<Painter>(run, run.scene.output, "--frames png or --video");
   if (!targets_.video.empty()) video_ = std::make_unique<VideoFile>(targets_.video, video_format_of(run));
 }
 

@@ -18,6 +18,8 @@ struct FrameTargets {
   int first = 0;                 // number of the first frame
 };
 
+class Painter;
+
 class FrameSink {
  public:
   FrameSink(PreparedRun& run, FrameTargets targets);
@@ -32,7 +34,6 @@ class FrameSink {
   [[nodiscard]] int count() const { return count_; }
 
  private:
-  class Painter;
   void write_to_video();
   PreparedRun& run_;
   FrameTargets targets_;

@@ -166,7 +166,7 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.scene_text = options.scene_text ? *options.scene_text : read_text(scene_of(options));
   run.scene = describe_scene(run.scene_text, options);
   ReadingLine line(options.quiet ? 0 : bytes_of_meshes(run.scene));
-  const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings, line.progress());
+  const std::vector<BodySetup> setups = load_bodies(run.scene, &run.warnings, line.progress(), options.meshes);
   for (const BodySetup& setup : setups) run.mesh_checksums.push_back(checksum_of(setup.mesh));
   run.start = build_model(setups, run.scene.simulation.gravity, run.scene.grounds);
   run.plan = plan_time(run.scene, run.start.model, options.steps);

@@ -19,6 +19,7 @@
 #include "output/csv.hpp"
 #include "output/file.hpp"
 #include "output/file_lock.hpp"
+#include "run/batch.hpp"
 #include "run/check.hpp"
 #include "run/checkpoint.hpp"
 #include "run/frame_sink.hpp"
@@ -32,8 +33,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double patience = 1;  // how long measuring may go on after Ctrl-C [s]
-constexpr std::uint64_t most_steps_of_a_batch = 1024;
-constexpr double time_of_a_batch = 0.1;  // aimed at between two checks for Ctrl-C and updates of the progress [s]
 
 class Run {
  public:
@@ -118,21 +117,19 @@ class Run {
   }
 
   void advance_to(std::uint64_t target) {
-    while (report_.steps < target && !stopped()) advance_by(std::min(batch_, target - report_.steps));
+    while (report_.steps < target && !stopped()) advance_by(std::min(batch_.steps(), target - report_.steps));
     record_unless_recorded();
   }
 
-  // Batches grow while they are short, because a report after each step would cost more than small steps. They end early where
-  // steps begin to take longer.
+  // Ends early where steps begin to take longer.
   void advance_by(std::uint64_t steps) {
     const double before = progress_.times.stepping.seconds();
     step([&] {
-      const auto end = Clock::now() + std::chrono::duration<double>(time_of_a_batch);
+      const auto end = Clock::now() + std::chrono::duration<double>(Batch::time);
       run_.simulation->advance(steps, [end] { return is_interrupted() || Clock::now() > end; });
       return run_.simulation->report();
     });
-    const bool is_short = progress_.times.stepping.seconds() - before < time_of_a_batch;
-    batch_ = is_short ? std::min(2 * batch_, most_steps_of_a_batch) : std::max<std::uint64_t>(batch_ / 2, 1);
+    batch_.took(progress_.times.stepping.seconds() - before);
   }
 
   void advance_to_time(double target) {
@@ -316,7 +313,7 @@ class Run {
   Place before_row_;  // the latest one
   StepReport report_;
   int first_frame_ = frames_.count();
-  std::uint64_t batch_ = 1;  // steps between reports
+  Batch batch_;  // between reports
   State state_;
   bool has_blown_up_ = false;
   bool has_state_ = false, has_summary_ = false;  // this run has written them

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/load_bodies.hpp"
 #include "output/frames.hpp"
 #include "run/choose_device.hpp"
 #include "simulation/skipping.hpp"
@@ -39,6 +40,7 @@ struct RunOptions {
   /// Checkpoint to go on from, instead of a scene. Options of the scene and of frames then come from the checkpoint.
   std::filesystem::path resume;
   std::optional<std::string> scene_text;  // used instead of the scene file's content
+  GivenMeshes meshes;                     // used instead of files and generators of these names
   bool timings = false;                   // measure each kind of pass
   Skipping skipping;                      // what steps leave out
   bool check = false;                     // validate and estimate only

@@ -345,7 +345,14 @@ void Simulation::read_state(State& into) {
 }
 
 std::vector<glm::vec4> Simulation::world_positions() {
-  return bodies_.world_positions.download(first_position(), bodies_.vertex_count);
+  std::vector<glm::vec4> positions(bodies_.vertex_count);
+  read_world_positions(positions);
+  return positions;
+}
+
+void Simulation::read_world_positions(std::span<glm::vec4> into) {
+  PLIANT_EXPECT(into.size() == bodies_.vertex_count);
+  bodies_.world_positions.download(into, first_position());
 }
 
 std::string Simulation::save() {

@@ -125,12 +125,15 @@ class Simulation {
   /// The next two wait for the queued steps. They return what a scripted body does: the keys that it goes along, and where it is.
   [[nodiscard]] std::vector<physics::PathKey> path_keys(std::uint32_t body) const;
   [[nodiscard]] physics::PathState path_state(std::uint32_t body) const;
-  /// The next four wait for the queued steps.
+  /// The next six wait for the queued steps. The first says whether report() has a breakdown.
+  [[nodiscard]] bool has_broken_down() { return control().non_finite_step != 0; }
   [[nodiscard]] StepReport report();
   [[nodiscard]] State state();
   /// Puts the state into one whose memory is used again.
   void read_state(State& into);
   [[nodiscard]] std::vector<glm::vec4> world_positions();
+  /// Puts them into memory that is there, one for each vertex.
+  void read_world_positions(std::span<glm::vec4> into);
   /// Returns by how much lists of clusters that were made anew have changed elastic energies: the sum of sizes [J], or NaN if
   /// there was no memory or thread to sum them. Waits until that is known.
   [[nodiscard]] double energy_changed_by_lists() { return watch_ ? watch_->energy_change() : 0; }
