@@ -10,9 +10,14 @@ if(TARGET pliant_app)
   install(FILES meshes/bunny.obj meshes/teapot.obj DESTINATION share/pliant/meshes)
 endif()
 
+if(python_is_built)
+  install(TARGETS pliant_core LIBRARY DESTINATION ${PLIANT_PYTHON_DIR}/pliant)
+  install(DIRECTORY python/pliant DESTINATION ${PLIANT_PYTHON_DIR} PATTERN "__pycache__" EXCLUDE)
+endif()
+
 # Headers include each other from src/ and from shaders/compute/.
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "kernel_prelude.inc" PATTERN "app" EXCLUDE PATTERN "bench" EXCLUDE PATTERN "window" EXCLUDE
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "kernel_prelude.inc" PATTERN "app" EXCLUDE PATTERN "bench" EXCLUDE PATTERN "python" EXCLUDE PATTERN "window" EXCLUDE
         PATTERN "studio.hpp" EXCLUDE PATTERN "scene/toml.hpp" EXCLUDE PATTERN "scene/overrides.hpp" EXCLUDE)
 install(DIRECTORY shaders/compute/physics DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders)
 install(DIRECTORY shaders/compute/kernels/parts DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/shaders/kernels)  # for kernels from outside

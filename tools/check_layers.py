@@ -9,7 +9,7 @@ import sys
 
 # The order of docs/architecture.md. A folder of shaders counts as a module: both languages include from there.
 LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device", "state", "dynamics", "collision",
-          "simulation", "render", "output", "run", "view", "window", "bench", "app"]
+          "simulation", "render", "output", "run", "view", "window", "bench", "python", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
 WINDOW_FILE = "src/window/window.cpp"  # the only one that sees GLFW
 PANEL_FILES = [f"src/window/{name}.cpp" for name in ("panel", "start_page", "style")]  # the only ones that see Dear ImGui

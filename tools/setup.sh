@@ -1,8 +1,8 @@
 # Sourced by the other tools: installs the Debian packages of a purpose, and builds what it needs.
-# Purposes: program (with the viewer), bench, comparisons (bench beside other libraries), tests.
+# Purposes: program (with the viewer), python, bench, comparisons (bench beside other libraries), tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-purposes=(program bench comparisons tests)
+purposes=(program python bench comparisons tests)
 
 expect_purposes() {
   local purpose
