@@ -1,5 +1,9 @@
 # Other libraries, with which `pliant bench` compares where they are found (`tools/build comparisons`): integrators, and trees.
+option(PLIANT_PEERS "Compare benchmarks with other libraries where they are found" ON)
 add_library(pliant_peers INTERFACE)
+if(NOT PLIANT_PEERS)
+  return()
+endif()
 find_path(PLIANT_ODEINT_DIR boost/numeric/odeint.hpp)
 if(PLIANT_ODEINT_DIR)
   target_include_directories(pliant_peers SYSTEM INTERFACE ${PLIANT_ODEINT_DIR})
