@@ -14,6 +14,7 @@ import json as _json
 from typing import Any as _Any
 
 from . import _core
+from ._sweep import run_to_end, sweep
 from .errors import BreakdownError, DeviceError, Error, InputError, SceneWarning
 from .mesh import Mesh, mesh
 from .picture import Animation, Picture
@@ -23,7 +24,7 @@ from .simulation import CONTACT, Body, Intersections, Measurement, Simulation
 __version__: str = _core.version
 
 __all__ = ["Animation", "Body", "BreakdownError", "CONTACT", "DeviceError", "Error", "InputError", "Intersections", "Measurement",
-           "Mesh", "Picture", "Scene", "SceneWarning", "Simulation", "info", "integrators", "mesh"]
+           "Mesh", "Picture", "Scene", "SceneWarning", "Simulation", "info", "integrators", "mesh", "run_to_end", "sweep"]
 
 
 def info() -> dict[str, _Any]:

@@ -19,6 +19,7 @@
 #include "app/bench_command.hpp"
 #include "app/info_command.hpp"
 #include "app/mesh_command.hpp"
+#include "app/sweep_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
@@ -296,6 +297,13 @@ void add_mesh(CLI::App& program, app::MeshOptions& options) {
   mesh->add_option("--out", options.out, "File to write the mesh to: obj or ply")->check(not_empty());
 }
 
+// The Python package reads its options.
+void add_sweep(CLI::App& program) {
+  CLI::App* sweep = program.add_subcommand("sweep", "Make many runs of a scene side by side (needs the Python package)");
+  sweep->prefix_command();
+  sweep->set_help_flag();
+}
+
 // Returns the command that was being read, and its name.
 std::pair<const CLI::App*, std::string> command_in(const CLI::App* program) {
   std::string name = "pliant";
@@ -343,6 +351,7 @@ int execute(int count, char** arguments) {
   add_info(program, info);
   add_bench(program, bench);
   add_mesh(program, mesh);
+  add_sweep(program);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -354,6 +363,7 @@ int execute(int count, char** arguments) {
     return 0;
   }
   if (program.got_subcommand("bench")) return app::bench(bench);
+  if (program.got_subcommand("sweep")) app::sweep(program.get_subcommand("sweep")->remaining());
   if (program.got_subcommand("info"))
     app::show_info(info);
   else

@@ -7,17 +7,13 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/program_folder.hpp"
 #include "scene/load_scene.hpp"
 
 namespace pliant::view {
 namespace {
 
 constexpr const char* remedy = "name a scene, as in pliant view SCENE, or run pliant where scenes/demos is";
-
-std::filesystem::path program_folder() {
-  std::error_code unknown;
-  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
-}
 
 }  // namespace
 
