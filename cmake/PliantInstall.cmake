@@ -9,8 +9,8 @@ if(TARGET pliant_app)
 endif()
 
 if(python_is_built)
-  install(TARGETS pliant_core LIBRARY DESTINATION ${PLIANT_PYTHON_DIR}/pliant COMPONENT python)
-  install(DIRECTORY python/pliant DESTINATION ${PLIANT_PYTHON_DIR} COMPONENT python PATTERN "__pycache__" EXCLUDE)
+  install(TARGETS pliant_core LIBRARY DESTINATION ${python_dir}/pliant COMPONENT python)
+  install(DIRECTORY python/pliant DESTINATION ${python_dir} COMPONENT python PATTERN "__pycache__" EXCLUDE)
 endif()
 
 # Headers include each other from src/ and from shaders/compute/.

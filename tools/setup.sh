@@ -50,6 +50,7 @@ build() {
   if [ ! -f "build/$preset/build.ninja" ]; then options=(-DPLIANT_BUILD_BENCH=OFF -DPLIANT_BUILD_TESTS=OFF); fi
   if [[ $wanted =~ \ (bench|comparisons|tests)\  ]]; then options+=(-DPLIANT_BUILD_BENCH=ON); fi
   if [[ $wanted == *" tests "* ]]; then options+=(-DPLIANT_BUILD_TESTS=ON); fi
+  if [[ $wanted == *" python "* ]]; then options+=(-DPLIANT_PYTHON=ON); fi
   cmake --preset "$preset" "${options[@]}"
   cmake --build --preset "$preset"
 }

@@ -2,25 +2,31 @@
 from __future__ import annotations
 
 import concurrent.futures
+import contextlib
 import csv
+import fcntl
+import functools
 import hashlib
+import inspect
+import io
 import itertools
 import json
 import math
 import multiprocessing
 import os
+import pickle
+import signal
 import sys
+import threading
 import time
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass, field
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from . import _core
-from .errors import BreakdownError, Error, InputError
+from .errors import BreakdownError, Error, InputError, SceneWarning
 from .scene import Overrides, Scene
 from .simulation import Simulation
 
@@ -28,7 +34,9 @@ Row = dict[str, Any]
 Run = Callable[[Simulation], Mapping[str, Any]]
 
 _BATCH_SECONDS = 0.2  # of the runs that a worker gets at a time: handing over takes a few milliseconds
+_MOST_RUNS = 10**7
 _MOST_TRIES = 3  # of a run whose worker has died
+_LAST_COLUMNS = ["error", "warnings", "wall_seconds", "key"]
 
 
 def run_to_end(simulation: Simulation) -> Row:
@@ -71,8 +79,8 @@ def sweep(scene: Scene | str | PathLike[str], values: Mapping[str, Iterable[Any]
     - ``error``: why the run could not be made, else None. The other runs go on. The next sweep tries it again.
     - ``warnings``: those of its scene, one after the other.
     - ``wall_seconds``: how long it took, the only number that differs from one sweep to the next.
-    - ``key``: tells the run from all others. Scene, meshes, values, ``run``'s name, precision, kind of device and the version of
-      pliant change it.
+    - ``key``: tells the run from all others. Scene, meshes, values, the text of ``run``, precision, kind of device, and version
+      and commit of pliant change it. What ``run`` calls does not.
 
     ``pandas.DataFrame(rows)`` and ``pandas.read_csv(out)`` make a table of them.
 
@@ -83,34 +91,39 @@ def sweep(scene: Scene | str | PathLike[str], values: Mapping[str, Iterable[Any]
         run: a function of a module that gets a Simulation at its start, and returns numbers and texts by names.
         out: the table's file (CSV). Runs that it has are not made again. Each new row is there as soon as its batch of runs is done.
         executor: runs the workers: any of the form of ``concurrent.futures``, such as those of Dask (``client.get_executor()``)
-            and mpi4py (``MPIPoolExecutor()``). If None, processes on this machine. One that dies costs its runs, which are repeated.
+            and mpi4py (``MPIPoolExecutor()``). If it breaks, the sweep ends, and the table has the rows so far. If None, processes
+            on this machine. One that dies costs its runs, which are repeated.
         workers: number of processes, or of the executor's workers. If None, one a processor, or ``runs_per_gpu`` for each GPU.
-        device: ``cpu``, ``gpu``, or ``gpu:1`` for one of several GPUs. With ``gpu`` workers share out all GPUs of a machine.
+        device: ``cpu``, ``gpu``, or ``gpu:1`` for one of several GPUs. With ``gpu`` processes on this machine share out its GPUs.
+            Workers of an executor take the one of their number under MPI or Slurm, else that of the environment's PLIANT_GPU.
         runs_per_gpu: how many runs share a GPU. Small ones leave most of it idle.
         precision: bits of the forces, as of a Simulation.
         threads: of each run on a CPU.
         progress: whether to show a bar. If None, where standard error is a terminal.
 
     Raises:
-        InputError: the scene or a key is wrong, or ``out`` is of another kind of sweep.
+        InputError: the scene, a key or an argument is wrong, or ``out`` is of another kind of sweep, or in use by one.
     """
+    for name, number in (("workers", 1 if workers is None else workers), ("runs_per_gpu", runs_per_gpu)):
+        if number < 1:
+            raise InputError(name, f"{number} is below 1", "name at least one")
     described = scene if isinstance(scene, Scene) else Scene.load(scene)
     place = _Place(device, precision, threads, runs_per_gpu)
     jobs = [_job(described, given, run, place) for given in _combinations(values)]
-    table = _Table(out, jobs)
-    todo = [job for job in jobs if not table.has(job)]
-    bar = _Bar(len(jobs), len(jobs) - len(todo), sys.stderr.isatty() if progress is None else progress)
-    if todo:
-        for rows in _Sweep(described, run, place, executor, workers).rows_of(todo):
-            table.add(rows)
-            bar.add(len(rows))
-    bar.end()
-    table.put_in_order()
-    return [table.rows[job.key] for job in jobs]
+    _expect_sound(described, jobs, place)
+    with _Table.of(out, jobs) as table:
+        todo = list({job.key: job for job in jobs if not table.has(job)}.values())
+        bar = _Bar(len(jobs), len(jobs) - len(todo), sys.stderr.isatty() if progress is None else progress)
+        with contextlib.closing(_rows_of(todo, _Workers(described, run, place, executor, workers))) as batches:
+            for rows in batches:
+                table.add(rows)
+                bar.add(len(rows))
+        bar.end()
+        table.put_in_order()
+        return [table.rows[job.key] for job in jobs]
 
 
-@dataclass(frozen=True)
-class _Place:
+class _Place(NamedTuple):
     """Where runs are made."""
 
     device: str
@@ -123,33 +136,69 @@ class _Place:
         return self.device == "gpu"
 
 
-@dataclass(frozen=True)
-class _Job:
+class _Job(NamedTuple):
     values: Row
-    key: str = field(compare=False)
+    key: str
 
 
 def _combinations(values: Mapping[str, Iterable[Any]] | Sequence[Overrides]) -> list[Row]:
     if isinstance(values, Mapping):
-        lists = {key: list(of) if not isinstance(of, (str, Mapping)) else [of] for key, of in values.items()}
+        lists = {key: [of] if isinstance(of, (str, Mapping)) or not isinstance(of, Iterable) else list(of) for key, of in values.items()}
+        if (count := math.prod(len(of) for of in lists.values())) > _MOST_RUNS:
+            raise InputError("values", f"make {count} runs", f"use at most {_MOST_RUNS} combinations")
         return [dict(zip(lists, chosen)) for chosen in itertools.product(*lists.values())]
     return [dict(given) for given in values]
 
 
 def _plain(value: Any) -> Any:
-    """Returns a value without numpy's types, so that it looks the same in a key and a table wherever it came from."""
-    return value.tolist() if hasattr(value, "tolist") else value
+    """Returns a value of JSON's types alone, so that it is the same in a key and a table wherever it came from."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return {str(key): _plain(of) for key, of in value.items()}
+    return [_plain(of) for of in value] if isinstance(value, (list, tuple)) else value
 
 
 def _job(scene: Scene, given: Row, run: Run, place: _Place) -> _Job:
+    name = getattr(run, "__qualname__", None)
+    if name is None:
+        raise InputError("run", f"{run!r} has no name", "pass a function of a module")
     values = {key: _plain(value) for key, value in given.items()}
-    digest = hashlib.sha256()
     kind = place.device.partition(":")[0]
-    parts = (scene._text, scene._overrides, values, f"{run.__module__}.{run.__qualname__}", kind, place.precision, _core.version)
-    digest.update(json.dumps(parts, sort_keys=True, default=str).encode())
+    parts = (scene._text, scene._overrides, values, name, _source_of(run), kind, place.precision, _core.version, _core.commit)
+    try:
+        digest = hashlib.sha256(json.dumps(parts, sort_keys=True).encode())
+    except TypeError as error:
+        raise InputError("values", f"{values} can't be set: {error}", "use numbers, texts, lists and dicts") from error
     for name, mesh in scene._meshes.items():
         digest.update(name.encode() + mesh.positions.tobytes() + mesh.triangles.tobytes())
     return _Job(values, "run-" + digest.hexdigest()[:16])
+
+
+@functools.cache
+def _source_of(run: Run) -> str:
+    """Returns the text of a function, or its module where there is no text, as in an interpreter."""
+    try:
+        return inspect.getsource(run)
+    except (OSError, TypeError):
+        return run.__module__
+
+
+def _expect_sound(scene: Scene, jobs: Sequence[_Job], place: _Place) -> None:
+    """Raises InputError for what would be wrong with all runs: a key that there is not, or a device."""
+    Simulation.expect_choices(place.device, place.precision, place.threads)
+    tried = set()
+    for job in jobs:
+        new = [key for key in job.values if key not in tried]
+        tried.update(new)
+        for key in new:
+            try:
+                scene.override({key: job.values[key]})
+            except InputError as error:
+                if "unknown key" in error.problem or "there is no body" in error.problem:
+                    raise
 
 
 # In a worker
@@ -157,18 +206,30 @@ def _job(scene: Scene, given: Row, run: Run, place: _Place) -> _Job:
 _gpu: int | None = None  # which one this worker has, if workers share out the GPUs
 
 
-def _take_gpu(numbers: Any) -> None:
-    """Begins a worker process: takes the next number."""
+def _end_with(process: int) -> None:
+    """Ends this process when another one has gone. Else workers would wait for ever after a sweep that was killed."""
+    while True:
+        try:
+            os.kill(process, 0)
+        except OSError:
+            os._exit(1)
+        time.sleep(1)
+
+
+def _begin_process(sweeper: int, numbers: Any) -> None:
+    """Begins a worker process. It takes the next number if there are any, and leaves Ctrl-C to the process that sweeps."""
     global _gpu
-    _gpu = numbers.get()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(sweeper,), daemon=True).start()
+    if numbers is not None:
+        _gpu = numbers.get()
 
 
 def _device_of_worker(place: _Place) -> str:
-    """Returns the worker's GPU. Under MPI and Slurm it follows from the worker's number on its machine."""
     if not place.shares_gpus:
         return place.device
-    ranks = (os.environ.get(name) for name in ("OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID", "SLURM_LOCALID"))
-    number = _gpu if _gpu is not None else int(next((rank for rank in ranks if rank), 0))
+    names = ("PLIANT_GPU", "OMPI_COMM_WORLD_LOCAL_RANK", "MPI_LOCALRANKID", "SLURM_LOCALID")
+    number = _gpu if _gpu is not None else int(next((os.environ[name] for name in names if os.environ.get(name)), 0))
     gpus = [gpu for gpu in json.loads(_core.info())["gpus"] if not gpu["software"]]
     return f"gpu:{number % len(gpus)}" if gpus else "gpu"
 
@@ -176,19 +237,24 @@ def _device_of_worker(place: _Place) -> str:
 def _make_row(scene: Scene, job: _Job, run: Run, device: str, place: _Place) -> Row:
     begin = time.perf_counter()
     results: Row = {}
-    error = None
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        try:
-            simulation = Simulation(scene.override(job.values), device, precision=place.precision, threads=place.threads)  # type: ignore[arg-type]
-            results = {name: _plain(value) for name, value in run(simulation).items()}
-        except Error as found:
-            error = str(found)
-        except Exception as found:  # of `run`: the other runs are not to blame
-            error = f"{type(found).__name__}: {found}"
+    error = told = None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SceneWarning)  # the row has them
+            simulation = Simulation(scene.override(job.values), device, precision=place.precision,  # type: ignore[arg-type]
+                                    threads=place.threads)
+        told = "; ".join(simulation.warnings) or None
+        # As they are read from a table again, so that rows are the same in either case.
+        results = {name: _read_cell(_cell(_plain(value))) for name, value in run(simulation).items()}
+        if taken := sorted({*job.values, *_LAST_COLUMNS} & set(results)):
+            results = {}
+            raise InputError("run", f"returns {', '.join(taken)}, which the row has already", "use other names")
+    except Error as found:
+        error = str(found)
+    except (Exception, SystemExit) as found:  # of `run`: the other runs are not to blame
+        error = f"{type(found).__name__}: {found}"
     seconds = time.perf_counter() - begin
-    texts = "; ".join(str(warning.message) for warning in told) or None
-    return {**job.values, **results, "error": error, "warnings": texts, "wall_seconds": seconds, "key": job.key}
+    return {**job.values, **results, "error": error, "warnings": told, "wall_seconds": seconds, "key": job.key}
 
 
 def _make_rows(scene: Scene, jobs: Sequence[_Job], run: Run, place: _Place) -> list[Row]:
@@ -199,104 +265,114 @@ def _make_rows(scene: Scene, jobs: Sequence[_Job], run: Run, place: _Place) -> l
 # In the process that sweeps
 
 
-class _Sweep:
-    """Hands jobs to workers, in batches that are neither too small to pay nor so large that workers end at different times."""
+class _Workers:
+    """An executor, and what makes another one if its processes have died."""
 
     def __init__(self, scene: Scene, run: Run, place: _Place, executor: concurrent.futures.Executor | None,
                  workers: int | None) -> None:
         self._scene, self._run, self._place = scene, run, place
-        self._owns_executor = executor is None
-        self._workers = workers or _count_workers(executor, place)
-        self._executor = executor or self._make_processes()
-        self._seconds_a_run = math.inf  # not known yet
-        self._tries: dict[str, int] = {}
+        self.are_own = executor is None
+        self.count = workers or _count_workers(executor, place)
+        self._executor = executor
+        if self.are_own:
+            try:
+                pickle.dumps(run)
+            except Exception as error:
+                raise InputError("run", f"can't go to other processes: {error}", "pass a function of a module") from error
 
-    def rows_of(self, jobs: list[_Job]) -> Iterable[list[Row]]:
-        """Yields rows as they are made."""
-        waiting = list(reversed(jobs))
-        running: dict[concurrent.futures.Future[list[Row]], list[_Job]] = {}
-        try:
-            while waiting or running:
-                while waiting and len(running) < 2 * self._workers:
-                    batch = [waiting.pop() for _ in range(min(self._batch(len(waiting)), len(waiting)))]
-                    running[self._submit(batch)] = batch
-                done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
-                for future in done:
-                    batch = running.pop(future)
-                    rows = self._result(future, batch, waiting)
-                    if rows:
-                        yield rows
-        finally:
-            for future in running:
-                future.cancel()
-            if self._owns_executor:
-                self._end_processes()
-
-    def _batch(self, left: int) -> int:
-        wanted = _BATCH_SECONDS / self._seconds_a_run if self._seconds_a_run > 0 else math.inf
-        return max(1, int(min(wanted, left / (4 * self._workers))))
-
-    def _submit(self, batch: list[_Job]) -> concurrent.futures.Future[list[Row]]:
-        try:
-            return self._executor.submit(_make_rows, self._scene, batch, self._run, self._place)
-        except BrokenProcessPool:
-            self._mend()
-            return self._executor.submit(_make_rows, self._scene, batch, self._run, self._place)
-
-    def _result(self, future: concurrent.futures.Future[list[Row]], batch: list[_Job], waiting: list[_Job]) -> list[Row]:
-        """Returns the rows of a batch. If its worker has died, there are none, and the batch waits again."""
-        try:
-            rows = future.result()
-        except concurrent.futures.BrokenExecutor:
-            if not self._owns_executor:
-                raise
-            return self._repeat(batch, waiting)
-        self._seconds_a_run = sum(row["wall_seconds"] for row in rows) / len(rows)
-        return rows
-
-    def _repeat(self, batch: list[_Job], waiting: list[_Job]) -> list[Row]:
-        """A pool of processes breaks as a whole if one dies, so nobody knows which run it was. Runs that have been lost before
-        come alone the next time."""
-        self._mend()
-        self._seconds_a_run = math.inf
-        lost = []
-        for job in reversed(batch):
-            self._tries[job.key] = self._tries.get(job.key, 0) + 1
-            if len(batch) == 1 and self._tries[job.key] >= _MOST_TRIES:
-                lost.append({**job.values, "error": f"its process died {_MOST_TRIES} times", "warnings": None, "wall_seconds": None,
-                             "key": job.key})
-            else:
-                waiting.append(job)
-        return lost
+    def submit(self, batch: Sequence[_Job]) -> concurrent.futures.Future[list[Row]]:
+        if self._executor is None:
+            self._executor = self._make_processes()
+        return self._executor.submit(_make_rows, self._scene, batch, self._run, self._place)
 
     def _make_processes(self) -> concurrent.futures.Executor:
         # A fork of this process would inherit locks of its threads and contexts of its GPUs.
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(["pliant"])
-        if not self._place.shares_gpus:
-            return concurrent.futures.ProcessPoolExecutor(self._workers, context)
-        numbers = context.Queue()
-        for worker in range(2 * self._workers):  # some for processes that come after one that died
-            numbers.put(worker)
-        return concurrent.futures.ProcessPoolExecutor(self._workers, context, _take_gpu, (numbers,))
+        numbers = context.Queue() if self._place.shares_gpus else None
+        if numbers is not None:
+            for worker in range(self.count):
+                numbers.put(worker)
+        return concurrent.futures.ProcessPoolExecutor(self.count, context, _begin_process, (os.getpid(), numbers))
 
-    def _mend(self) -> None:
-        self._executor.shutdown(wait=False, cancel_futures=True)
-        self._executor = self._make_processes()
-
-    def _end_processes(self) -> None:
-        """Ends processes at once. After Ctrl-C they may have long runs in hand."""
+    def end(self) -> None:
+        """Ends own processes at once. After Ctrl-C they may have long runs in hand."""
+        if not self.are_own or self._executor is None:
+            return
         processes = list((getattr(self._executor, "_processes", None) or {}).values())
         self._executor.shutdown(wait=False, cancel_futures=True)
         for process in processes:
             process.terminate()
         for process in processes:
             process.join()
+        self._executor = None
+
+
+class _Batches:
+    """Says how many runs a worker gets at a time: neither too few to pay, nor so many that workers end at different times."""
+
+    def __init__(self, workers: int) -> None:
+        self._workers = workers
+        self._seconds_a_run = math.inf  # not known yet
+
+    def size(self, left: int) -> int:
+        wanted = _BATCH_SECONDS / self._seconds_a_run if self._seconds_a_run > 0 else math.inf
+        return max(1, int(min(wanted, left / (4 * self._workers))))
+
+    def learn(self, rows: Sequence[Row]) -> None:
+        self._seconds_a_run = sum(row["wall_seconds"] for row in rows) / len(rows)
+
+
+def _rows_of(jobs: Sequence[_Job], workers: _Workers) -> Generator[list[Row], None, None]:
+    """Yields rows as they are made.
+
+    A pool of processes breaks as a whole if one of them dies, and nobody knows whose run it was. So all that were running are
+    suspects. They are made at the end, one at a time, and there each death has its culprit.
+    """
+    batches = _Batches(workers.count)
+    waiting, suspects = list(reversed(jobs)), list[_Job]()
+    running: dict[concurrent.futures.Future[list[Row]], list[_Job]] = {}
+    try:
+        while waiting or running:
+            try:
+                while waiting and len(running) < 2 * workers.count:
+                    batch = waiting[: -batches.size(len(waiting)) - 1 : -1]
+                    running[workers.submit(batch)] = batch
+                    del waiting[-len(batch) :]
+                done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
+                for future in done:
+                    rows = future.result()
+                    del running[future]
+                    batches.learn(rows)
+                    yield rows
+            except concurrent.futures.BrokenExecutor:
+                if not workers.are_own:
+                    raise
+                suspects += [job for batch in running.values() for job in batch]
+                running.clear()
+                workers.end()
+        for job in suspects:
+            yield [_try_alone(job, workers)]
+    finally:
+        for future in running:
+            future.cancel()
+        workers.end()
+
+
+def _try_alone(job: _Job, workers: _Workers) -> Row:
+    for _ in range(_MOST_TRIES):
+        try:
+            return workers.submit([job]).result()[0]
+        except concurrent.futures.BrokenExecutor:
+            workers.end()
+    return {**job.values, "error": f"its process died {_MOST_TRIES} times", "warnings": None, "wall_seconds": None, "key": job.key}
 
 
 def _count_workers(executor: concurrent.futures.Executor | None, place: _Place) -> int:
     if executor is not None:
-        return int(getattr(executor, "_max_workers", None) or getattr(executor, "num_workers", None) or os.cpu_count() or 1)
+        counts = (getattr(executor, name, None) for name in ("_max_workers", "num_workers"))  # of processes and threads, and of MPI
+        dask = getattr(executor, "_client", None)
+        return sum(dask.nthreads().values()) if dask is not None else next((int(c) for c in counts if c), os.cpu_count() or 1)
     if place.shares_gpus:
         gpus = sum(not gpu["software"] for gpu in json.loads(_core.info())["gpus"])
         return max(1, gpus) * place.runs_per_gpu
@@ -308,24 +384,46 @@ def _count_workers(executor: concurrent.futures.Executor | None, place: _Place) 
 class _Table:
     """The rows by their keys, and their file."""
 
-    def __init__(self, file: str | PathLike[str] | None, jobs: Sequence[_Job]) -> None:
-        self._file = None if file is None else Path(file)
+    def __init__(self, file: Path | None, jobs: Sequence[_Job]) -> None:
+        self._file = file
         self._jobs = jobs
         self._columns: list[str] = []
+        self._is_whole = False  # the file is there, and was not cut off
+        self._row_count = 0  # of the file, which may have several of one run until the sweep ends
         self.rows: dict[str, Row] = {}
-        if self._file is not None and self._file.exists():
-            self._read(self._file)
+        if file is not None and file.exists():
+            self._read(file)
+
+    @staticmethod
+    @contextlib.contextmanager
+    def of(file: str | PathLike[str] | None, jobs: Sequence[_Job]) -> Iterator[_Table]:
+        """Yields the table of a file, which no other sweep writes meanwhile. It is made if it is not there, so that a place where
+        it can't be is noticed at once."""
+        if file is None:
+            yield _Table(None, jobs)
+            return
+        if Path(file).exists() and not Path(file).is_file():
+            raise InputError(str(file), "is no plain file", "name another place")
+        with _only_writer(Path(file)):
+            table = _Table(Path(file), jobs)
+            if jobs and not table._is_whole:
+                table._write(list(table.rows.values()))
+            yield table
 
     def _read(self, file: Path) -> None:
-        with open(file, newline="", encoding="utf-8") as text:
-            reader = csv.DictReader(text)
-            self._columns = list(reader.fieldnames or [])
-            swept = list(self._jobs[0].values) if self._jobs else []
-            if self._columns and (self._columns[-1] != "key" or self._columns[: len(swept)] != swept):
-                raise InputError(str(file), "is no table of this sweep: its columns are others", "name another file, or remove it")
-            for row in reader:
-                if None not in row.values() and None not in row:  # else it was cut off
-                    self.rows[row["key"]] = {name: _read_cell(cell) for name, cell in row.items()}
+        """A row that was cut off is left out. The last one ends with the line's end if it was not."""
+        text = file.read_bytes().decode("utf-8", "replace")
+        whole = text[: text.rfind("\n") + 1]
+        reader = csv.DictReader(io.StringIO(whole, newline=""))
+        self._columns = list(reader.fieldnames or [])
+        swept = list(self._jobs[0].values) if self._jobs else []
+        self._is_whole = whole == text and whole != ""
+        if whole and (self._columns[-len(_LAST_COLUMNS) :] != _LAST_COLUMNS or self._columns[: len(swept)] != swept):
+            raise InputError(str(file), "is no table of this sweep: its columns are others", "name another file, or remove it")
+        for row in reader:
+            self._row_count += 1
+            if None not in row.values() and None not in row:
+                self.rows[row["key"]] = {name: _read_cell(cell) for name, cell in row.items()}
 
     def has(self, job: _Job) -> bool:
         row = self.rows.get(job.key)
@@ -336,9 +434,8 @@ class _Table:
             self.rows[row["key"]] = row
         if self._file is None:
             return
-        is_wider = any(name not in self._columns for row in rows for name in row)
-        if is_wider:  # the first rows, or the first without an error
-            self._columns = _joined_columns(self.rows.values(), self._jobs)
+        if any(name not in self._columns for row in rows for name in row):  # the first rows, or the first without an error
+            self._columns = []
             self._write(list(self.rows.values()))
             return
         with open(self._file, "a", newline="", encoding="utf-8") as text:
@@ -349,25 +446,41 @@ class _Table:
         if self._file is None or not self.rows:
             return
         order = {job.key: place for place, job in enumerate(self._jobs)}
-        self._write(sorted(self.rows.values(), key=lambda row: order.get(row["key"], len(order))))
+        rows = sorted(self.rows.values(), key=lambda row: order.get(row["key"], len(order)))
+        if rows != list(self.rows.values()) or self._row_count != len(rows):
+            self._write(rows)
 
     def _write(self, rows: Sequence[Row]) -> None:
         """Replaces the file as a whole."""
         assert self._file is not None
         self._columns = self._columns or _joined_columns(rows, self._jobs)
+        self._row_count = 0
         unfinished = self._file.with_name(self._file.name + ".part")
         with open(unfinished, "w", newline="", encoding="utf-8") as text:
-            csv.writer(text).writerow(self._columns)
+            csv.writer(text, lineterminator="\n").writerow(self._columns)
             self._append(text, rows)
         os.replace(unfinished, self._file)
 
     def _append(self, text: Any, rows: Sequence[Row]) -> None:
-        writer = csv.writer(text)
+        writer = csv.writer(text, lineterminator="\n")
+        self._row_count += len(rows)
         for row in rows:
             writer.writerow([_cell(row.get(name)) for name in self._columns])
 
 
-_LAST_COLUMNS = ["error", "warnings", "wall_seconds", "key"]
+@contextlib.contextmanager
+def _only_writer(file: Path) -> Iterator[None]:
+    """Raises InputError if another sweep writes the table."""
+    lock = file.with_name(file.name + ".lock")
+    with open(lock, "w") as held:
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise InputError(str(file), "is being written by another sweep", "wait for its end, or name another file") from None
+        try:
+            yield
+        finally:
+            lock.unlink(missing_ok=True)
 
 
 def _joined_columns(rows: Iterable[Row], jobs: Sequence[_Job]) -> list[str]:

@@ -49,7 +49,7 @@ _VALUES = "<values>"
 _OVERRIDE = "--set "
 
 
-def _in_pythons_words(place: str) -> str:
+def in_pythons_words(place: str) -> str:
     """Returns a place as users know it. The lines of a text that Python values became mean nothing to them."""
     if place.startswith(_OVERRIDE):
         return "set: " + place.removeprefix(_OVERRIDE)
@@ -58,4 +58,4 @@ def _in_pythons_words(place: str) -> str:
 
 def _from_core(kind: str, place: str, problem: str, remedy: str) -> Error:
     """Returns the error for one of the library."""
-    return (DeviceError if kind == "device" else InputError)(_in_pythons_words(place), problem, remedy)
+    return (DeviceError if kind == "device" else InputError)(in_pythons_words(place), problem, remedy)

@@ -88,8 +88,8 @@ class Animation:
         self.frame_rate = frame_rate
         if len({frame.shape for frame in self.frames}) != 1:
             raise InputError("frames", "are none, or of several sizes", "give one or more of the same size")
-        if not 0.1 <= frame_rate <= 1000:
-            raise InputError("frame_rate", f"{frame_rate} is out of range", "use a number from 0.1 to 1000")
+        if not 0.2 <= frame_rate <= 1000:
+            raise InputError("frame_rate", f"{frame_rate} is out of range", "use a number from 0.2 to 1000")
 
     def png(self) -> bytes:
         """Returns the animation as an animated PNG file, which browsers and most viewers play."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _toml
-from .errors import _VALUES, InputError, SceneWarning, _in_pythons_words
+from .errors import _VALUES, InputError, SceneWarning, in_pythons_words
 from .mesh import Mesh
 
 Overrides = Mapping[str, Any]
@@ -20,7 +20,7 @@ Overrides = Mapping[str, Any]
 def warn_all(texts: Iterable[str], stacklevel: int) -> None:
     """Issues a SceneWarning for each text. The caller's caller is blamed if ``stacklevel`` is 2, as in warnings.warn."""
     for text in texts:
-        warnings.warn(_in_pythons_words(text), SceneWarning, stacklevel=stacklevel + 1)
+        warnings.warn(in_pythons_words(text), SceneWarning, stacklevel=stacklevel + 1)
 
 
 def _texts(overrides: Overrides | None) -> list[str]:
@@ -113,14 +113,14 @@ class Scene:
 
 
 def _take_meshes(tables: dict[str, Any]) -> dict[str, Mesh]:
-    """Returns copies of the meshes in memory, by names that stand in their place from then on. Equal arrays are one mesh."""
+    """Returns copies of the meshes in memory, by names that stand in their place from then on. The same arrays are one mesh."""
     meshes: dict[str, Mesh] = {}
     names: dict[tuple[int, int], str] = {}
 
     def name_of(positions: Any, triangles: Any) -> str:
         arrays = id(positions), id(triangles)
         if arrays not in names:
-            mesh = Mesh(np.array(positions, dtype=float), np.array(triangles, dtype=np.int64).reshape(-1, 3))
+            mesh = Mesh(np.array(positions, dtype=float), _vertex_numbers(triangles))
             _core.check_mesh(*mesh)
             names[arrays] = f"array:{len(meshes)}"
             meshes[names[arrays]] = mesh
@@ -132,6 +132,15 @@ def _take_meshes(tables: dict[str, Any]) -> dict[str, Mesh]:
     if isinstance(bodies, (list, tuple)):
         tables["body"] = [{**body, "mesh": name_of(*body["mesh"])} if _has_arrays(body) else body for body in bodies]
     return meshes
+
+
+def _vertex_numbers(triangles: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
+    numbers = np.asarray(triangles)
+    if numbers.size == 0:
+        return np.zeros((0, 3), np.int64)
+    if not np.issubdtype(numbers.dtype, np.integer):
+        raise InputError("triangles", f"are {numbers.dtype}", "give vertex numbers, which are whole")
+    return np.array(numbers, dtype=np.int64)
 
 
 def _has_arrays(body: Any) -> bool:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import operator
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -12,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .errors import BreakdownError, InputError
+from .errors import BreakdownError, InputError, in_pythons_words
 from .picture import Animation, Picture
 from .scene import Overrides, Scene, warn_all
 
@@ -81,8 +82,8 @@ class Intersections:
 class Simulation:
     """A scene that is simulated.
 
-    Steps give the bits of ``pliant run`` on the same device. Other Python threads run during a call. A simulation on a GPU, or
-    one that has drawn, belongs to the thread that made it.
+    Steps give the bits of ``pliant run`` on the same device. Other Python threads run during a call. A simulation on a GPU
+    belongs to the thread that made it, and another one that has drawn to the thread that drew first.
 
     Args:
         scene: a Scene, or the path of a scene's file.
@@ -102,15 +103,24 @@ class Simulation:
     def __init__(self, scene: Scene | str | PathLike[str], device: str = "auto", *, precision: Literal[32, 64] | None = None,
                  threads: int = 0, set: Overrides | None = None) -> None:
         described = scene if isinstance(scene, Scene) else Scene.load(scene)
-        if precision not in (None, 32, 64):
-            raise InputError("precision", f"{precision!r} is no choice", "write 32 or 64")
-        if not 0 <= operator.index(threads) <= 4096:
-            raise InputError("threads", f"{threads} is out of range", "use a number from 0 to 4096")
+        self.expect_choices(device, precision, threads)
         self.scene: Scene = described.override(set) if set else described
         self._core = _core.Simulation(self.scene._text, str(self.scene._file), self.scene._overrides, self.scene._meshes, device,
                                       precision, threads)
         self._begin()
-        warn_all(self._plan["warnings"], stacklevel=2)
+        warn_all(self.warnings, stacklevel=2)
+
+    @staticmethod
+    def expect_choices(device: str, precision: int | None, threads: int) -> None:
+        """Raises InputError if no simulation could have these."""
+        if not re.fullmatch(r"auto|cpu|gpu(:\d{1,3})?", device):
+            raise InputError("device", f"{device!r} is no device", "write auto, cpu, gpu, or gpu:N for one of several GPUs")
+        if precision not in (None, 32, 64):
+            raise InputError("precision", f"{precision!r} is no choice", "write 32 or 64")
+        if precision == 64 and device.startswith("gpu"):
+            raise InputError("precision", "64 bits need the CPU", "write device=\"cpu\", or leave precision out")
+        if not 0 <= operator.index(threads) <= 4096:
+            raise InputError("threads", f"{threads} is out of range", "use a number from 0 to 4096")
 
     def _begin(self) -> None:
         self._plan = self._core.plan()
@@ -153,6 +163,11 @@ class Simulation:
         return float(self._plan["duration"])
 
     @property
+    def warnings(self) -> list[str]:
+        """What SceneWarnings said of the scene."""
+        return [in_pythons_words(text) for text in self._plan["warnings"]]
+
+    @property
     def device(self) -> str:
         """The device's name."""
         return str(self._plan["device"])
@@ -193,8 +208,10 @@ class Simulation:
 
     def _raise_breakdown(self) -> None:
         found = self.report()["breakdown"]
-        problem = f"vertex {found['vertex']} " + (
-            "can't meet the tolerance" if found["is_finite"] else "is not finite") + f" in step {found['step']}"
+        what = "is not finite"
+        if found["is_finite"]:
+            what = "needs more steps than a run may have" if found["takes_too_many"] else "can't meet the tolerance"
+        problem = f"vertex {found['vertex']} {what} in step {found['step']}"
         raise BreakdownError(f"body \"{found['body']}\"", problem, "use a shorter time_step, a looser tolerance, or softer springs")
 
     @property
@@ -280,7 +297,7 @@ class Simulation:
         a simulation. To push bodies in every step, use pull.
 
         Raises:
-            InputError: the state has numbers that are not finite, or bodies would intersect. Nothing has changed then.
+            InputError: the state has numbers that are not finite, or surfaces would intersect. Nothing has changed then.
         """
         self._core.set_state(_array(positions), _array(velocities))
 
@@ -290,7 +307,8 @@ class Simulation:
 
         An automatic time step follows. This takes as long as set_state.
         """
-        self._body(body)
+        if self._body(body).kind != "soft":
+            raise InputError("body", f"{body!r} is {self._body(body).kind}, so it has no material", "name a soft body")
         for name, value, lowest in (("stiffness", stiffness, 0), ("vertex_mass", vertex_mass, 1e-30), ("damping", damping, 0)):
             if value is not None and not lowest <= value <= 1e30:
                 raise InputError(name, f"{value} is out of range", f"use a number from {lowest:g} to 1e30")
@@ -299,6 +317,9 @@ class Simulation:
         row[:] = [old if new is None else new for old, new in zip(row, (stiffness, vertex_mass, damping))]
         self._core.set_materials(rows)
         self._begin()
+        if self.time_step is not None and self.time_step > self.step_bound:
+            warn_all([f"the time step {self.time_step:.6g} s is {self.time_step / self.step_bound:.3g} times the stability bound, "
+                      f"{self.step_bound:.6g} s: expect growing motion"], stacklevel=2)
 
     def pull(self, vertex: int, target: Vector, seconds: float | None = None) -> None:
         """Pulls the body around a vertex to a place [m], between two steps, as a mouse does in the viewer.
@@ -378,9 +399,12 @@ class Simulation:
         """
         if seconds is None:
             return Picture(self.render(size, **how))
+        count = round(_positive(seconds, "seconds") * _positive(frame_rate, "frame_rate"))
+        if count > 10000:
+            raise InputError("seconds", f"{count} frames are no short animation", "make at most 10000")
         begin = self.time
         frames = [self.render(size, **how)]
-        for frame in range(1, round(_positive(seconds, "seconds") * _positive(frame_rate, "frame_rate")) + 1):
+        for frame in range(1, count + 1):
             self.advance_to(max(begin + frame / frame_rate, self.time))
             frames.append(self.render(size, **how))
         return Animation(frames, frame_rate)
@@ -395,8 +419,8 @@ def _array(values: npt.ArrayLike | None) -> Floats | None:
 
 def _vector(values: Any, name: str) -> list[float]:
     vector = np.asarray(values, dtype=float)
-    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
-        raise InputError(name, f"{values!r} is no place", "write three finite numbers")
+    if vector.shape != (3,) or not np.all(np.abs(vector) <= 1e9):
+        raise InputError(name, f"{values!r} is no place", "write three numbers up to 1e9")
     return [float(number) for number in vector]
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 import argparse
 import contextlib
 import importlib
+import math
 import sys
 import tomllib
+import types
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -58,51 +60,54 @@ def _values(value: Any, place: str) -> list[Any]:
     if not _RANGE_KEYS >= set(value) or not {"from", "to", "count"} <= set(value):
         raise InputError(place, f"has the keys {', '.join(value)}", "write from, to, count and maybe spacing")
     first, last, count, spacing = value["from"], value["to"], value["count"], value.get("spacing", "linear")
-    if not isinstance(count, int) or not 1 <= count <= 10**6:
+    if type(count) is not int or not 1 <= count <= 10**6:
         raise InputError(f"{place}.count", f"is {count!r}", "write a whole number from 1 to 1000000")
     if spacing not in ("linear", "logarithmic"):
         raise InputError(f"{place}.spacing", f"is {spacing!r}", "write one of linear, logarithmic")
-    if not all(isinstance(end, (int, float)) for end in (first, last)) or (spacing == "logarithmic" and not min(first, last) > 0):
+    ends_are_numbers = all(type(end) in (int, float) and math.isfinite(end) for end in (first, last))
+    if not ends_are_numbers or (spacing == "logarithmic" and not min(first, last) > 0):
         raise InputError(place, f"goes from {first!r} to {last!r}", "write numbers, above 0 if they are spaced logarithmically")
     numbers = np.linspace(first, last, count) if spacing == "linear" else np.geomspace(first, last, count)
     return [float(number) for number in numbers]
+
+
+def _module(name: str, package: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise DeviceError("--executor", f"needs {name}, which is not there: {error}", f"install {package}") from error
 
 
 @contextlib.contextmanager
 def _executor(name: str) -> Iterator[Executor | None]:
     """Yields what runs the workers: None for processes, or an executor of Dask or mpi4py."""
     kind, _, address = name.partition(":")
-    try:
-        if kind == "processes":
-            yield None
-        elif kind == "dask":
-            distributed: Any = importlib.import_module("distributed")
-            with distributed.Client(address or None) as client:
-                executor = client.get_executor(pure=False)
-                executor._max_workers = sum(client.nthreads().values())
-                yield executor
-        elif kind == "mpi":
-            mpi4py_futures: Any = importlib.import_module("mpi4py.futures")
-            with mpi4py_futures.MPIPoolExecutor() as executor:
-                yield executor
-        else:
-            raise InputError("--executor", f"{name!r} is no choice", "write one of processes, dask:ADDRESS, mpi")
-    except ImportError as error:
-        remedy = "install python3-distributed" if kind == "dask" else "install python3-mpi4py"
-        raise DeviceError("--executor", f"{name!r} is not there: {error}", remedy) from error
+    if kind == "processes":
+        yield None
+    elif kind == "dask":
+        with _module("distributed", "python3-distributed").Client(address or None) as client:
+            yield client.get_executor(pure=False)
+    elif kind == "mpi":
+        with _module("mpi4py.futures", "python3-mpi4py").MPIPoolExecutor() as executor:
+            yield executor
+    else:
+        raise InputError("--executor", f"{name!r} is no choice", "write one of processes, dask:ADDRESS, mpi")
 
 
-def _show(rows: Sequence[Row], table: Path) -> None:
+def _show(rows: Sequence[Row], table: Path) -> int:
+    """Returns the exit code."""
     failed = [row for row in rows if row["error"]]
     broken = sum(bool(row.get("breakdown")) for row in rows)
     print(f"table: {table} ({len(rows)} runs"
           + (f", {len(failed)} with an error" if failed else "") + (f", {broken} with a breakdown" if broken else "") + ")")
     if failed:
-        print(f"pliant: warning: the first error: {failed[0]['error']}", file=sys.stderr)
+        print(f"pliant: the first error: {failed[0]['error']}", file=sys.stderr)
+    return 3 if failed else 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Returns the exit code: 0, 2 for the command line, 3 for the file, 4 where something is missing, 130 after Ctrl-C."""
+    """Returns the exit code: 0, 2 for the command line, 3 for the file or if a run had an error, 4 where something is missing, 130
+    after Ctrl-C."""
     parser = argparse.ArgumentParser("pliant sweep", description="Makes the runs of a scene that a file lists, side by side.")
     parser.add_argument("file", type=Path, help="TOML file with the keys scene, values and others")
     parser.add_argument("--out", type=Path, help="the table to write (CSV); runs that it has are not made again")
@@ -111,6 +116,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--executor", default="processes", help="processes, dask:ADDRESS or mpi (default: processes)")
     parser.add_argument("--quiet", action="store_true", help="show no progress")
     given = parser.parse_args(arguments)
+    table = given.out or Path(given.file.stem + ".csv")
     try:
         if given.workers is not None and given.workers < 1:
             raise InputError("--workers", f"{given.workers} is below 1", "name at least one")
@@ -122,18 +128,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rows = sweep(Scene.load(folder / described["scene"]), described["values"], out=table, executor=executor,
                          workers=given.workers, device=given.device or described.get("device", "cpu"),
                          progress=False if given.quiet else None, **options)
-        _show(rows, table)
-        return 0
+        return _show(rows, table)
     except Error as error:
         print(f"pliant: {error}", file=sys.stderr)
         return 4 if isinstance(error, DeviceError) else 2 if error.place.startswith("--") else 3
     except OSError as error:
-        print(f"pliant: {error.filename}: {error.strerror}", file=sys.stderr)
+        print(f"pliant: {error.filename or table}: {error.strerror or error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("\npliant: stopped; the table has the runs so far, and the same command makes the others", file=sys.stderr)
         return 130
 
 
+class _CallableModule(types.ModuleType):
+    """Whoever imports this module finds it by the name of the function. So it can be called like that."""
+
+    def __call__(self, *arguments: Any, **named: Any) -> list[Row]:
+        return sweep(*arguments, **named)
+
+
 if __name__ == "__main__":
     sys.exit(main())
+sys.modules[__name__].__class__ = _CallableModule

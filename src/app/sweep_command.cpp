@@ -47,7 +47,7 @@ void lead_to_package() {
 void expect_package(const std::filesystem::path& python) {
   std::string account;
   try {
-    const ProgramPipe::End tried = ProgramPipe(python, {"-c", "import pliant.sweep"}).finish();
+    const ProgramPipe::End tried = ProgramPipe(python, {"-P", "-c", "import pliant.sweep"}).finish();
     if (tried.succeeded) return;
     account = tried.account;
   } catch (const Error& error) {
@@ -63,7 +63,8 @@ void sweep(const std::vector<std::string>& arguments) {
   const std::filesystem::path python = find_python();
   lead_to_package();
   expect_package(python);
-  std::vector<std::string> words{python.string(), "-m", "pliant.sweep"};
+  // With -P the current folder is none of those where Python looks for modules.
+  std::vector<std::string> words{python.string(), "-P", "-m", "pliant.sweep"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -268,6 +268,12 @@ bool Model::has_surfaces_to_touch() const {
 
 double ModelBody::unit_of_length() const { return radius > 0 ? std::exp2(std::round(std::log2(radius))) : 1.0; }
 
+std::vector<Material> materials_of(const Model& model) {
+  std::vector<Material> materials;
+  for (const ModelBody& body : model.bodies) materials.push_back({body.stiffness, body.vertex_mass, body.damping});
+  return materials;
+}
+
 Model with_materials(Model model, std::span<const Material> materials) {
   PLIANT_EXPECT(materials.size() == model.bodies.size());
   for (std::size_t b = 0; b < materials.size(); ++b) {

@@ -91,7 +91,9 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Returns the same bodies with other materials, one for each body.
+/// Returns the material of each body. That of a rigid one says nothing.
+[[nodiscard]] std::vector<Material> materials_of(const Model& model);
+/// Returns the same bodies with other materials, one for each body. Rigid ones stay as they are.
 [[nodiscard]] Model with_materials(Model model, std::span<const Material> materials);
 
 /// How the springs of a clustered body are summed since a check has found its forces too inexact.

@@ -2,10 +2,12 @@
 #pragma once
 #include <pybind11/numpy.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/error.hpp"
 #include "mesh/triangle_mesh.hpp"

@@ -81,7 +81,6 @@ py::dict read_scene(const std::string& text, const std::string& file, const std:
   for (const BodyDescription& body : scene.bodies) bodies.append(body.name);
   py::dict told;
   told["title"] = scene.title;
-  told["about"] = scene.about;
   told["duration"] = scene.simulation.duration;
   told["frame_rate"] = scene.output.frame_rate;
   told["bodies"] = bodies;

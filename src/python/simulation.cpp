@@ -1,14 +1,20 @@
 #include "python/simulation.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "model/place_body.hpp"
@@ -23,9 +29,9 @@ namespace {
 class SharedRun {
  public:
   explicit SharedRun(const RunOptions& options) : run_(std::make_unique<DrivenRun>(options)) {}
-  // A context of OpenGL belongs to one thread. Where another one drops the last reference, the run stays in memory.
+  // Where another thread than its own drops the last reference, the run stays in memory.
   ~SharedRun() {
-    if (maker_ != std::this_thread::get_id() && uses_opengl()) static_cast<void>(run_.release());
+    if (run_->is_of_another_thread()) static_cast<void>(run_.release());
   }
   SharedRun(const SharedRun&) = delete;
   SharedRun& operator=(const SharedRun&) = delete;
@@ -64,32 +70,21 @@ class SharedRun {
     });
   }
 
-  void draws() { draws_ = true; }
-
  private:
   static constexpr unsigned looks_every = 32;
-  [[nodiscard]] bool uses_opengl() const { return draws_ || run_->device().info().kind == DeviceKind::gpu; }
 
   std::unique_ptr<DrivenRun> run_;
   std::mutex mutex_;
-  std::thread::id maker_ = std::this_thread::get_id();
-  bool draws_ = false;
   unsigned steps_unlooked_ = 0;
 };
 
-struct DeviceWord {
-  DeviceWish wish = DeviceWish::automatic;
-  std::optional<int> gpu_index = {};
-};
-
-DeviceWord device_of(const std::string& word) {
+// The package has checked the word: auto, cpu, gpu, or gpu:N.
+DeviceChoice device_of(const std::string& word) {
   if (word == "auto") return {};
-  if (word == "cpu") return {.wish = DeviceWish::cpu};
-  if (word == "gpu") return {.wish = DeviceWish::gpu};
-  const bool is_number = word.starts_with("gpu:") && word.size() > 4 && word.size() < 8 &&
-                         std::all_of(word.begin() + 4, word.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (is_number) return {.wish = DeviceWish::gpu, .gpu_index = std::stoi(word.substr(4))};
-  throw Error(ErrorKind::input, "device", "\"" + word + "\" is no device", "write auto, cpu, gpu, or gpu:N for the N-th GPU");
+  if (word == "cpu") return {.wish = DeviceWish::cpu, .gpu_index = {}, .precision = {}};
+  DeviceChoice gpu{.wish = DeviceWish::gpu, .gpu_index = {}, .precision = {}};
+  if (word.size() > 4) gpu.gpu_index = std::stoi(word.substr(4));
+  return gpu;
 }
 
 using MeshArrays = std::map<std::string, std::pair<Rows<double>, Rows<std::int64_t>>>;
@@ -102,8 +97,9 @@ std::unique_ptr<SharedRun> make(const std::string& text, const std::string& file
   options.scene_text = text;
   options.overrides = overrides;
   options.quiet = true;
-  const DeviceWord word = device_of(device);
-  options.device = {.wish = word.wish, .gpu_index = word.gpu_index, .precision = precision, .threads = threads};
+  options.device = device_of(device);
+  options.device.precision = precision;
+  options.device.threads = threads;
   for (const auto& [name, arrays] : meshes) options.meshes[name] = mesh_of(arrays.first, arrays.second);
   const py::gil_scoped_release others_run;
   return std::make_unique<SharedRun>(options);
@@ -136,14 +132,10 @@ py::dict plan_of(SharedRun& shared) {
     told["integrator"] = std::string(plan.integrator->name);
     told["time_step"] = plan.tolerance ? py::object(py::none()) : py::float_(plan.time_step);
     told["step_bound"] = plan.step_bound;
-    told["tolerance"] = py::cast(plan.tolerance);
     told["duration"] = run.scene().simulation.duration;
-    told["frame_rate"] = plan.frame_rate;
     told["vertices"] = run.model().vertex_count();
     told["device"] = run.device().info().name;
-    told["kind"] = std::string(name_of(run.device().info().kind));
     told["precision"] = run.device().precision();
-    told["threads"] = run.device().info().threads;
     told["warnings"] = run.warnings();
     return told;
   });
@@ -155,6 +147,7 @@ py::dict told_breakdown(const Breakdown& breakdown, const Model& model) {
   told["body"] = model.bodies[breakdown.body].name;
   told["vertex"] = breakdown.vertex;
   told["is_finite"] = breakdown.is_finite;
+  told["takes_too_many"] = breakdown.takes_too_many;
   return told;
 }
 
@@ -307,7 +300,7 @@ void expect_within_reach(std::span<const glm::dvec3> vectors, const char* name) 
   for (std::size_t i = 0; i < vectors.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (!(std::abs(vectors[i][k]) <= most))
-        throw Error(ErrorKind::input, name, "row " + std::to_string(i) + " has the number " + std::to_string(vectors[i][k]),
+        throw Error(ErrorKind::input, name, fmt::format("row {} has the number {}", i, vectors[i][k]),
                     "use finite numbers up to 1e9");
 }
 
@@ -367,7 +360,6 @@ py::array_t<std::uint8_t> render(SharedRun& shared, std::optional<std::array<std
     }
     if (by_strain) output.coloring = *by_strain ? Coloring::deformation : Coloring::body;
     if (shows_contacts) output.marks = *shows_contacts ? Marks::contacts : Marks::none;
-    shared.draws();
     return run.render(output);
   });
   py::array_t<std::uint8_t> pixels({py::ssize_t{image.height}, py::ssize_t{image.width}, py::ssize_t{3}});

@@ -11,9 +11,12 @@
 #include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/expect.hpp"
+#include "core/thread_pool.hpp"
 #include "core/version.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "dynamics/clusters/force_sums.hpp"
+#include "gl/context.hpp"
+#include "scene/scene_text.hpp"
 #include "simulation/start_check.hpp"
 
 namespace pliant {
@@ -36,12 +39,6 @@ template <class Archive, class Held>
 void visit_saved(Archive& archive, Held& held) {
   auto& [version, fingerprint, precision, step, time, materials, simulation] = held;
   archive(version, fingerprint, precision, step, time, materials, simulation);
-}
-
-std::vector<Material> materials_of(const Model& model) {
-  std::vector<Material> materials;
-  for (const ModelBody& body : model.bodies) materials.push_back({body.stiffness, body.vertex_mass, body.damping});
-  return materials;
 }
 
 Error not_restored(const std::string& problem, const std::string& remedy) {
@@ -73,7 +70,9 @@ class Stopped {
 
 }  // namespace
 
-DrivenRun::DrivenRun(const RunOptions& options) : run_(prepare_run(options)), overrides_(options.overrides) {}
+DrivenRun::DrivenRun(const RunOptions& options) : run_(prepare_run(options)) {
+  if (gpu::context_of(*run_->device) != nullptr) owner_ = std::this_thread::get_id();
+}
 
 // What OpenGL has made goes in its own context.
 DrivenRun::~DrivenRun() {
@@ -82,6 +81,9 @@ DrivenRun::~DrivenRun() {
 }
 
 void DrivenRun::enter() {
+  if (is_of_another_thread())
+    throw Error(ErrorKind::device, "", "the simulation uses OpenGL, so it belongs to another thread",
+                "use it in the thread that made it, or that drew first");
   if (gl::Context* context = gpu::context_of(*run_->device)) context->make_current();
 }
 
@@ -125,14 +127,14 @@ void DrivenRun::advance_to(double time, const Stops& stops) {
     throw Error(ErrorKind::input, "advance_to", fmt::format("{:.9g} s is before now, {:.9g} s", time, now.time),
                 "go back by restore(), or make another simulation");
   if (!run_->plan.tolerance) {
-    const double steps = std::round((time - now.time) / run_->plan.time_step);
+    const auto made = static_cast<double>(now.steps - base_step_);  // the one in hand is none of them
+    const double steps = std::round((time - base_time_) / run_->plan.time_step) - made;
     if (!(steps < 1e18)) throw Error(ErrorKind::input, "advance_to", fmt::format("{:.9g} s takes too many steps", time), "");
     return advance(static_cast<std::uint64_t>(std::max(steps, 0.0)), stops);
   }
-  while (now.time < time && !now.breakdown) {
-    const double to = std::min(next_frame(now.time), time);
-    run_->simulation->advance_toward(to - base_time_);
-    now = report();
+  const double target = time - base_time_;  // by the simulation's own clock, because its steps end at such times to the bit
+  for (now = run_->simulation->report(); now.time < target && !now.breakdown;) {
+    now = run_->simulation->advance_toward(std::min(next_frame(base_time_ + now.time) - base_time_, target));
     if (stops && stops()) return;
   }
 }
@@ -157,10 +159,11 @@ const State& DrivenRun::state() {
   return state_;
 }
 
-Measurement DrivenRun::measure(const Stops& stops) {
+Measurement DrivenRun::measure() {
+  enter();
   if (!pool_) pool_ = std::make_unique<ThreadPool>(run_->device->info().threads);
   if (!meter_) meter_ = std::make_unique<Meter>(run_->start.model);
-  return meter_->measure(state(), run_->scene.simulation.gravity, *pool_, stops);
+  return meter_->measure(state(), run_->scene.simulation.gravity, *pool_);
 }
 
 Simulation& DrivenRun::simulation() {
@@ -179,6 +182,7 @@ std::unique_ptr<PreparedRun> DrivenRun::with(Model model, const State& state) co
   run.warnings = run_->warnings;
   choose_force_sums(run.start.model, run_->device->info().kind);
   run.plan = plan_time(run.scene, run.start.model);
+  expect_carried(run.scene, run.plan, run_->device->precision());
   run.simulation = std::make_unique<Simulation>(*run_->device, run.start.model, state, run.plan, run.scene.collision);
   return made;
 }
@@ -195,16 +199,26 @@ void DrivenRun::take(std::unique_ptr<PreparedRun> run, std::uint64_t steps, doub
   base_time_ = time;
 }
 
-void DrivenRun::go_on_with(const State& state) {
+// Scripted bodies keep the paths that they were sent along.
+void DrivenRun::go_on_with(Model model, const State& state) {
   const StepReport now = report();
-  auto run = with(run_->start.model, state);
+  if (now.breakdown)
+    throw Error(ErrorKind::input, "", "numbers have gone wrong, so the simulation can't go on",
+                "restore() what save() returned before");
+  run_->simulation->copy_path_keys(model);
+  auto run = with(std::move(model), state);
   expect_still_apart(*run->simulation, run->start.model, run->scene.collision, "the state");
   take(std::move(run), now.steps, now.time);
 }
 
+void DrivenRun::go_on_with(const State& state) {
+  enter();
+  go_on_with(run_->start.model, state);
+}
+
 void DrivenRun::go_on_with(std::span<const Material> materials) {
-  const StepReport now = report();
-  take(with(with_materials(run_->start.model, materials), state()), now.steps, now.time);
+  enter();
+  go_on_with(with_materials(run_->start.model, materials), state());
 }
 
 void DrivenRun::pull(const Pull& by, double seconds) {
@@ -227,20 +241,19 @@ void DrivenRun::send(std::uint32_t b, const glm::dvec3& target, double seconds) 
 }
 
 std::uint64_t DrivenRun::fingerprint() const {
-  std::uint64_t sum = checksum(run_->scene_text);
-  for (const std::string& text : overrides_) sum = checksum(std::as_bytes(std::span(text)), sum);
-  return checksum(std::as_bytes(std::span(run_->mesh_checksums)), sum);
+  return checksum(std::as_bytes(std::span(run_->mesh_checksums)),
+                  checksum(scene_text(run_->scene, run_->scene.file.parent_path())));
 }
 
 std::string DrivenRun::save() {
-  const StepReport now = report();
-  Saved saved{.version = full_version(),
-              .fingerprint = fingerprint(),
-              .precision = run_->device->precision(),
-              .step = base_step_,
-              .time = base_time_,
-              .materials = materials_of(model()),
-              .simulation = run_->simulation->save()};
+  enter();
+  const Saved saved{.version = full_version(),
+                    .fingerprint = fingerprint(),
+                    .precision = run_->device->precision(),
+                    .step = base_step_,
+                    .time = base_time_,
+                    .materials = materials_of(model()),
+                    .simulation = run_->simulation->save()};
   ByteWriter content;
   visit_saved(content, saved);
   const std::string bytes = content.take();
@@ -271,6 +284,7 @@ void DrivenRun::restore(std::string_view bytes) {
 
 render::Image DrivenRun::render(const OutputDescription& output) {
   enter();
+  owner_ = std::this_thread::get_id();
   if (!painter_ || painted_ != output) {
     painter_.reset();
     painter_ = std::make_unique<Painter>(*run_, output, "render");

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "render/image.hpp"
@@ -16,8 +18,9 @@
 
 namespace pliant {
 
-/// Steps give the bits of `pliant run`. One thread at a time may use it. If it simulates or draws by OpenGL, that is the thread
-/// that made it, or that drew first.
+/// Steps give the bits of `pliant run`. One thread at a time may use it. What uses OpenGL belongs to a thread: a run on a GPU to
+/// the one that made it, and another run, once it has drawn, to the one that drew first. That thread has to destroy it, too. In
+/// another one all calls throw Error (device), and change nothing.
 class DrivenRun {
  public:
   /// Returns true to end what takes long.
@@ -36,8 +39,8 @@ class DrivenRun {
   [[nodiscard]] const std::vector<std::string>& warnings() const { return run_->warnings; }  // of the scene
 
   /// Makes whole steps. After a breakdown nothing moves. A single step may still be running on a GPU when this returns. `stops`
-  /// is asked about ten times a second while there are more. It may end them within a step, where the next call goes on. With a
-  /// tolerance steps end at the scene's frames, as those of `pliant run` do.
+  /// is asked about ten times a second while there are more, but no more often than each 32 steps. It may end them within a step,
+  /// where the next call goes on. With a tolerance steps end at the scene's frames, as those of `pliant run` do.
   void advance(std::uint64_t steps, const Stops& stops = {});
   /// Goes on to `time` [s], which must not be before now. Steps of a fixed length go on to the step that ends nearest to it.
   void advance_to(double time, const Stops& stops = {});
@@ -48,11 +51,11 @@ class DrivenRun {
   /// change of state or material.
   [[nodiscard]] StepReport report();
   [[nodiscard]] const State& state();  // valid until the next call
-  [[nodiscard]] Measurement measure(const Stops& stops = {});
+  [[nodiscard]] Measurement measure();
   [[nodiscard]] Simulation& simulation();  // to read from
 
-  /// Goes on with another state, or with other materials, one for each body. What was gripped is let go. Throws Error, and
-  /// changes nothing, if bodies intersect that the response keeps apart, or if the scene's steps can't be planned.
+  /// /// Goes on with another state, or with other materials, one for each body. Throws Error, and changes nothing, if bodies
+  /// intersect that the response keeps apart, if the scene's steps can't be planned, or after a breakdown.
   void go_on_with(const State& state);
   void go_on_with(std::span<const Material> materials);
   /// Pulls a body by one of its vertices, as if for `seconds` [s]. See Grip. Throws Error (input) if the body has no springs.
@@ -70,18 +73,22 @@ class DrivenRun {
   /// Draws the bodies as they are, as frames are drawn. Throws Error (device) where there is no OpenGL.
   [[nodiscard]] render::Image render(const OutputDescription& output);
 
+  /// Whether it belongs to another thread than the calling one.
+  [[nodiscard]] bool is_of_another_thread() const { return owner_ && *owner_ != std::this_thread::get_id(); }
+
  private:
   [[nodiscard]] std::unique_ptr<PreparedRun> with(Model model, const State& state) const;
   void take(std::unique_ptr<PreparedRun> run, std::uint64_t steps, double time);
+  void go_on_with(Model model, const State& state);
   void advance_adaptive(std::uint64_t steps, const Stops& stops);
   [[nodiscard]] double next_frame(double time) const;
   void enter();
   [[nodiscard]] std::uint64_t fingerprint() const;
 
   std::unique_ptr<PreparedRun> run_;
-  std::vector<std::string> overrides_;
-  std::uint64_t base_step_ = 0;  // at which the simulation began
-  double base_time_ = 0;         // at which it began [s]
+  std::optional<std::thread::id> owner_;  // the thread that it belongs to
+  std::uint64_t base_step_ = 0;           // at which the simulation began
+  double base_time_ = 0;                  // at which it began [s]
   Batch batch_;
   State state_;
   std::unique_ptr<Meter> meter_;

@@ -1,5 +1,7 @@
 #include "run/painter.hpp"
 
+#include <optional>
+
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "gl/context.hpp"

@@ -266,6 +266,11 @@ void Simulation::send(std::uint32_t body, std::span<const physics::PathKey> keys
   bodies_.path_states->upload(std::span(&state, 1), body);
 }
 
+void Simulation::copy_path_keys(Model& into) const {
+  for (std::size_t b = 0; b < into.bodies.size(); ++b)
+    if (into.bodies[b].path) into.bodies[b].path->keys = path_keys(static_cast<std::uint32_t>(b));
+}
+
 std::vector<physics::PathKey> Simulation::path_keys(std::uint32_t body) const {
   const physics::Path way = bodies_.arrays.get<physics::Path>("path").download(body, 1).front();
   return bodies_.arrays.get<physics::PathKey>("path_key").download(way.first_key, way.key_count);

@@ -122,6 +122,8 @@ class Simulation {
   /// Sends a scripted body along other keys, as many as before, from their time 0 on. They must begin where it is. Later steps
   /// go there, and saved states hold it.
   void send(std::uint32_t body, std::span<const physics::PathKey> keys);
+  /// Gives scripted bodies of the same model the keys that they go along. Waits for the queued steps.
+  void copy_path_keys(Model& into) const;
   /// The next two wait for the queued steps. They return what a scripted body does: the keys that it goes along, and where it is.
   [[nodiscard]] std::vector<physics::PathKey> path_keys(std::uint32_t body) const;
   [[nodiscard]] physics::PathState path_state(std::uint32_t body) const;

@@ -71,17 +71,14 @@ std::unique_ptr<Simulation> make_simulation(Device& device, const LoadedScene& s
 Settings settings_of(const LoadedScene& scene) {
   const SimulationDescription& of = scene.description.simulation;
   const CollisionDescription& contacts = scene.description.collision;
-  Settings settings{.integrator = of.integrator.value,
-                    .time_step = of.time_step,
-                    .tolerance = of.tolerance,
-                    .damping_law = damping_law_of(scene.description),
-                    .elasticity = elasticity_of(contacts),
-                    .friction = contacts.friction,
-                    .restitution = contacts.restitution,
-                    .materials = {}};
-  for (const ModelBody& body : scene.start.model.bodies)
-    settings.materials.push_back({body.stiffness, body.vertex_mass, body.damping});
-  return settings;
+  return {.integrator = of.integrator.value,
+          .time_step = of.time_step,
+          .tolerance = of.tolerance,
+          .damping_law = damping_law_of(scene.description),
+          .elasticity = elasticity_of(contacts),
+          .friction = contacts.friction,
+          .restitution = contacts.restitution,
+          .materials = materials_of(scene.start.model)};
 }
 
 LoadedScene load(const std::filesystem::path& file, std::span<const std::string> overrides) {
@@ -219,7 +216,7 @@ Settings Session::settings_before_edits(const Settings& wanted) const {
 
 LoadedScene Session::scene_now() const {
   LoadedScene now = *scene_;
-  if (hand_) now.start.model.bodies[hand_->body].path->keys = simulation_->path_keys(hand_->body);
+  simulation_->copy_path_keys(now.start.model);
   return now;
 }
 

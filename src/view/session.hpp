@@ -134,7 +134,7 @@ class Session {
   void go_on_with_bodies(LoadedScene changed, const State& from);
   void bodies_are_others();
   [[nodiscard]] const LoadedScene& unedited() const { return before_edits_ ? *before_edits_ : *scene_; }
-  [[nodiscard]] LoadedScene scene_now() const;     // with the path that the hand goes along
+  [[nodiscard]] LoadedScene scene_now() const;     // with the paths that bodies were sent along
   void lay_hand_down(ModelAndState& start) const;  // gives it a path that rests where it was put
   [[nodiscard]] Settings settings_before_edits(const Settings& wanted) const;
 

@@ -1,5 +1,6 @@
 """Pictures and animations, decoded by ffmpeg or by hand."""
 import struct
+import threading
 import unittest
 import zlib
 
@@ -68,7 +69,10 @@ class Files(Case):
         self.assert_error(pliant.InputError, ("pixels", "float64", "uint8"), pliant.Picture, np.zeros((4, 4, 3)))
         self.assert_error(pliant.InputError, ("frames", "none", ""), pliant.Animation, [], 25)
         self.assert_error(pliant.InputError, ("frames", "several sizes", ""), pliant.Animation, [self.frames[0], self.frames[0][1:]], 25)
-        self.assert_error(pliant.InputError, ("frame_rate", "0.01", ""), pliant.Animation, self.frames, 0.01)
+        self.assert_error(pliant.InputError, ("frame_rate", "0.1", ""), pliant.Animation, self.frames, 0.1)
+        for rate in (0.2, 1000):
+            delay, unit = struct.unpack(">HH", dict(chunks_of(pliant.Animation(self.frames, rate).png()))[b"fcTL"][20:24])
+            self.assertAlmostEqual(delay / unit, 1 / rate)
 
 
 @unittest.skipUnless(has_opengl(), "there is no OpenGL")
@@ -103,6 +107,36 @@ class Drawing(Case):
         on_gpu.advance(7)
         self.simulation.advance(10)
         np.testing.assert_allclose(on_gpu.positions, self.simulation.positions, atol=1e-5)
+
+    def test_what_has_drawn_belongs_to_its_thread(self):
+        self.simulation.render((64, 48))
+        before = self.simulation.positions
+        told = []
+
+        def use(call):
+            try:
+                call()
+            except pliant.Error as error:
+                told.append(error)
+
+        calls = (lambda: self.simulation.set_state(positions=before + 1), self.simulation.advance,
+                 lambda: self.simulation.render((32, 24)), lambda: self.simulation.restore(self.simulation.save()))
+        for call in calls:
+            thread = threading.Thread(target=use, args=(call,))
+            thread.start()
+            thread.join()
+        self.assertEqual([type(error) for error in told], 4 * [pliant.DeviceError])
+        self.assertIn("another thread", told[0].problem)
+        self.assert_same_bits(self.simulation.positions, before)
+        self.simulation.advance()
+
+    def test_another_thread_may_drop_it(self):
+        drawn = [pliant.Simulation(pliant.Scene(meeting), "cpu")]
+        drawn[0].render((64, 48))
+        thread = threading.Thread(target=drawn.clear)
+        thread.start()
+        thread.join()
+        self.assert_same_bits(self.simulation.render((64, 48)), self.simulation.render((64, 48)))
 
     def test_a_picture_follows_changes(self):
         before = self.simulation.render((64, 48))

@@ -65,7 +65,7 @@ class Scenes(Case):
         expect(pliant.InputError, ("nowhere.toml", "", ""), pliant.Scene.load, "nowhere.toml")
         expect(pliant.InputError, ("Scene: body.ball.mesh", "", ""), pliant.Simulation,
                pliant.Scene({"body": [{"name": "ball", "mesh": "nowhere.obj"}]}), "cpu")
-        expect(pliant.InputError, ("device", "\"tpu\"", "gpu:N"), pliant.Simulation, pliant.Scene(meeting), "tpu")
+        expect(pliant.InputError, ("device", "'tpu'", "gpu:N"), pliant.Simulation, pliant.Scene(meeting), "tpu")
         expect(pliant.DeviceError, ("", "", ""), pliant.Simulation, pliant.Scene(meeting), "gpu:99")
 
     def test_bodies_that_begin_in_each_other_are_an_error(self):
@@ -124,6 +124,8 @@ class Meshes(Case):
         for mesh, parts in ((((p, [[0, 1, 3]])), ("", "triangle 0 names vertex 3, but the mesh has 3", "from 0")),
                             ((p, [[0, 1, 2], [0, 1, -1]]), ("triangles", "triangle 1 names vertex -1", "from 0")),
                             ((p, [[0, 1, 1]]), ("", "triangle 0 names a vertex twice", "")),
+                            ((p, [[0.0, 1, 2]]), ("triangles", "float64", "whole")),
+                            ((p * 2, [[0, 1, 2, 3]]), ("triangles", "(1, 4)", "(n, 3)")),
                             (([[0, 0, 0], [1, 0, np.inf]], t), ("", "vertex 1 has the coordinate inf", "finite")),
                             ((np.zeros((3, 2)), t), ("positions", "(3, 2)", "(n, 3)")),
                             (([], t), ("", "no vertices", ""))):

@@ -67,6 +67,8 @@ class Arguments(Case):
         for name, value in (("precision", 16), ("threads", -1), ("threads", 100000)):
             self.assert_error(pliant.InputError, (name, str(value), ""), simulate, **{name: value})
         self.assertRaises(TypeError, simulate, threads=1.0)
+        error = self.assert_error(pliant.InputError, ("precision", "64", "cpu"), simulate, device="gpu", precision=64)
+        self.assertNotIn("--", str(error))
 
     def test_a_report_becomes_json(self):
         simulation = simulate()
@@ -87,6 +89,15 @@ class Steps(Case):
         simulation = simulate({**meeting, "simulation": {"integrator": "dop853", "tolerance": 1e-6}})
         simulation.advance_to(0.0123)
         self.assertEqual(simulation.time, 0.0123)
+
+    def test_with_a_tolerance_it_goes_on_after_a_change_to_times_that_are_no_sums(self):
+        simulation = simulate({**meeting, "simulation": {"integrator": "dop853", "tolerance": 1e-6}})
+        simulation.advance_to(0.003)
+        simulation.set_state(velocities=0.5 * simulation.velocities)
+        simulation.advance_to(0.013)  # 0.003 + (0.013 - 0.003) is less
+        self.assertAlmostEqual(simulation.time, 0.013, delta=1e-15)
+        simulation.advance_to(0.02)
+        self.assertAlmostEqual(simulation.time, 0.02, delta=1e-15)
 
     def test_time_does_not_go_back(self):
         simulation = simulate()
@@ -118,19 +129,12 @@ class Steps(Case):
 class Signals(Case):
     def test_ctrl_c_ends_steps_that_go_on_with_the_same_bits(self):
         simulation, undisturbed = simulate(), simulate()
-        begun = threading.Event()
-
-        def interrupt():
-            begun.wait()
-            _thread.interrupt_main(signal.SIGINT)
-
-        thread = threading.Thread(target=interrupt)
-        thread.start()
+        interrupt = threading.Timer(0.3, _thread.interrupt_main, (signal.SIGINT,))
         with self.assertRaises(KeyboardInterrupt):
-            begun.set()
+            interrupt.start()
             simulation.advance(10**9)
-        thread.join()
         made = simulation.steps
+        self.assertGreater(made, 0)
         self.assertLess(made, 10**9)
         undisturbed.advance(made)
         simulation.advance(10)
@@ -322,6 +326,12 @@ class Changing(Case):
         simulation.advance_to(0.05)
         self.assertAlmostEqual(simulation.time, 0.05, delta=simulation.time_step)
 
+    def test_a_material_that_makes_the_step_too_long_is_warned_of(self):
+        simulation = simulate({**meeting, "simulation": {"time_step": 0.01}})
+        with self.assertWarnsRegex(pliant.SceneWarning, "stability bound") as caught:
+            simulation.set_material("left", stiffness=1e5)
+        self.assertEqual(caught.filename, __file__)
+
     def test_materials_that_are_wrong_are_refused(self):
         simulation = simulate()
         self.assert_error(pliant.InputError, ("body", "'middle'", "left, right"), simulation.set_material, "middle", damping=1)
@@ -359,6 +369,13 @@ class Changing(Case):
         simulation.advance(100)
         np.testing.assert_allclose(simulation.positions[rows], shape + [4, 0, 0], atol=1e-9)
         self.assertEqual(np.abs(simulation.velocities[rows]).max(), 0)
+        simulation.send("hand", [4, 1, 0], 0.2)
+        simulation.advance(50)
+        simulation.set_material("left", damping=0.5)
+        simulation.set_state(velocities=simulation.velocities)
+        simulation.advance(60)
+        np.testing.assert_allclose(simulation.positions[rows], shape + [4, 1, 0], atol=1e-9)
+        self.assert_error(pliant.InputError, ("body", "'hand' is scripted", "soft"), simulation.set_material, "hand", damping=1)
         self.assert_error(pliant.InputError, ("send", "\"left\"", "scripted"), simulation.send, "left", [0, 0, 0], 1)
         self.assert_error(pliant.InputError, ("seconds", "0", ""), simulation.send, "hand", [0, 0, 0], 0)
 

@@ -2,6 +2,9 @@
 import os
 import pathlib
 import signal
+import time
+
+import numpy as np
 
 import pliant
 
@@ -35,3 +38,30 @@ def fail_at_first(simulation):
         mark.touch()
         raise ValueError("not yet")
     return {"steps": simulation.steps}
+
+
+def die_while_others_run(simulation):
+    """One run ends its process while all others are in the midst of theirs."""
+    if simulation.bodies["left"].stiffness == 20:
+        time.sleep(0.1)
+        os.kill(os.getpid(), signal.SIGKILL)
+    time.sleep(0.3)
+    return {"steps": simulation.steps}
+
+
+def return_odd_values(simulation):
+    return {"set": {1, 2}}
+
+
+def return_numpys_values(simulation):
+    return {"number": np.float64(0.1), "numbers": np.array([1, 2]), "text": "true", "nothing": None, "empty": ""}
+
+
+def return_what_is_taken(simulation):
+    return {"body.left.stiffness": 99, "key": 1, "steps": 2}
+
+
+def tell_and_wait(simulation):
+    (pathlib.Path(simulation.scene.title) / f"pid-{os.getpid()}").touch()
+    time.sleep(3600)
+    return {}
