@@ -2,7 +2,6 @@
 import os
 import pathlib
 import signal
-import time
 
 import numpy as np
 
@@ -41,11 +40,17 @@ def fail_at_first(simulation):
 
 
 def die_while_others_run(simulation):
-    """One run ends its process while all others are in the midst of theirs."""
-    if simulation.bodies["left"].stiffness == 20:
-        time.sleep(0.1)
+    """One run ends its process while another is in the midst of its own. They meet at a pipe, which opens once both are there."""
+    folder = pathlib.Path(simulation.scene.title)
+    died, is_culprit = folder / "died", simulation.bodies["left"].stiffness == 20
+    if not died.exists():
+        with open(folder / "pipe", "r" if is_culprit else "w"):
+            pass
+        if not is_culprit:
+            signal.pause()  # until its pool has broken
+        died.touch()
+    if is_culprit:
         os.kill(os.getpid(), signal.SIGKILL)
-    time.sleep(0.3)
     return {"steps": simulation.steps}
 
 
@@ -63,5 +68,5 @@ def return_what_is_taken(simulation):
 
 def tell_and_wait(simulation):
     (pathlib.Path(simulation.scene.title) / f"pid-{os.getpid()}").touch()
-    time.sleep(3600)
+    signal.pause()
     return {}

@@ -235,6 +235,7 @@ class Deaths(InFolder):
             self.assertEqual([row["key"] for row in csv.DictReader(text)], [row["key"] for row in rows])
 
     def test_a_run_that_ends_every_worker_says_so_and_others_are_made(self):
+        os.mkfifo(self.folder / "pipe")
         for run in (sweep_runs.die_always, sweep_runs.die_while_others_run):
             rows = self.sweep({"body.left.stiffness": [10, 20, 30, 40, 50]}, run=run)
             self.assertEqual([row["error"] for row in rows], [None, "its process died 3 times", None, None, None])
