@@ -111,7 +111,7 @@ class Steps(Case):
     def test_numbers_that_go_wrong_are_told(self):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", pliant.SceneWarning)
-            simulation = simulate({**meeting, "simulation": {"integrator": "rk4", "time_step": 10}})
+            simulation = simulate({"simulation": {"integrator": "rk4", "time_step": 10}, "body": meeting["body"][1:]})
         error = self.assert_error(pliant.BreakdownError, ("body \"", "is not finite in step", "time_step"), simulation.advance, 10000)
         found = simulation.report()["breakdown"]
         self.assertIn(f"step {found['step']}", error.problem)

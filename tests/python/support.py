@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -13,6 +14,8 @@ import pliant
 
 source = pathlib.Path(os.environ["PLIANT_SOURCE_DIR"])
 program = os.environ["PLIANT_PROGRAM"]
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # tests that run in the background were told to ignore it
 
 # Two small spheres that meet after some 20 steps of 2 ms.
 meeting = {
