@@ -8,7 +8,7 @@ import re
 import sys
 
 # The order of docs/architecture.md. A folder of shaders counts as a module: both languages include from there.
-LAYERS = ["core", "mesh", "scene", "physics", "model", "gl", "kernels", "device", "state", "dynamics", "collision",
+LAYERS = ["core", "ranks", "mesh", "scene", "physics", "model", "gl", "kernels", "device", "state", "dynamics", "collision",
           "simulation", "render", "output", "run", "view", "window", "bench", "python", "app"]
 GL_MODULES = ("gl", "device/gpu", "render")  # the only ones that see OpenGL's types
 WINDOW_FILE = "src/window/window.cpp"  # the only one that sees GLFW

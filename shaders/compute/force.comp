@@ -11,6 +11,7 @@
 #version 450
 #include "physics/language.glsl"
 // Threads that serve several vertices have no registers left for this. They serve large bodies best, where rounding averages out.
+// Lanes::cancels_rounding() says the same.
 #define CANCELS_ROUNDING (VERTICES == 1 || LANES == 1)
 #include "@kernel"
 

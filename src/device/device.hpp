@@ -17,6 +17,12 @@
 
 namespace pliant {
 
+class Ranks;
+
+struct ByteRange {
+  std::size_t first = 0, count = 0;
+};
+
 using BufferId = std::uint32_t;  // 0: none
 using KernelId = std::uint32_t;
 using Parameter = std::variant<std::uint32_t, double>;
@@ -55,11 +61,32 @@ struct KernelCall {
   std::vector<Parameter> parameters;
 };
 
+/// Work of the processor between kernels, such as sending numbers to another process.
+class HostWork {
+ public:
+  virtual ~HostWork() = default;
+  /// Is called when all passes before it have been queued. Reading from the device waits for them.
+  virtual void run() = 0;
+};
+
+/// Parts of a buffer on their way to the processor, while the device goes on. It can be used again and again.
+class Transfer {
+ public:
+  virtual ~Transfer() = default;
+  /// Queues the copying, behind the kernels so far.
+  virtual void begin() = 0;
+  /// Waits for a moment at most. Returns whether all has arrived that was begun last.
+  [[nodiscard]] virtual bool has_arrived() = 0;
+  /// Returns what has arrived, each part behind the one before. It stands until begin().
+  [[nodiscard]] virtual std::span<const std::byte> bytes() const = 0;
+};
+
 /// One dispatch, recorded once and run many times.
 struct Pass {
   std::string_view name;  // the kernel's
   KernelCall call;
   std::uint32_t item_count = 0;
+  std::shared_ptr<HostWork> host_work = {};  // runs instead of a kernel; null: a kernel runs
   bool beside_next = false;  // the next pass need not wait for this one: neither writes what the other uses, but by atomics
 };
 
@@ -101,6 +128,8 @@ class Device {
   virtual void write(BufferId buffer, std::size_t first_byte, std::span<const std::byte> data) = 0;
   /// Waits for the kernels before it.
   virtual void read(BufferId buffer, std::size_t first_byte, std::span<std::byte> data) = 0;
+  /// Returns a way for these parts, which must lie within the buffer. Buffer and device must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<Transfer> transfer_from(BufferId buffer, std::vector<ByteRange> parts) = 0;
   /// Says which buffers will be read next. A device that makes readers wait may wait once for all of them, if nothing runs or is
   /// written in between. What was read ahead before is forgotten.
   virtual void read_ahead(std::span<const BufferId> /*buffers*/) {}
@@ -134,6 +163,10 @@ class Device {
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;
+  /// Lets the device's owner simulate together with other processes, which must outlive it. Simulations that are made from then
+  /// on do so. Null: it is alone.
+  void join(Ranks* ranks) { ranks_ = ranks; }
+  [[nodiscard]] Ranks* ranks() const { return ranks_; }
   /// Returns how many items keep the device busy in a scene of so many bodies. That is how finely a search is best cut.
   [[nodiscard]] virtual std::uint32_t parallel_items(std::uint32_t bodies) const = 0;
   /// Returns how many items best share a list in strides, if only the device knows the list's length.
@@ -145,6 +178,9 @@ class Device {
   virtual void mark_time() = 0;
   /// Returns the marked times since the last call [s], from any origin. Waits for them.
   [[nodiscard]] virtual std::vector<double> take_times() = 0;
+
+ private:
+  Ranks* ranks_ = nullptr;
 };
 
 /// An owned array of `count` elements on a device, which must outlive it.

@@ -16,6 +16,7 @@ struct ForceVariant {
   bool all_stages = false;          // whether its kernels can run every stage of a step in one dispatch
   std::uint32_t quiet_groups = 0;   // work groups that make quiet steps together, at most; 0: it makes none
   std::uint32_t lanes = 1;          // threads that share a vertex's springs
+  bool cancels_rounding = true;     // whether stages take off what those before have rounded (kernels/runge_kutta_stage.glsl)
   std::uint32_t most_vertices = 0;  // of all bodies together, up to which it is the fastest; 0: another one always is
   std::uint32_t smallest_body = 1, largest_body = any_number;  // in vertices: for others another one is always faster
 

@@ -77,6 +77,17 @@ void make_tableau(Arrays& arrays, std::vector<glm::dvec2> rows) {
   arrays.make("tableau", rows);
 }
 
+bool has_partners(const DeviceBodies& bodies) {
+  const Ranks* const ranks = bodies.arrays.device().ranks();
+  return ranks != nullptr && ranks->count() > 1;
+}
+
+std::vector<bool> clustered_of(const Model& model) {
+  std::vector<bool> are;
+  for (const ModelBody& body : model.bodies) are.push_back(body.is_clustered);
+  return are;
+}
+
 using AllChangedSums = std::vector<std::shared_ptr<const ChangedSums>>;
 
 std::vector<std::optional<ListBasis>> bases_of(const Model& model, const AllChangedSums& changed) {
@@ -106,7 +117,8 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   if (std::ranges::any_of(model.bodies, &ModelBody::is_clustered))
     cluster_forces_.emplace(bodies, model, bases_of(model, AllChangedSums(model.bodies.size())), cluster_trees_);
   else
-    bodies.arrays.make<double>("spring_sum", 1);                                   // kernels on a processor name it in any case
+    bodies.arrays.make<double>("spring_sum",
+                               has_partners(bodies) ? coordinates : 1);            // kernels on a processor name it in any case
   bodies.arrays.make<double>("added_force", adds_force() != 0 ? coordinates : 1);  // stages name it in any case
   if (staged_method(integrator) != nullptr) {
     use_tableaus(stages);
@@ -121,28 +133,38 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
     bodies.arrays.make<double>("acceleration", 1);  // internal damping names it
     bodies.arrays.make<double>("kept_force", coordinates);
   }
+  share_sums(model, clustered_of(model));
   bodies.arrays.set_parameter("keeps_force", keeps_force() ? 1u : 0u);
   bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
 }
 
+// Bodies that ranks share have the bits that one rank would find, and so need a tableau of each kind.
 void Stepper::use_tableaus(Stages stages) {
   const bool holds_drag = std::holds_alternative<Nystrom>(integrator_.method) && law_ == physics::damping_constant;
   if (holds_drag) law_ = physics::damping_none;
-  std::map<double, std::uint32_t> row_of_drag;
+  std::vector<double> drags;
+  for (const physics::Body& body : bodies_.arrays.get<physics::Body>("body").download())
+    drags.push_back(holds_drag ? body.damping * body.inverse_mass * time_step_ : 0);
   std::vector<glm::dvec2> rows;
-  std::vector<std::uint32_t> row_of_body;
-  for (const physics::Body& body : bodies_.arrays.get<physics::Body>("body").download()) {
-    const double drag = holds_drag ? body.damping * body.inverse_mass * time_step_ : 0;
-    const auto [place, is_new] = row_of_drag.try_emplace(drag, static_cast<std::uint32_t>(rows.size()));
-    row_of_body.push_back(place->second);
-    if (!is_new) continue;
-    const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
-    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, but not the last stage
-    stage_count_ = static_cast<std::uint32_t>(tableau.stages);
-    std::ranges::copy(stage_rows(tableau, stages == Stages::of_result), std::back_inserter(rows));
-  }
+  const auto add_rows = [&](bool cancels_rounding) {
+    std::map<double, std::uint32_t> row_of_drag;
+    std::vector<std::uint32_t> row_of_body;
+    for (const double drag : drags) {
+      const auto [place, is_new] = row_of_drag.try_emplace(drag, static_cast<std::uint32_t>(rows.size()));
+      row_of_body.push_back(place->second);
+      if (!is_new) continue;
+      const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
+      PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, but not the last stage
+      stage_count_ = static_cast<std::uint32_t>(tableau.stages);
+      std::ranges::copy(stage_rows(tableau, cancels_rounding), std::back_inserter(rows));
+    }
+    return row_of_body;
+  };
+  cancelling_rows_ = add_rows(stages == Stages::of_result);
+  const bool is_room = 2 * rows.size() <= physics::tableau_size;  // else the bits differ a little
+  if (has_partners(bodies_) && is_room) plain_rows_ = add_rows(false);
   make_tableau(bodies_.arrays, std::move(rows));
-  bodies_.set_tableau_rows(row_of_body);
+  bodies_.set_tableau_rows(cancelling_rows_);
 }
 
 void Stepper::change_sums(const Model& model, const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
@@ -152,6 +174,7 @@ void Stepper::change_sums(const Model& model, const std::vector<std::shared_ptr<
   cluster_forces_ =
       ClusterForces(bodies_, model, bases, cluster_trees_);  // if lists are too long, this throws, and the old ones stay
   bodies_.cut_into_shares(model, given);
+  share_sums(model, given);
 }
 
 std::vector<Pass> Stepper::first_passes() const {
@@ -173,8 +196,23 @@ Pass Stepper::restating_pass(std::uint32_t from_half) const {
   return make_pass(bodies_.arrays, "change_frame", {{"from_half", from_half}}, bodies_.vertex_count);
 }
 
-std::vector<Pass> Stepper::cluster_passes(std::uint32_t slot, bool only_stale) const {
-  return cluster_forces_ ? cluster_forces_->passes(slot, only_stale) : std::vector<Pass>();
+void Stepper::share_sums(const Model& model, const std::vector<bool>& are_clustered) {
+  if (!has_partners(bodies_)) return;
+  shared_sums_.emplace(bodies_, model, are_clustered, *bodies_.arrays.device().ranks());
+  bodies_.have_all_sums_given(model);
+  if (plain_rows_.empty()) return;
+  const auto variants = bodies_.arrays.device().force_variants();
+  std::vector<std::uint32_t> rows = cancelling_rows_;
+  for (std::size_t b = 0; b < rows.size(); ++b)
+    if (const std::size_t alone = bodies_.force_variants[b]; alone < variants.size() && !variants[alone].cancels_rounding)
+      rows[b] = plain_rows_[b];
+  bodies_.set_tableau_rows(rows);
+}
+
+std::vector<Pass> Stepper::sum_passes(std::uint32_t slot, bool only_stale) const {
+  std::vector<Pass> passes = cluster_forces_ ? cluster_forces_->passes(slot, only_stale) : std::vector<Pass>();
+  if (shared_sums_) std::ranges::move(shared_sums_->passes(slot, only_stale), std::back_inserter(passes));
+  return passes;
 }
 
 std::vector<Pass> Stepper::refresh_passes() const {
@@ -184,7 +222,7 @@ std::vector<Pass> Stepper::refresh_passes() const {
     passes.push_back(make_pass(bodies_.arrays, "refresh_force", kernel, {{"first_share", group.first_share}}, group.share_count));
   }
   run_together(passes);
-  std::vector<Pass> all = cluster_passes(physics::start_slot, true);
+  std::vector<Pass> all = sum_passes(physics::start_slot, true);
   std::ranges::move(passes, std::back_inserter(all));
   return all;
 }
@@ -223,7 +261,7 @@ std::vector<Pass> Stepper::stage_passes(std::string_view name, std::uint32_t fro
     std::vector<Pass> of_stage = passes_of(stage);
     if (of_stage.empty()) continue;
     const StageState state = state_of_stage(stage);
-    std::ranges::move(cluster_passes(state.slot, false), std::back_inserter(passes));
+    std::ranges::move(sum_passes(state.slot, false), std::back_inserter(passes));
     std::ranges::move(force_passes(state), std::back_inserter(passes));
     std::ranges::move(of_stage, std::back_inserter(passes));
   }

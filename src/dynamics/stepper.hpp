@@ -10,6 +10,7 @@
 #include "dynamics/forces/force.hpp"
 #include "dynamics/integrator.hpp"
 #include "dynamics/internal_damping.hpp"
+#include "dynamics/shared_sums.hpp"
 #include "scene/scene_description.hpp"
 #include "state/device_bodies.hpp"
 
@@ -70,8 +71,11 @@ class Stepper {
   /// `of_all_stages` is for passes of the second kind.
   [[nodiscard]] std::vector<Pass> stage_passes(std::string_view name, std::uint32_t from_half, const StateOfStage& state_of_stage,
                                                const Parameters& of_all_stages = {}) const;
-  /// Returns passes that sum the springs of clustered bodies. ClusterForces says what the arguments are.
-  [[nodiscard]] std::vector<Pass> cluster_passes(std::uint32_t slot, bool only_stale) const;
+  /// Has all sums given, if several ranks simulate together. Clustered bodies are those whose flag is set.
+  void share_sums(const Model& model, const std::vector<bool>& are_clustered);
+  /// Returns passes that make the sums that are given: those of clustered bodies, and those that ranks share. ClusterForces says
+  /// what the arguments are.
+  [[nodiscard]] std::vector<Pass> sum_passes(std::uint32_t slot, bool only_stale) const;
   /// Returns passes that set the forces beside the springs, for one stage.
   [[nodiscard]] std::vector<Pass> force_passes(const StageState& at) const;
   [[nodiscard]] std::uint32_t adds_force() const { return added_forces_.any() || internal_damping_.acts() ? 1 : 0; }
@@ -83,6 +87,9 @@ class Stepper {
   DeviceBodies& bodies_;
   ClusterTrees cluster_trees_;
   std::optional<ClusterForces> cluster_forces_;  // empty: no body is clustered
+  std::optional<SharedSums> shared_sums_;        // empty: this rank is alone
+  std::vector<std::uint32_t> plain_rows_;        // where tableaus begin that cancel no rounding, of bodies; empty: there are none
+  std::vector<std::uint32_t> cancelling_rows_;   // of those that do
   AddedForces added_forces_;
   InternalDamping internal_damping_;
   const Integrator& integrator_;

@@ -179,6 +179,7 @@ void Buffer::read(std::size_t first_byte, std::span<std::byte> data) const {
 }
 
 Landing::~Landing() {
+  forget_fence();
   if (id_ != 0) glDeleteBuffers(1, &id_);
 }
 
@@ -194,7 +195,11 @@ void Landing::make_room(std::size_t bytes) {
   size_ = bytes;
 }
 
-std::span<const std::byte> Landing::copy(std::span<const Source> sources) {
+void Landing::forget_fence() {
+  if (fence_ != nullptr) glDeleteSync(static_cast<GLsync>(std::exchange(fence_, nullptr)));
+}
+
+void Landing::queue(std::span<const Source> sources) {
   std::size_t bytes = 0;
   for (const Source& from : sources) bytes += from.size;
   make_room(bytes);
@@ -205,8 +210,29 @@ std::span<const std::byte> Landing::copy(std::span<const Source> sources) {
                              static_cast<GLsizeiptr>(from.size));
     place += from.size;
   }
+  copied_ = bytes;
+}
+
+std::span<const std::byte> Landing::copy(std::span<const Source> sources) {
+  queue(sources);
   glFinish();
-  return {mapped_, bytes};
+  return copied();
+}
+
+void Landing::begin(std::span<const Source> sources) {
+  forget_fence();
+  queue(sources);
+  fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+}
+
+bool Landing::has_arrived() {
+  if (fence_ == nullptr) return true;
+  const GLenum found = glClientWaitSync(static_cast<GLsync>(fence_), 0, 50'000);
+  if (found == GL_TIMEOUT_EXPIRED) return false;
+  forget_fence();
+  if (found == GL_WAIT_FAILED) throw Error(ErrorKind::device, "", "the GPU has stopped answering", "");
+  return true;
 }
 
 Program Program::compute(const FlatShader& source, std::string_view label) {

@@ -47,7 +47,7 @@ template <class T>
   return buffer;
 }
 
-/// Memory that the GPU copies buffers to, so that the processor waits once for several of them.
+/// Memory that the GPU copies buffers to. The processor waits once for several of them, or goes on meanwhile.
 class Landing {
  public:
   Landing() = default;
@@ -64,13 +64,21 @@ class Landing {
   /// Waits for the GPU, and returns these bytes, each source's behind those of the one before. They stand until the next call.
   /// Throws Error (device) when there is no room for them.
   [[nodiscard]] std::span<const std::byte> copy(std::span<const Source> sources);
+  /// Does the same without waiting. The bytes stand in copied() once has_arrived().
+  void begin(std::span<const Source> sources);
+  /// Waits for 50 us at most.
+  [[nodiscard]] bool has_arrived();
+  [[nodiscard]] std::span<const std::byte> copied() const { return {mapped_, copied_}; }
 
  private:
   void make_room(std::size_t bytes);
+  void queue(std::span<const Source> sources);
+  void forget_fence();
 
   std::uint32_t id_ = 0;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, copied_ = 0;
   const std::byte* mapped_ = nullptr;
+  void* fence_ = nullptr;  // null: nothing was begun, or it has arrived
 };
 
 /// A linked program. A shader that does not compile throws Error (device) with its true file and line.

@@ -42,6 +42,15 @@ std::vector<ForceBody> force_bodies_of(const Model& model, const State& state) {
   return bodies;
 }
 
+// Which bodies move from the start is forgotten, so all count as moving. That matters for bodies of one dispatch alone.
+std::vector<ForceBody> later_force_bodies_of(const Model& model, const std::vector<bool>& have_given_sums) {
+  std::vector<ForceBody> bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    bodies.push_back(
+        {model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), !model.bodies[b].is_rigid(), have_given_sums[b]});
+  return bodies;
+}
+
 ForceAbilities abilities_of(const Device& device) {
   return {device.force_variants(), device.shares_at_once(), device.variant_for_given_sums()};
 }
@@ -132,10 +141,11 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
 DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, std::size_t force_variant)
     : DeviceBodies(device, model, state, variants_with(device, model, force_variant)) {}
 
-DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& force_variants)
+DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& state, const std::vector<std::size_t>& variants)
     : vertex_count(model.vertex_count()),
       body_count(static_cast<std::uint32_t>(model.bodies.size())),
-      force_groups(group_shares(abilities_of(device), force_bodies_of(model, state), force_variants)),
+      force_variants(variants),
+      force_groups(group_shares(abilities_of(device), force_bodies_of(model, state), variants)),
       arrays(device),
       poses(arrays.make("pose", state.poses)),
       statuses(arrays.make("status", first_statuses(model))),
@@ -147,7 +157,7 @@ DeviceBodies::DeviceBodies(Device& device, const Model& model, const State& stat
   arrays.set_parameter("body_count", body_count);
   arrays.set_parameter("parts_of", 0.0);
   arrays.set_parameter("skips", physics::skips_forces | physics::skips_rest);
-  arrays.make("share", shares_of(device, model, force_variants, force_groups));
+  arrays.make("share", shares_of(device, model, variants, force_groups));
   arrays.make<physics::FrameChange>("frame_change", body_count);
   arrays.make("body_box", std::vector(body_count, empty_box()));
   arrays.make("place_box", std::vector(body_count, empty_box()));
@@ -240,14 +250,19 @@ void DeviceBodies::set_tableau_rows(std::span<const std::uint32_t> rows) {
   tableau_rows_.assign(rows.begin(), rows.end());
 }
 
-// Which bodies move from the start is forgotten, so all count as moving. That matters for bodies of one dispatch alone.
 void DeviceBodies::cut_into_shares(const Model& model, const std::vector<bool>& are_given) {
-  std::vector<ForceBody> all;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    all.push_back({model.bodies[b].vertex_count, !model.bodies[b].is_rigid(), !model.bodies[b].is_rigid(), are_given[b]});
-  const ForceAbilities abilities = abilities_of(arrays.device());
-  const std::vector<std::size_t> variants = choose_force_variants(abilities, all);
-  force_groups = group_shares(abilities, all, variants);
+  force_variants = choose_force_variants(abilities_of(arrays.device()), later_force_bodies_of(model, are_given));
+  cut_into_shares(model, are_given, force_variants);
+}
+
+void DeviceBodies::have_all_sums_given(const Model& model) {
+  const std::vector<std::size_t> given(model.bodies.size(), arrays.device().force_variants().size());
+  cut_into_shares(model, std::vector<bool>(model.bodies.size(), true), given);
+}
+
+void DeviceBodies::cut_into_shares(const Model& model, const std::vector<bool>& are_given,
+                                   const std::vector<std::size_t>& variants) {
+  force_groups = group_shares(abilities_of(arrays.device()), later_force_bodies_of(model, are_given), variants);
   arrays.make("share", shares_of(arrays.device(), model, variants, force_groups));
   if (!tableau_rows_.empty()) set_tableau_rows(std::vector(tableau_rows_));
 }

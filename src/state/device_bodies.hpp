@@ -25,6 +25,7 @@ struct DeviceBodies {
   DeviceBodies& operator=(const DeviceBodies&) = delete;
 
   std::uint32_t vertex_count = 0, body_count = 0;
+  std::vector<std::size_t> force_variants;  // of each body, as one device alone would sum its springs
   std::vector<ForceGroup> force_groups;
   Arrays arrays;  // these, and those that others make for the same simulation
   DeviceArray<physics::Pose>& poses;
@@ -56,6 +57,8 @@ struct DeviceBodies {
   /// Cuts bodies into shares anew. Other passes sum the springs of those bodies whose sums are given. Passes that were recorded
   /// before do not hold any more.
   void cut_into_shares(const Model& model, const std::vector<bool>& are_given);
+  /// Does so for the sums of all bodies, while `force_variants` stay as they are.
+  void have_all_sums_given(const Model& model);
   /// Has every stage be a dispatch of its own, or all stages one, if the variants can.
   void run_all_stages(bool at_once);
   /// Gives scripted bodies their paths, from these times on.
@@ -64,6 +67,8 @@ struct DeviceBodies {
   void make_placements(std::uint32_t slots);
 
  private:
+  void cut_into_shares(const Model& model, const std::vector<bool>& are_given, const std::vector<std::size_t>& variants);
+
   std::vector<std::uint32_t> tableau_rows_;  // of bodies; empty: all are 0
 };
 

@@ -78,6 +78,35 @@ TEST_CASE("a part of a buffer is read and written where it lies, and read ahead"
   }
 }
 
+TEST_CASE("parts of a buffer arrive as they were when their transfer began", "[gl]") {
+  for (const TestDevice& test : all_devices()) {
+    CAPTURE(test.name);
+    Quarter quarter(*test.device);
+    const std::size_t size = sizeof(std::uint32_t);
+    const auto transfer = test.device->transfer_from(quarter.part.id(), {{size, 2 * size}, {8 * size, size}});
+    const auto arrived = [&] {
+      while (!transfer->has_arrived()) {
+      }
+      std::vector<std::uint32_t> numbers(3);
+      REQUIRE(transfer->bytes().size() == 3 * size);
+      std::ranges::copy(transfer->bytes(), std::as_writable_bytes(std::span(numbers)).begin());
+      return numbers;
+    };
+    const std::uint32_t first = Quarter::count;
+    transfer->begin();
+    quarter.part.upload(std::vector<std::uint32_t>{7, 8}, 2);
+    CHECK(arrived() == std::vector{first + 1, first + 2, first + 8});
+    transfer->begin();
+    CHECK(arrived() == std::vector{first + 1, 7u, first + 8});
+    const auto of_nothing = test.device->transfer_from(quarter.part.id(), {});
+    of_nothing->begin();
+    while (!of_nothing->has_arrived()) {
+    }
+    CHECK(of_nothing->bytes().empty());
+    CHECK(test::breaks_contract([&] { test.device->transfer_from(quarter.part.id(), {{part_alignment - 1, 2}})->begin(); }));
+  }
+}
+
 TEST_CASE("nobody reads, writes or divides what lies beyond a buffer or a part of one", "[gl]") {
   for (const TestDevice& test : all_devices()) {
     CAPTURE(test.name);

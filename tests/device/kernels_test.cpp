@@ -15,6 +15,7 @@
 #include "gl/shader_source.hpp"
 #include "mesh/generators.hpp"
 #include "physics/contact/exact_sum.glsl"
+#include "ranks/ranks.hpp"
 #include "support/collision_scene.hpp"
 #include "support/device_bench.hpp"
 #include "support/has.hpp"
@@ -342,6 +343,45 @@ void compare_cluster_passes(std::set<std::string_view>& seen) {
   compare_passes(cpu, gpu, phases, on_cpu, on_gpu, seen);
 }
 
+// One of two ranks, of whom the other does nothing.
+class HalfOfTwo final : public Ranks {
+ public:
+  std::size_t number() const override { return 0; }
+  std::size_t count() const override { return 2; }
+  std::size_t number_here() const override { return 0; }
+  std::size_t count_here() const override { return 2; }
+  void take_from_first(std::span<std::byte>) override {}
+  std::vector<std::uint64_t> hear_all(std::uint64_t mine) override { return {mine, mine}; }
+  void begin_sharing(std::span<double>, std::span<const NumberRange>) override {}
+  void go_on() override {}
+  void end_sharing() override {}
+  void abandon() override {}
+};
+
+// Springs of the first of two alike bodies. Of those, however devices cut them, a rank has one.
+void compare_shared_passes(std::set<std::string_view>& seen) {
+  std::vector<BodySetup> setups{sphere(2), sphere(2)};
+  for (BodySetup& setup : setups) setup.description.stretch = {0.8, 1.1, 1};
+  setups[1].description.position = {5, 0, 0};
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  const Method method{"verlet", 0.01};
+  const CollisionDescription none{.response = {"none"}};
+  HalfOfTwo ranks;
+  const auto joined = [&](std::unique_ptr<Device> device) {
+    device->join(&ranks);
+    return device;
+  };
+  Bench cpu(joined(make_cpu_device(2, 32)), start, method, none), gpu(joined(make_gpu_device(0)), start, method, none);
+  const auto passes_of = [](Bench& bench) {
+    std::vector<Pass> passes = bench.stepper.first_passes();
+    for (const Pass& pass : bench.stepper.passes(0))
+      if (pass.name == "sum_springs") passes.push_back(pass);
+    return passes;
+  };
+  SharedPhases phases;
+  compare_passes(cpu, gpu, phases, passes_of(cpu), passes_of(gpu), seen);
+}
+
 std::uint32_t frame_changes(const Bench& bench) {
   std::uint32_t changes = 0;
   for (const physics::Tally& tally : bench.bodies.tallies.download()) changes += tally.frame_changes;
@@ -423,6 +463,7 @@ TEST_CASE("each kernel computes on the GPU what it computes on the CPU", "[gl]")
   CHECK((rejected_for_error > 0 && rejected_in_contact > 0));
   compare_quiet_passes(seen);
   compare_cluster_passes(seen);
+  compare_shared_passes(seen);
   std::size_t kernel_count = own_kernel_files().size();
   for (const gl::ShaderFile& file : gl::embedded_shaders())
     if (file.name.starts_with("compute/kernels/") && file.name.find("/parts/") == std::string_view::npos) ++kernel_count;

@@ -28,7 +28,8 @@ struct Sample {
   glm::vec<4, Real>& position(std::size_t i) { return placements[i]; }
   glm::vec<4, Real>& displacement(std::size_t i) { return placements[size() + i]; }
   SpringBody<Real> body() {
-    return {placements.data(), placements.data() + size(), static_cast<std::uint32_t>(size()), sums.data()};
+    const auto count = static_cast<std::uint32_t>(size());
+    return {placements.data(), placements.data() + size(), count, 0, count, sums.data()};
   }
 };
 
@@ -161,6 +162,25 @@ TEMPLATE_TEST_CASE("sums of several bodies are those of each alone, bit for bit,
       for (std::size_t b = 0; b < together.size(); ++b) CHECK(together[b].sums == alone[b].sums);
     }
   }
+}
+
+TEMPLATE_TEST_CASE("sums of some vertices are those of all, bit for bit", "", float, double) {
+  for (const Isa isa : available_isas())
+    for (const std::uint32_t count : {17u, 300u, 2100u}) {
+      Sample<TestType> sample = random_sample<TestType>(count, 0.1);
+      sum(isa, sample);
+      for (const auto& [first, wanted] : {std::pair(0u, 1u), {0u, count}, {count / 3, count / 2}, {count - 1, 1u}}) {
+        INFO(name_of(isa) << ", " << wanted << " of " << count << " vertices, from " << first);
+        std::vector<glm::dvec3> some(wanted);
+        SpringBody<TestType> body = sample.body();
+        body.first_wanted = first;
+        body.wanted_count = wanted;
+        body.sums = some.data();
+        ThreadPool pool(2);
+        SpringSums<TestType>(isa).sum(pool, {&body, 1});
+        CHECK(std::ranges::equal(some, std::span(sample.sums).subspan(first, wanted)));
+      }
+    }
 }
 
 TEMPLATE_TEST_CASE("vertices in one place exert no force on each other", "", float, double) {

@@ -38,6 +38,9 @@ class FullDevice : public Device {
   std::size_t allocated_bytes() const override { return inner_->allocated_bytes(); }
   void write(BufferId to, std::size_t first, std::span<const std::byte> data) override { inner_->write(to, first, data); }
   void read(BufferId from, std::size_t first, std::span<std::byte> data) override { inner_->read(from, first, data); }
+  std::unique_ptr<Transfer> transfer_from(BufferId from, std::vector<ByteRange> parts) override {
+    return inner_->transfer_from(from, std::move(parts));
+  }
   KernelId kernel(std::string_view name) override { return inner_->kernel(name); }
   KernelId group_kernel(std::string_view name, std::uint32_t threads) override { return inner_->group_kernel(name, threads); }
   KernelId round_kernel(std::string_view name) override { return inner_->round_kernel(name); }

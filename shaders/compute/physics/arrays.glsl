@@ -58,7 +58,8 @@ ARRAY(leaf_pull, real, vertex, step, "[leaf][16][3] what pulls a vertex, of all 
 ARRAY(node_pull, real, pair, step, "[cluster][row][12] what leaves of far clusters pull a cluster's nodes with, the other way (forces/clusters.glsl) [body's unit]; rows of node 0 come first")
 ARRAY(cluster_pull, double, cluster, step, "[cluster][12] what its nodes hand down to its vertices (forces/clusters.glsl has units)")
 ARRAY(leaf_square, double, leaf, step, "[leaf][3] sums over its vertices of squares: of what clusters hand down, of a vertex's sum, of parts of it; of a leaf of samples the first is the error [body's unit squared]")
-ARRAY(spring_sum, double, vertex, step, "[vertex][3] what pulls a vertex of a clustered body: minus the force over the stiffness [body's unit]; anything of other bodies, and of those that are not deformed")
+ARRAY(spring_sum, double, vertex, step, "[vertex][3] what pulls a vertex of a body that is clustered, or that ranks share: minus the force over the stiffness [body's unit]; anything of other bodies, and of those that are not deformed")
+ARRAY(sum_share, Share, share, fixed, "vertices whose springs this rank sums, if several simulate together")
 
 // internal damping
 ARRAY(moment_part, uvec4, part, fixed, "body, first vertex, end of vertices, a number that is not used: what a group sums of a body with internal damping")

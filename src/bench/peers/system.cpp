@@ -72,8 +72,8 @@ void PeerSystem::sum_springs(const double* u) {
     displacements_[i] = glm::dvec4(inverse_unit * u[3 * i], inverse_unit * u[3 * i + 1], inverse_unit * u[3 * i + 2], 0.0);
     positions_[i] = rest_[i] + displacements_[i];
   }
-  const cpu::SpringBody<double> body{positions_.data(), displacements_.data(), static_cast<std::uint32_t>(vertex_count_),
-                                     sums_.data()};
+  const auto count = static_cast<std::uint32_t>(vertex_count_);
+  const cpu::SpringBody<double> body{positions_.data(), displacements_.data(), count, 0, count, sums_.data()};
   springs_.sum(pool_, {&body, 1});
   ++evaluations_;
 }

@@ -75,6 +75,32 @@ class Storage {
   std::unique_ptr<void, Free> bytes_;
 };
 
+// Copies at once.
+class CopyingTransfer final : public Transfer {
+ public:
+  CopyingTransfer(Device& device, BufferId buffer, std::vector<ByteRange> parts)
+      : device_(device), buffer_(buffer), parts_(std::move(parts)) {
+    std::size_t bytes = 0;
+    for (const ByteRange& part : parts_) bytes += part.count;
+    bytes_.resize(bytes);
+  }
+  void begin() override {
+    std::span<std::byte> left = bytes_;
+    for (const ByteRange& part : parts_) {
+      device_.read(buffer_, part.first, left.first(part.count));
+      left = left.subspan(part.count);
+    }
+  }
+  bool has_arrived() override { return true; }
+  std::span<const std::byte> bytes() const override { return bytes_; }
+
+ private:
+  Device& device_;
+  BufferId buffer_;
+  std::vector<ByteRange> parts_;
+  std::vector<std::byte> bytes_;
+};
+
 class CpuDevice final : public Device {
  public:
   CpuDevice(unsigned threads, int precision) : pool_(threads), precision_(precision), kernels_(all_kernels_on_cpu(precision)) {
@@ -123,6 +149,10 @@ class CpuDevice final : public Device {
     std::memcpy(data.data(), storage(from.whole).data() + from.place_of(first_byte, data.size()), data.size());
   }
 
+  std::unique_ptr<Transfer> transfer_from(BufferId buffer, std::vector<ByteRange> parts) override {
+    return std::make_unique<CopyingTransfer>(*this, buffer, std::move(parts));
+  }
+
   KernelId kernel(std::string_view name) override {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (kernels_[k].name == name) return static_cast<KernelId>(k);
@@ -144,7 +174,11 @@ class CpuDevice final : public Device {
   double strain_bias() override { return 0; }
 
   void run(std::span<const Pass> passes) override {
-    for (const Pass& pass : passes) run(pass.call, pass.item_count);
+    for (const Pass& pass : passes)
+      if (pass.host_work != nullptr)
+        pass.host_work->run();
+      else
+        run(pass.call, pass.item_count);
   }
   void run(const KernelCall& call, std::uint32_t item_count) {
     std::array<void*, max_arrays + max_constants> buffers{};
@@ -287,8 +321,12 @@ class CpuDevice final : public Device {
 
   template <class Real>
   static cpu::SpringBody<Real> spring_body(const cpu::ShareTask& task, glm::dvec3* sums) {
-    return {static_cast<const glm::vec<4, Real>*>(task.positions), static_cast<const glm::vec<4, Real>*>(task.displacements),
-            task.vertex_count, sums};
+    return {static_cast<const glm::vec<4, Real>*>(task.positions),
+            static_cast<const glm::vec<4, Real>*>(task.displacements),
+            task.body_vertices,
+            task.first_in_body,
+            task.vertex_count,
+            sums};
   }
 
   template <class Real>

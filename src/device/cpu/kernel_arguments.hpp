@@ -65,9 +65,10 @@ struct ShareTask {
   bool runs = false;      // else the share is left out
   bool deformed = false;  // else the sums are zero
   std::uint32_t first_vertex = 0, vertex_count = 0;
-  const void* positions = nullptr;      // real4 [vertex] of the share's body, from its first vertex on
-  const void* displacements = nullptr;  // the same of displacements
-  const double* given_sums = nullptr;   // the array `spring_sum`
+  std::uint32_t first_in_body = 0, body_vertices = 0;  // where the share begins in its body, and how many vertices that has
+  const void* positions = nullptr;                     // real4 [vertex] of the share's body, from its first vertex on
+  const void* displacements = nullptr;                 // the same of displacements
+  const double* given_sums = nullptr;                  // the array `spring_sum`
 };
 
 inline constexpr std::uint32_t longest_range = 64;  // most vertices that a force kernel finishes at once

@@ -39,7 +39,8 @@ template <class Real>
 void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> bodies) {
   if (bodies.empty()) return;
   const auto same_size = [](const SpringBody<Real>& body, const Layout& layout) {
-    return body.vertex_count == layout.vertex_count;
+    return body.vertex_count == layout.vertex_count && body.first_wanted == layout.first_wanted &&
+           body.first_wanted + body.wanted_count == layout.end_wanted;
   };
   if (!std::ranges::equal(bodies, layouts_, same_size)) plan(bodies);
   const auto chunk_count = static_cast<std::uint32_t>(chunks_.size());
@@ -57,7 +58,8 @@ void SpringSums<Real>::sum(ThreadPool& pool, std::span<const SpringBody<Real>> b
   pool.for_ranges(chunk_count, 2, [&](std::uint32_t first, std::uint32_t end) {
     for (const Chunk& chunk : std::span(chunks_).subspan(first, end - first)) {
       const Layout& layout = layouts_[chunk.body];
-      unpack(bodies[chunk.body], layout, chunk.first, chunk.end, sums(layout));
+      unpack(bodies[chunk.body], layout, std::max(chunk.first, layout.first_wanted), std::min(chunk.end, layout.end_wanted),
+             sums(layout));
     }
   });
 }
@@ -103,6 +105,8 @@ void SpringSums<Real>::plan(std::span<const SpringBody<Real>> bodies) {
     layouts_.push_back(layout_of(count));
     layouts_.back().first_place = place_count;
     layouts_.back().first_sum = sum_count;
+    layouts_.back().first_wanted = body.first_wanted;
+    layouts_.back().end_wanted = body.first_wanted + body.wanted_count;
     place_count += std::size_t{6} * layouts_.back().stride;
     sum_count += std::size_t{3} * layouts_.back().block_count * layouts_.back().stride;
     add_tasks(b);
@@ -119,7 +123,8 @@ void SpringSums<Real>::add_tasks(std::uint32_t body) {
   const Layout& layout = layouts_[body];
   for (std::uint32_t row = 0; row < layout.block_count; ++row)
     for (std::uint32_t column = row; column < layout.block_count; ++column)
-      tasks_.push_back({body, row, column, layout.length_of(row) * layout.length_of(column) / (row == column ? 2 : 1)});
+      if (layout.wants(row) || layout.wants(column))
+        tasks_.push_back({body, row, column, layout.length_of(row) * layout.length_of(column) / (row == column ? 2 : 1)});
 }
 
 template <class Real>
@@ -163,7 +168,7 @@ void SpringSums<Real>::unpack(const SpringBody<Real>& body, const Layout& layout
     glm::dvec3 total(0.0);
     for (std::uint32_t block = 0; block < layout.block_count; ++block, sum += vector)
       total += glm::dvec3(sum[0], sum[layout.stride], sum[2 * std::size_t{layout.stride}]);
-    body.sums[i] = 4.0 * total;  // because tiles sum quarters
+    body.sums[i - body.first_wanted] = 4.0 * total;  // because tiles sum quarters
   }
 }
 

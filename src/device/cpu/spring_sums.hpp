@@ -12,13 +12,15 @@
 
 namespace pliant::cpu {
 
-/// One body whose springs are summed.
+/// One body whose springs are summed, for all of its vertices or for some.
 template <class Real>
 struct SpringBody {
   const glm::vec<4, Real>* positions;      // in a unit near the body's radius
   const glm::vec<4, Real>* displacements;  // in the same unit
   std::uint32_t vertex_count;
-  glm::dvec3* sums;  // out: each vertex's sum of strain times length over its springs (physics/forces/spring.glsl) [units]
+  std::uint32_t first_wanted, wanted_count;  // the vertices whose sums are wanted
+  glm::dvec3*
+      sums;  // out: of each of these, the sum of strain times length over its springs (physics/forces/spring.glsl) [units]
 };
 
 /// Sums springs in scratch memory of its own, up to some 32 numbers per vertex and direction. If a vertex is not finite, sums of
@@ -46,11 +48,16 @@ class SpringSums {
   struct Layout {
     std::uint32_t vertex_count, stride, padding, block_length, block_count;  // padding comes first
     std::size_t first_place;                                                 // of positions, then half displacements
-    std::size_t first_sum;  // of block_count vectors: the sums from the vertices of each block
+    std::size_t first_sum;                           // of block_count vectors: the sums from the vertices of each block
+    std::uint32_t first_wanted = 0, end_wanted = 0;  // vertices
 
     // The first block can be short.
     [[nodiscard]] std::uint32_t begin_of(std::uint32_t block) const {
       return block == 0 ? 0 : stride - (block_count - block) * block_length;
+    }
+    /// Whether sums of vertices of the block are wanted.
+    [[nodiscard]] bool wants(std::uint32_t block) const {
+      return begin_of(block) < padding + end_wanted && padding + first_wanted < begin_of(block + 1);
     }
     [[nodiscard]] std::uint64_t length_of(std::uint32_t block) const { return begin_of(block + 1) - begin_of(block); }
   };

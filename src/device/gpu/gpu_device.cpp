@@ -30,6 +30,18 @@ struct Caller {
 constexpr Caller thread_caller = {"compute/main.comp", false}, group_caller = {"compute/groups.comp", true},
                  force_caller = {"compute/force.comp", true}, round_caller = {"compute/rounds.comp", true};
 
+class LandingTransfer final : public Transfer {
+ public:
+  explicit LandingTransfer(std::vector<gl::Landing::Source> sources) : sources_(std::move(sources)) {}
+  void begin() override { landing_.begin(sources_); }
+  bool has_arrived() override { return landing_.has_arrived(); }
+  std::span<const std::byte> bytes() const override { return landing_.copied(); }
+
+ private:
+  std::vector<gl::Landing::Source> sources_;
+  gl::Landing landing_;
+};
+
 class GpuDevice final : public Device {
  public:
   GpuDevice(std::unique_ptr<gl::Context> context, ItemOrder order) : GpuDevice(*context, order) {
@@ -120,6 +132,14 @@ class GpuDevice final : public Device {
     }
   }
 
+  std::unique_ptr<Transfer> transfer_from(BufferId buffer, std::vector<ByteRange> parts) override {
+    const BufferPart from = part(buffer);
+    std::vector<gl::Landing::Source> sources;
+    for (const ByteRange& range : parts)
+      sources.push_back({&storage(from.whole), from.place_of(range.first, range.count), range.count});
+    return std::make_unique<LandingTransfer>(std::move(sources));
+  }
+
   KernelId kernel(std::string_view name) override { return build(name, thread_caller); }
   KernelId group_kernel(std::string_view name, std::uint32_t threads) override {
     return build(fmt::format("{}, {} threads", name, threads), group_caller,
@@ -174,7 +194,11 @@ class GpuDevice final : public Device {
   void run(std::span<const Pass> passes) override {
     bound_ = {};  // others may have bound theirs since
     ahead_.clear();
-    for (const Pass& pass : passes) dispatch(pass);
+    for (const Pass& pass : passes)
+      if (pass.host_work != nullptr)
+        run_on_host(*pass.host_work);
+      else
+        dispatch(pass);
   }
   std::uint32_t parallel_items(std::uint32_t bodies) const override {
     return context_.adapter().is_software ? 256 : threads_for(bodies);
@@ -280,6 +304,13 @@ class GpuDevice final : public Device {
   BufferPart part(BufferId buffer) const {
     const auto found = parts_.find(buffer);
     return found != parts_.end() ? found->second : BufferPart{buffer, 0, storage(buffer).size()};
+  }
+
+  // Uploads come before the kernels that follow. What was read ahead before does not hold.
+  void run_on_host(HostWork& work) {
+    work.run();
+    ahead_.clear();
+    bound_ = {};
   }
 
   void dispatch(const Pass& pass) {

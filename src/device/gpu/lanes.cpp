@@ -64,6 +64,7 @@ std::vector<ForceVariant> force_variants(const Processors& gpu) {
                         .all_stages = choice.lanes.tile != 0,
                         .quiet_groups = quiet_groups(choice.lanes, gpu),
                         .lanes = choice.lanes.lanes,
+                        .cancels_rounding = choice.lanes.cancels_rounding(),
                         .most_vertices = choice.most_vertices,
                         .smallest_body = choice.smallest_body,
                         .largest_body = choice.largest_body});

@@ -17,6 +17,7 @@ struct Lanes {
                           // memory has room for, in multiples that keep the order of additions
 
   [[nodiscard]] std::uint32_t keepers() const { return lanes == 1 ? 0 : (3 * vertices * teams + 31) / 32 * 32; }
+  [[nodiscard]] bool cancels_rounding() const { return vertices == 1 || lanes == 1; }
   [[nodiscard]] std::uint32_t threads() const { return lanes * teams + keepers(); }
 };
 

@@ -16,8 +16,8 @@ bool halted(IN(Share) s) { return status[s.body_index].activity != moving || is_
 // rest need no sum either, and the frame around may ask before it knows that a body is halted.
 bool deformed(IN(Share) s) { return (status[s.body_index].deformed != 0u || (skips & skips_forces) == 0u) && !halted(s); }
 
-#ifdef QUIET
-void count_force(IN(Share) s, bool summed) {}  // end_quiet_steps counts
+#if defined QUIET || defined COUNTS_NOTHING
+void count_force(IN(Share) s, bool summed) {}  // others count
 #else
 void count_force(IN(Share) s, bool summed) {
   if (summed)
