@@ -1,8 +1,8 @@
 # Sourced by the other tools: installs the Debian packages of a purpose, and builds what it needs.
-# Purposes: program (with the viewer), python, bench, comparisons (bench beside other libraries), tests.
+# Purposes: program (with the viewer), python, mpi, bench, comparisons (bench beside other libraries), tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-purposes=(program python bench comparisons tests)
+purposes=(program python mpi bench comparisons tests)
 
 expect_purposes() {
   local purpose
@@ -51,6 +51,7 @@ build() {
   if [[ $wanted =~ \ (bench|comparisons|tests)\  ]]; then options+=(-DPLIANT_BUILD_BENCH=ON); fi
   if [[ $wanted == *" tests "* ]]; then options+=(-DPLIANT_BUILD_TESTS=ON); fi
   if [[ $wanted == *" python "* ]]; then options+=(-DPLIANT_PYTHON=ON); fi
+  if [[ $wanted == *" mpi "* ]]; then options+=(-DPLIANT_MPI=ON); fi
   cmake --preset "$preset" "${options[@]}"
   cmake --build --preset "$preset"
 }

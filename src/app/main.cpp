@@ -11,14 +11,15 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "app/bench_command.hpp"
+#include "app/failures.hpp"
 #include "app/info_command.hpp"
 #include "app/mesh_command.hpp"
+#include "app/run_command.hpp"
 #include "app/sweep_command.hpp"
 #include "app/view_command.hpp"
 #include "core/error.hpp"
@@ -357,7 +358,7 @@ int execute(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::command_line);
   }
-  if (program.got_subcommand("run")) return run_scene(run);
+  if (program.got_subcommand("run")) return app::run(run);
   if (program.got_subcommand("view")) {
     app::view(view);
     return 0;
@@ -371,11 +372,6 @@ int execute(int count, char** arguments) {
   return 0;
 }
 
-int tell_that_output_is_lost(int code) {
-  std::fprintf(stderr, "pliant: standard output can't be written; make room or choose another place\n");
-  return code != 0 ? code : static_cast<int>(pliant::ErrorKind::command_line);
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -384,16 +380,8 @@ int main(int count, char** arguments) {
     const int code = execute(count, arguments);
     std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
-    return tell_that_output_is_lost(code);
-  } catch (const pliant::Error& error) {
-    std::fprintf(stderr, "pliant: %s\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "pliant: there is not enough memory; take smaller meshes or fewer bodies\n");
-    return static_cast<int>(pliant::ErrorKind::device);
-  } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) return tell_that_output_is_lost(0);
-    std::fprintf(stderr, "pliant: unexpected error: %s; this is a bug, please report it\n", error.what());
-    return 1;
+    return pliant::app::tell_that_output_is_lost(code);
+  } catch (...) {
+    return pliant::app::tell_failure();
   }
 }

@@ -75,6 +75,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
                      {"device", device_json(summary)},
                      {"precision", summary.precision},
                      {"threads", summary.threads},
+                     {"ranks", summary.ranks},
                      {"integrator", summary.integrator},
                      {"time_step", summary.time_step},
                      {"adaptive", adaptive_json(summary)},

@@ -21,6 +21,7 @@ struct Summary {
   } device;
   int precision = 32;  // of the forces [bits]
   unsigned threads = 1;
+  std::size_t ranks = 1;
   std::string integrator;
   std::optional<double> time_step;  // [s]; empty with a tolerance
   std::uint64_t steps = 0;          // without rejected ones

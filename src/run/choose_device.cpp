@@ -1,5 +1,13 @@
 #include "run/choose_device.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <thread>
+
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 
@@ -9,6 +17,23 @@ namespace {
 // Returns whether an automatic choice may take a GPU.
 bool may_be_gpu(const DeviceChoice& choice) {
   return choice.wish.value_or(DeviceWish::automatic) == DeviceWish::automatic && choice.precision.value_or(32) == 32;
+}
+
+bool is_gpu(const DeviceChoice& choice) {
+  const bool asked = choice.wish == DeviceWish::gpu || choice.gpu_index;
+  return asked || (may_be_gpu(choice) && has_hardware_gpu());
+}
+
+std::size_t hardware_gpus() {
+  return static_cast<std::size_t>(std::ranges::count(gl::list_adapters(), false, &gl::Adapter::is_software));
+}
+
+// MPI may have bound ranks to some processors each. Those that are bound to the same ones share them.
+unsigned threads_of_rank(std::size_t ranks_here) {
+  const std::size_t allowed = std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t online = std::max(allowed, static_cast<std::size_t>(std::max(sysconf(_SC_NPROCESSORS_ONLN), 1L)));
+  const std::size_t sharers = (allowed * ranks_here + online - 1) / online;
+  return static_cast<unsigned>(std::max<std::size_t>(allowed / sharers, 1));
 }
 
 }  // namespace
@@ -27,10 +52,26 @@ bool has_hardware_gpu() {
   return !adapters.empty() && !adapters.front().is_software;
 }
 
+DeviceChoice choice_of_rank(DeviceChoice choice, const Ranks& ranks) {
+  if (is_gpu(choice)) {
+    if (!choice.gpu_index) choice.gpu_index = static_cast<int>(ranks.number_here() % std::max<std::size_t>(hardware_gpus(), 1));
+  } else if (choice.threads == 0) {
+    choice.threads = threads_of_rank(ranks.count_here());
+  }
+  return choice;
+}
+
+std::string told_shared_gpus(const DeviceChoice& choice, const Ranks& ranks) {
+  if (!is_gpu(choice)) return "";
+  const std::size_t gpus = choice.gpu_index ? 1 : hardware_gpus();
+  if (gpus == 0 || ranks.count_here() <= gpus) return "";
+  return fmt::format("{} ranks share {}, which makes none faster; start one for each GPU", ranks.count_here(),
+                     counted(gpus, "GPU", "GPUs"));
+}
+
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {
   expect_consistent(choice);
-  const bool asked = choice.wish == DeviceWish::gpu || choice.gpu_index;
-  if (asked || (may_be_gpu(choice) && has_hardware_gpu())) return make_gpu_device(choice.gpu_index.value_or(0));
+  if (is_gpu(choice)) return make_gpu_device(choice.gpu_index.value_or(0));
   return make_cpu_device(choice.threads, choice.precision.value_or(32));
 }
 

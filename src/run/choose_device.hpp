@@ -2,9 +2,11 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "device/device.hpp"
 #include "gl/context.hpp"
+#include "ranks/ranks.hpp"
 
 namespace pliant {
 
@@ -21,6 +23,13 @@ struct DeviceChoice {
 
 /// Throws Error (command_line) if the choice contradicts itself.
 void expect_consistent(const DeviceChoice& choice);
+
+/// Returns the choice of one of several ranks: of GPUs a rank takes one in turn, and of processors its part, unless the choice
+/// names them.
+[[nodiscard]] DeviceChoice choice_of_rank(DeviceChoice choice, const Ranks& ranks);
+
+/// Returns a text that tells if ranks on this machine have to share a GPU, or an empty one.
+[[nodiscard]] std::string told_shared_gpus(const DeviceChoice& choice, const Ranks& ranks);
 
 /// Makes the device. The automatic choice is a hardware GPU if there is one and the precision is 32, else the CPU. Software
 /// OpenGL is used only if a GPU is asked for. Throws Error: command_line if the choice contradicts itself, device if there is no

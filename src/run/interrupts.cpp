@@ -54,6 +54,11 @@ void watch_for_interrupts(std::string_view work) {
   std::signal(SIGTERM, note_interrupt);
 }
 
+void leave_interrupts_to_others() {
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+}
+
 bool is_interrupted() { return first_interrupt != 0; }
 
 }  // namespace pliant

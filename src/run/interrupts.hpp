@@ -12,6 +12,9 @@ inline constexpr int exit_interrupted = 130;  // the code that shells use after 
 /// the program at once. Before this call the first one ends it at once.
 void watch_for_interrupts(std::string_view work);
 
+/// After this call nothing comes of them here.
+void leave_interrupts_to_others();
+
 /// Returns whether the program should come to an end. Any thread may ask.
 [[nodiscard]] bool is_interrupted();
 

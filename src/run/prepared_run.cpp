@@ -144,6 +144,18 @@ void warn_of_overlap(PreparedRun& run) {
     run.warnings.push_back(overlap);
 }
 
+void warn_of_ranks(PreparedRun& run, const RunOptions& options, const Ranks& ranks) {
+  if (const std::string told = told_shared_gpus(options.device, ranks); !told.empty()) run.warnings.push_back(told);
+  for (const ModelBody& body : run.start.model.bodies)
+    if (body.is_clustered) {
+      run.warnings.push_back(
+          fmt::format("each rank sums all springs of \"{}\" by clusters, so that more ranks make it no faster; forces = "
+                      "\"direct\" shares them",
+                      body.name));
+      return;
+    }
+}
+
 void check_start(PreparedRun& run) {
   if (run.simulation->collider().response_row().keeps_apart) {
     expect_apart(*run.simulation, run.start.model, run.scene.collision, run.scene.file.string());
@@ -157,7 +169,7 @@ void check_start(PreparedRun& run) {
 
 }  // namespace
 
-std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
+std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options, Ranks* ranks) {
   auto prepared = std::make_unique<PreparedRun>();
   PreparedRun& run = *prepared;
   std::error_code gone;
@@ -172,10 +184,12 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options) {
   run.plan = plan_time(run.scene, run.start.model, options.steps);
   run.load_time.stop();
   run.build_time.start();
-  run.device = choose_device(options.device);
+  run.device = choose_device(ranks != nullptr ? choice_of_rank(options.device, *ranks) : options.device);
+  run.device->join(ranks);
   choose_force_sums(run.start.model, run.device->info().kind);
   expect_carried(run.scene, run.plan, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
+  if (ranks != nullptr) warn_of_ranks(run, options, *ranks);
   warn_of_idle_keys(run);
   warn_of_integrator(run);
   warn_of_step(run);

@@ -108,6 +108,8 @@ std::string_view shorter_steps(const RunStatus& status) {
   return status.report.adaptive ? "a smaller tolerance" : "a shorter time step";
 }
 
+std::size_t ranks_of(const PreparedRun& run) { return run.device->ranks() != nullptr ? run.device->ranks()->count() : 1; }
+
 }  // namespace
 
 double energy_gained(const RunProgress& progress) {
@@ -205,6 +207,7 @@ Summary summary_of(const RunStatus& status) {
   s.device = {name_of(run.device->info().kind), run.device->info().name};
   s.precision = run.device->precision();
   s.threads = run.device->info().threads;
+  s.ranks = ranks_of(run);
   s.integrator = run.plan.integrator->name;
   if (const auto& adaptive = report.adaptive)
     s.adaptive = {*run.plan.tolerance,     report.steps,          adaptive->rejected, adaptive->rejected_in_contact,
@@ -284,10 +287,11 @@ void show_progress(const RunStatus& status) {
 void show_end(const RunStatus& status) {
   const auto& [options, run, progress, report] = status;
   const RunTimes& times = progress.times;
-  fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({})\n", is_interrupted() ? "interrupted after " : "",
+  fmt::print("{}{} steps of {} by {} in {:.2f} s ({:.1f} steps/s) on {} ({}){}\n", is_interrupted() ? "interrupted after " : "",
              report.steps, length_of_steps(run.plan, report), run.plan.integrator->name, times.stepping.seconds(),
              report.steps == 0 ? 0.0 : static_cast<double>(report.steps) / times.stepping.seconds(),
-             name_of(run.device->info().kind), run.device->info().name);
+             name_of(run.device->info().kind), run.device->info().name,
+             ranks_of(run) > 1 ? fmt::format(", {} ranks", ranks_of(run)) : "");
   const double beside = times.measuring.seconds() + times.writing.seconds() + times.saving.seconds();
   if (beside > 0.1 && 9 * beside > times.stepping.seconds())  // over a tenth of the whole
     fmt::print("besides stepping: {:.2f} s for measuring the state and {:.2f} s for frames{}\n", times.measuring.seconds(),

@@ -26,6 +26,7 @@
 #include "run/interrupts.hpp"
 #include "run/prepared_run.hpp"
 #include "run/report.hpp"
+#include "run/together.hpp"
 #include "simulation/measure.hpp"
 
 namespace pliant {
@@ -37,9 +38,10 @@ constexpr double patience = 1;  // how long measuring may go on after Ctrl-C [s]
 class Run {
  public:
   /// Begins at the start, or goes on from a checkpoint and takes over its lock.
-  Run(const RunOptions& options, PreparedRun& prepared, std::optional<Resumed> from)
+  Run(const RunOptions& options, PreparedRun& prepared, std::optional<Resumed> from, Ranks* ranks)
       : options_(options),
         run_(prepared),
+        leader_(*prepared.simulation, ranks),
         folder_(folder_of(options)),
         measuring_pool_(options.device.threads),
         meter_(prepared.start.model),
@@ -60,7 +62,6 @@ class Run {
 
   int execute() try {
     if (options_.timings) run_.simulation->time_passes();
-    if (options_.skipping != Skipping{}) run_.simulation->skip(options_.skipping);
     report_ = run_.simulation->report();
     if (checkpoints_.is_wanted()) keep_checkpoint(now());  // replaces another run's at once
     if (!options_.resume.empty() && !options_.quiet) show_beginning(status());
@@ -75,7 +76,9 @@ class Run {
     keep_interrupted();
     history_.close();
     write_end();
-    return end_frames(has_failed() ? exit_failed : is_interrupted() ? exit_interrupted : 0);
+    const int code = end_frames(has_failed() ? exit_failed : is_interrupted() ? exit_interrupted : 0);
+    leader_.end(code);
+    return code;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::command_line) throw;
     throw Error(error.kind(), "", error.what(), told_earlier_files());
@@ -126,14 +129,14 @@ class Run {
     const double before = progress_.times.stepping.seconds();
     step([&] {
       const auto end = Clock::now() + std::chrono::duration<double>(Batch::time);
-      run_.simulation->advance(steps, [end] { return is_interrupted() || Clock::now() > end; });
+      leader_.advance(steps, [end] { return is_interrupted() || Clock::now() > end; });
       return run_.simulation->report();
     });
     batch_.took(progress_.times.stepping.seconds() - before);
   }
 
   void advance_to_time(double target) {
-    while (report_.time < target && !stopped()) step([&] { return run_.simulation->advance_toward(target); });
+    while (report_.time < target && !stopped()) step([&] { return leader_.advance_toward(target); });
     record_unless_recorded();
   }
 
@@ -168,6 +171,7 @@ class Run {
   void record() {
     before_row_ = now();
     run_.simulation->read_state(state_);
+    leader_.compare(state_);
     Measurement& latest = progress_.latest;
     latest = progress_.times.measuring.time([&] { return measured(); });
     if (report_.time == 0) progress_.first = latest;
@@ -301,6 +305,7 @@ class Run {
 
   const RunOptions& options_;
   PreparedRun& run_;
+  Leader leader_;
   std::filesystem::path folder_;
   ThreadPool measuring_pool_;
   Meter meter_;
@@ -351,6 +356,12 @@ void expect_outputs(const RunOptions& options) {
   if (options.frames != FrameFormat::none) expect_folder(folder / "frames");
 }
 
+// Its file is read, and locked, on rank 0 alone.
+void take_checkpoint_of_first(Ranks& ranks, std::optional<Resumed>& from) {
+  const std::string bytes = text_of_first(ranks, from ? to_bytes(from->checkpoint) : "");
+  if (!from) from = Resumed{checkpoint_from(bytes), nullptr};
+}
+
 // If no program can encode a video, its frames are written as pictures.
 RunOptions drawable(RunOptions options) {
   if (options.video.empty() || VideoFile::has_encoder()) return options;
@@ -367,24 +378,44 @@ std::filesystem::path folder_of(const RunOptions& options) {
   return options.base / (options.out.empty() ? std::filesystem::path("out") / options.scene.stem() : options.out);
 }
 
-int run_scene(const RunOptions& given) {
+int run_scene(const RunOptions& given, Ranks* ranks) {
+  const bool leads = ranks == nullptr || ranks->number() == 0;
   std::optional<Resumed> from;
-  if (!given.resume.empty()) from = load_resumed(given);
-  const RunOptions options = from ? resumed_options(given, from->checkpoint) : drawable(given);
-  if (!options.check || !options.out.empty()) expect_outputs(options);
-  const std::unique_ptr<PreparedRun> run = prepare_run(options);
-  PreparedRun& prepared = *run;
-  if (from) resume(given, from->checkpoint, prepared);
+  do_together(ranks, [&] {
+    if (leads && !given.resume.empty()) from = load_resumed(given);
+  });
+  if (ranks != nullptr && !given.resume.empty()) take_checkpoint_of_first(*ranks, from);
+  RunOptions options;
+  std::unique_ptr<PreparedRun> run;
+  do_together(ranks, [&] {
+    options = from ? resumed_options(given, from->checkpoint) : drawable(given);
+    if (!leads) options.quiet = true;
+    if (leads && (!options.check || !options.out.empty())) expect_outputs(options);
+    run = prepare_run(options, ranks);
+    if (from) resume(given, from->checkpoint, *run);
+    if (options.skipping != Skipping{}) run->simulation->skip(options.skipping);
+  });
+  if (ranks != nullptr) expect_same(*ranks, *run);
   if (!given.video.empty() && options.video.empty())
-    prepared.warnings.emplace_back(
-        "--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
-  for (const std::string& warning : prepared.warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
+    run->warnings.emplace_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
+  if (leads)
+    for (const std::string& warning : run->warnings) fmt::print(stderr, "pliant: warning: {}\n", warning);
   if (options.check) {
-    show_check(prepared);
+    show_check(*run);
     return 0;
   }
-  watch_for_interrupts("the steps in hand, or a part of one");
-  return Run(options, prepared, std::move(from)).execute();
+  std::optional<Run> lead;
+  do_together(ranks, [&] {
+    if (leads) lead.emplace(options, *run, std::move(from), ranks);
+  });
+  try {
+    if (!leads) return follow(*run->simulation, *ranks);
+    watch_for_interrupts("the steps in hand, or a part of one");
+    return lead->execute();
+  } catch (...) {
+    if (ranks != nullptr) ranks->abandon();
+    throw;
+  }
 }
 
 }  // namespace pliant

@@ -8,6 +8,7 @@
 
 #include "model/load_bodies.hpp"
 #include "output/frames.hpp"
+#include "ranks/ranks.hpp"
 #include "run/choose_device.hpp"
 #include "simulation/skipping.hpp"
 
@@ -52,7 +53,8 @@ struct RunOptions {
 [[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
 /// Returns the exit code: 0, exit_failed or exit_interrupted (interrupts.hpp). In each case it has written the results so
-/// far. Throws Error.
-[[nodiscard]] int run_scene(const RunOptions& options);
+/// far. Throws Error. `ranks` make the run together, and rank 0 writes. If it fails on another rank, this one throws
+/// FailedElsewhere (together.hpp). If it fails on this one alone, it has called abandon(). Null: this one is alone.
+[[nodiscard]] int run_scene(const RunOptions& options, Ranks* ranks = nullptr);
 
 }  // namespace pliant
