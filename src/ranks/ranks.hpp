@@ -1,8 +1,10 @@
 // Processes that simulate one scene together, each on a device of its own. All hold the same bodies, and make the same calls in
 // the same order. They differ in whose springs they sum.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,5 +39,12 @@ class Ranks {
   /// Says that this rank leaves while the others wait for it. They have to be ended.
   virtual void abandon() = 0;
 };
+
+/// Returns the first rank that says something else than rank 0, if there is one. Waits for all.
+[[nodiscard]] inline std::optional<std::size_t> first_to_differ(Ranks& ranks, std::uint64_t mine) {
+  const std::vector<std::uint64_t> all = ranks.hear_all(mine);
+  const auto found = std::ranges::find_if(all, [&](std::uint64_t other) { return other != all.front(); });
+  return found == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - all.begin()));
+}
 
 }  // namespace pliant

@@ -37,13 +37,6 @@ constexpr int unexpected = 1;  // exit code of what is not an Error
 
 std::uint64_t checksum_of(const State& state) { return checksum(std::as_bytes(std::span(state.motion))); }
 
-// Returns the first rank that says something else than rank 0, if there is one.
-std::optional<std::size_t> first_to_differ(Ranks& ranks, std::uint64_t mine) {
-  const std::vector<std::uint64_t> all = ranks.hear_all(mine);
-  const auto found = std::ranges::find_if(all, [&](std::uint64_t other) { return other != all.front(); });
-  return found == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - all.begin()));
-}
-
 void expect_agreement(Ranks& ranks, std::uint64_t mine, const char* problem, const char* remedy) {
   const std::optional<std::size_t> other = first_to_differ(ranks, mine);
   if (!other) return;

@@ -1,12 +1,17 @@
 // Step s starts from half (s - 1) mod 2 and ends in the other half, even if it is rejected or empty.
 #include "simulation/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/checksum.hpp"
 #include "core/error.hpp"
 #include "core/expect.hpp"
 #include "physics/layout.glsl"
+#include "ranks/ranks.hpp"
 #include "state/carried_state.hpp"
 
 namespace pliant {
@@ -70,6 +75,19 @@ void expect_room_for_pairs(std::uint64_t lost) {
               "use fewer bodies, or bodies that are further apart");
 }
 
+// A rank alone may have had no memory for new lists. Its sums would differ from then on, and the ranks that share them, too.
+void expect_same_sums(Ranks& ranks, const std::vector<std::shared_ptr<const ChangedSums>>& changed) {
+  std::uint64_t sums = checksum_of_nothing;
+  for (const std::shared_ptr<const ChangedSums>& of_body : changed) {
+    const std::array<double, 3> told{of_body ? static_cast<double>(of_body->changes) : 0,
+                                     of_body && of_body->are_direct ? 1.0 : 0.0, of_body ? of_body->accuracy : 0};
+    sums = checksum(std::as_bytes(std::span(told)), sums);
+  }
+  if (const auto rank = first_to_differ(ranks, sums))
+    throw Error(ErrorKind::device, fmt::format("rank {}", *rank), "has made other lists of clusters than rank 0",
+                "give all ranks the same memory, or use forces = \"direct\"");
+}
+
 void expect_groups_met(const std::vector<physics::Status>& statuses) {
   if (std::ranges::find(statuses, physics::halted_waiting, &physics::Status::activity) == statuses.end()) return;
   throw Error(
@@ -131,6 +149,7 @@ void Simulation::watch(std::uint64_t steps) {
     record();  // a change may stand
     throw;
   }
+  if (device_.ranks() != nullptr) expect_same_sums(*device_.ranks(), watch_->changed_sums());
 }
 
 std::vector<Pass> Simulation::schedule(std::uint32_t from_half) const {
