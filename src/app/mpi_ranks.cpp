@@ -11,16 +11,12 @@
 
 #include <deque>
 #include <vector>
-#else
-#include "core/error.hpp"
 #endif
+
+#include "core/error.hpp"
 
 namespace pliant::app {
 namespace {
-
-// Open MPI's mpirun sets these, and so does Slurm's srun with PMIx or PMI-2. A process without them may not ask MPI, which would
-// take time to find out that it is alone.
-constexpr const char* counts_of_ranks[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
 
 bool is_more_than_one(const char* count) { return count != nullptr && std::strtol(count, nullptr, 10) > 1; }
 
@@ -32,6 +28,11 @@ class World final : public MpiRanks {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);  // threads of pools do not call MPI
     MPI_Comm_rank(all_, &number_);
     MPI_Comm_size(all_, &count_);
+    if (count_ == 1) {
+      MPI_Finalize();
+      throw Error(ErrorKind::device, "MPI", "what started this rank is of another MPI than this pliant",
+                  "start it by the mpirun of the MPI that it was built with");
+    }
     MPI_Comm here = MPI_COMM_NULL;
     MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, number_, MPI_INFO_NULL, &here);
     MPI_Comm_rank(here, &number_here_);
@@ -81,8 +82,8 @@ class World final : public MpiRanks {
     on_their_way_.pop_front();
   }
 
-  void abandon() override { is_abandoned_ = true; }
-  bool is_abandoned() const override { return is_abandoned_; }
+  void agree_to_end() override { have_agreed_ = true; }
+  bool have_agreed_to_end() const override { return have_agreed_; }
   void end_all(int exit_code) override {
     MPI_Abort(all_, exit_code);
     std::_Exit(exit_code);
@@ -97,15 +98,17 @@ class World final : public MpiRanks {
   MPI_Comm all_ = MPI_COMM_WORLD;
   int number_ = 0, count_ = 1, number_here_ = 0, count_here_ = 1;
   std::deque<Sharing> on_their_way_;
-  bool is_abandoned_ = false;
+  bool have_agreed_ = false;
 };
 #endif
 
 }  // namespace
 
+// A process that nobody started as a rank may not ask MPI, which would take time to find out that it is alone. Open MPI's mpirun
+// tells the number of ranks, also within a job of Slurm with more tasks. MPICH's does, and so does srun with PMI-2 or PMIx.
 bool is_a_rank() {
-  for (const char* name : counts_of_ranks)
-    if (is_more_than_one(std::getenv(name))) return true;
+  if (const char* count = std::getenv("OMPI_COMM_WORLD_SIZE")) return is_more_than_one(count);
+  if (const char* count = std::getenv("PMI_SIZE")) return is_more_than_one(count);
   return std::getenv("PMIX_RANK") != nullptr && is_more_than_one(std::getenv("SLURM_NTASKS"));
 }
 
@@ -113,8 +116,9 @@ std::unique_ptr<MpiRanks> join_ranks() {
 #ifdef PLIANT_MPI
   return std::make_unique<World>();
 #else
-  throw Error(ErrorKind::device, "MPI", "has started several ranks, and this pliant was built without it",
-              "build it where libopenmpi-dev is installed, or unset OMPI_COMM_WORLD_SIZE for runs of their own");
+  throw Error(
+      ErrorKind::device, "MPI", "has started several ranks, and this pliant was built without it",
+      "build it where libopenmpi-dev is installed, or unset OMPI_COMM_WORLD_SIZE, PMI_SIZE and PMIX_RANK for runs of their own");
 #endif
 }
 

@@ -13,7 +13,7 @@ class MpiRanks : public Ranks {
  public:
   /// Ends this process and all other ranks. If MPI does not do so, this process ends at least.
   [[noreturn]] virtual void end_all(int exit_code) = 0;
-  [[nodiscard]] virtual bool is_abandoned() const = 0;
+  [[nodiscard]] virtual bool have_agreed_to_end() const = 0;
 };
 
 /// Joins the others, once in the life of a process. Errors of MPI end all ranks, and it tells of them. When what is returned

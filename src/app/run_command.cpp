@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "app/failures.hpp"
 #include "app/mpi_ranks.hpp"
 #include "run/together.hpp"
@@ -11,16 +13,18 @@ namespace {
 
 int run_as_rank(const RunOptions& options) {
   const std::unique_ptr<MpiRanks> ranks = join_ranks();
-  if (options.check) return ranks->number() == 0 ? run_scene(options) : 0;  // it is about this machine
+  int code = 0;
   try {
-    return run_scene(options, ranks.get());
-  } catch (const FailedElsewhere& failure) {
-    return failure.exit_code;
+    code = run_scene(options, ranks.get());
+  } catch (const FailedElsewhere&) {
+    return 0;
   } catch (...) {
-    const int code = tell_failure(ranks->number() == 0 ? "pliant" : fmt::format("pliant: rank {}", ranks->number()));
-    if (ranks->is_abandoned()) ranks->end_all(code);
-    return code;
+    code = tell_failure(ranks->number() == 0 ? "pliant" : fmt::format("pliant: rank {}", ranks->number()));
+    std::fflush(stdout);
+    if (!ranks->have_agreed_to_end()) ranks->end_all(code);
   }
+  std::fflush(stdout);  // before others end, because mpirun ends all when one has failed
+  return code;
 }
 
 }  // namespace

@@ -57,7 +57,11 @@ void keep_on(std::thread&, int) {}
 
 }  // namespace
 
-unsigned thread_count(unsigned asked) { return asked != 0 ? asked : std::max(1u, std::thread::hardware_concurrency()); }
+unsigned thread_count(unsigned asked) {
+  if (asked != 0) return asked;
+  const auto allowed = static_cast<unsigned>(allowed_processors().size());
+  return std::max(1u, allowed != 0 ? allowed : std::thread::hardware_concurrency());
+}
 
 ThreadPool::ThreadPool(unsigned threads) : next_(place(0, closed)) {
   threads = thread_count(threads);

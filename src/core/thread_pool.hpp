@@ -12,7 +12,7 @@
 
 namespace pliant {
 
-/// Returns how many threads a pool of `asked` threads has. 0 asks for one per processor.
+/// Returns how many threads a pool of `asked` threads has. 0 asks for one for each processor that this thread may run on.
 [[nodiscard]] unsigned thread_count(unsigned asked);
 
 class ThreadPool {

@@ -81,7 +81,7 @@ class Transfer {
   [[nodiscard]] virtual std::span<const std::byte> bytes() const = 0;
 };
 
-/// One dispatch, recorded once and run many times.
+/// One dispatch, or work of the processor, recorded once and run many times.
 struct Pass {
   std::string_view name;  // the kernel's
   KernelCall call;
@@ -163,8 +163,8 @@ class Device {
   /// Returns the relative error by which springs' strains come out too large, on average over springs.
   [[nodiscard]] virtual double strain_bias() = 0;
   virtual void run(std::span<const Pass> passes) = 0;
-  /// Lets the device's owner simulate together with other processes, which must outlive it. Simulations that are made from then
-  /// on do so. Null: it is alone.
+  /// Lets simulations that are made on it from then on be made together with other processes. These ranks must outlive them.
+  /// Null: they are alone.
   void join(Ranks* ranks) { ranks_ = ranks; }
   [[nodiscard]] Ranks* ranks() const { return ranks_; }
   /// Returns how many items keep the device busy in a scene of so many bodies. That is how finely a search is best cut.

@@ -15,12 +15,12 @@ struct Part {
 };
 using Parts = std::vector<Part>;
 
-// A device that sums whole bodies sums each of them by blocks, so that parts of them have whole blocks.
+// A device that sums whole bodies sums small ones faster than parts of them.
 std::uint32_t part_size(const ForceVariant& variant, std::uint32_t vertex_count, std::size_t ranks) {
-  constexpr std::uint32_t block = 256;
+  constexpr std::uint32_t smallest = 256;
   if (variant.share_size < vertex_count) return variant.share_size;
   const auto sharers = static_cast<std::uint32_t>(ranks);
-  return ((vertex_count + sharers - 1) / sharers + block - 1) / block * block;
+  return std::max((vertex_count + sharers - 1) / sharers, smallest);
 }
 
 // By variants, and then by bodies.
@@ -54,16 +54,15 @@ std::vector<Parts> share_out(const Parts& parts, std::size_t ranks) {
   return of_ranks;
 }
 
-// Returns how many parts keep a device busy, or 0 for one that sums whole bodies at once.
-std::size_t parts_at_once(const Device& device) {
+// Returns how many multiprocessors take parts, or 0 for a device that sums whole bodies at once.
+std::size_t multiprocessors_of(const Device& device) {
   return device.info().kind == DeviceKind::cpu ? 0 : std::max(device.shares_at_once(), 1u);
 }
 
-// Returns a rank's parts in portions: half of them, the rest, and few at the end, because nothing hides the last one's way.
-// `at_once` are the device's multiprocessors, which take one, two or three groups each. Portions of whole turns of six keep all
-// of them busy to the end.
-std::vector<Parts> in_portions(const Parts& parts, std::size_t at_once) {
-  const std::size_t turn = 6 * at_once, turns = turn == 0 || parts.empty() ? 0 : (parts.size() - 1) / turn;
+// Returns a rank's parts in portions: half of them, the rest, and few at the end, because nothing hides the last one's way. A
+// multiprocessor takes one, two or three groups at once, so portions of whole turns of six for each keep all busy to the end.
+std::vector<Parts> in_portions(const Parts& parts, std::size_t multiprocessors) {
+  const std::size_t turn = 6 * multiprocessors, turns = turn == 0 || parts.empty() ? 0 : (parts.size() - 1) / turn;
   std::vector<Parts> portions;
   std::size_t begin = 0;
   for (const std::size_t end : {(turns + 1) / 2 * turn, turns * turn, parts.size()}) {
@@ -209,11 +208,11 @@ class SharedSums::Exchange {
 SharedSums::SharedSums(DeviceBodies& bodies, const Model& model, const std::vector<bool>& are_clustered, Ranks& ranks)
     : bodies_(&bodies) {
   const std::vector<Parts> of_ranks = share_out(cut(bodies, model, are_clustered, ranks.count()), ranks.count());
-  const std::size_t at_once = parts_at_once(bodies.arrays.device());
-  const std::vector<Parts> own = in_portions(of_ranks[ranks.number()], at_once);
+  const std::size_t multiprocessors = multiprocessors_of(bodies.arrays.device());
+  const std::vector<Parts> own = in_portions(of_ranks[ranks.number()], multiprocessors);
   std::vector<std::vector<std::vector<NumberRange>>> numbers;  // of each rank in each portion
   for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
-    const std::vector<Parts> portions = in_portions(of_ranks[rank], at_once);
+    const std::vector<Parts> portions = in_portions(of_ranks[rank], multiprocessors);
     numbers.resize(std::max(numbers.size(), portions.size()), std::vector<std::vector<NumberRange>>(of_ranks.size()));
     for (std::size_t p = 0; p < portions.size(); ++p) numbers[p][rank] = numbers_of(portions[p]);
   }

@@ -2,6 +2,8 @@
 // dispatch in all.
 #include "dynamics/stepper.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "core/error.hpp"
 #include "core/expect.hpp"
 #include "dynamics/clusters/cluster_pairs.hpp"
 #include "dynamics/clusters/force_sums.hpp"
@@ -82,6 +85,13 @@ bool has_partners(const DeviceBodies& bodies) {
   return ranks != nullptr && ranks->count() > 1;
 }
 
+// Whether one rank's kernels cancel rounding in stages of a body. Those for given sums do.
+bool cancels_alone(const DeviceBodies& bodies, std::size_t body) {
+  const auto variants = bodies.arrays.device().force_variants();
+  const std::size_t variant = bodies.force_variants[body];
+  return variant == variants.size() || variants[variant].cancels_rounding;
+}
+
 std::vector<bool> clustered_of(const Model& model) {
   std::vector<bool> are;
   for (const ModelBody& body : model.bodies) are.push_back(body.is_clustered);
@@ -138,31 +148,36 @@ Stepper::Stepper(DeviceBodies& bodies, const Model& model, const Integrator& int
   bodies.arrays.set_parameter("forces_of_a_step", stage_count_);
 }
 
-// Bodies that ranks share have the bits that one rank would find, and so need a tableau of each kind.
+// Bodies that ranks share have the bits that one rank would find, so their tableaus cancel rounding where that one's kernels do.
+// A clustered body may come to be shared.
 void Stepper::use_tableaus(Stages stages) {
   const bool holds_drag = std::holds_alternative<Nystrom>(integrator_.method) && law_ == physics::damping_constant;
   if (holds_drag) law_ = physics::damping_none;
-  std::vector<double> drags;
-  for (const physics::Body& body : bodies_.arrays.get<physics::Body>("body").download())
-    drags.push_back(holds_drag ? body.damping * body.inverse_mass * time_step_ : 0);
+  std::map<std::pair<double, bool>, std::uint32_t> row_of_kind;
   std::vector<glm::dvec2> rows;
-  const auto add_rows = [&](bool cancels_rounding) {
-    std::map<double, std::uint32_t> row_of_drag;
-    std::vector<std::uint32_t> row_of_body;
-    for (const double drag : drags) {
-      const auto [place, is_new] = row_of_drag.try_emplace(drag, static_cast<std::uint32_t>(rows.size()));
-      row_of_body.push_back(place->second);
-      if (!is_new) continue;
-      const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
-      PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, but not the last stage
-      stage_count_ = static_cast<std::uint32_t>(tableau.stages);
-      std::ranges::copy(stage_rows(tableau, cancels_rounding), std::back_inserter(rows));
-    }
-    return row_of_body;
+  const auto row_of = [&](double drag, bool cancels_rounding) {
+    const auto [place, is_new] = row_of_kind.try_emplace({drag, cancels_rounding}, static_cast<std::uint32_t>(rows.size()));
+    if (!is_new) return place->second;
+    const NystromTableau tableau = nystrom_tableau(integrator_, stages, drag);
+    PLIANT_EXPECT(tableau.c.front() == 0 && tableau.stages > 1);  // the first stage is the step's start, but not the last stage
+    stage_count_ = static_cast<std::uint32_t>(tableau.stages);
+    std::ranges::copy(stage_rows(tableau, cancels_rounding), std::back_inserter(rows));
+    return place->second;
   };
-  cancelling_rows_ = add_rows(stages == Stages::of_result);
-  const bool is_room = 2 * rows.size() <= physics::tableau_size;  // else the bits differ a little
-  if (has_partners(bodies_) && is_room) plain_rows_ = add_rows(false);
+  const bool ever_cancels = stages == Stages::of_result;
+  const std::vector<physics::Body> bodies = bodies_.arrays.get<physics::Body>("body").download();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const double drag = holds_drag ? bodies[b].damping * bodies[b].inverse_mass * time_step_ : 0;
+    const bool is_given = bodies_.force_variants[b] == bodies_.arrays.device().force_variants().size();
+    const bool may_be_plain = has_partners(bodies_) && (is_given || !cancels_alone(bodies_, b));
+    const bool may_cancel = is_given || !may_be_plain;
+    cancelling_rows_.push_back(row_of(drag, ever_cancels && may_cancel));
+    plain_rows_.push_back(row_of(drag, ever_cancels && !may_be_plain));
+  }
+  if (rows.size() > physics::tableau_size)
+    throw Error(ErrorKind::input, "",
+                fmt::format("bodies have too many rates of damping for {} on several ranks", integrator_.name),
+                "use dop853, or one rank");
   make_tableau(bodies_.arrays, std::move(rows));
   bodies_.set_tableau_rows(cancelling_rows_);
 }
@@ -200,12 +215,10 @@ void Stepper::share_sums(const Model& model, const std::vector<bool>& are_cluste
   if (!has_partners(bodies_)) return;
   shared_sums_.emplace(bodies_, model, are_clustered, *bodies_.arrays.device().ranks());
   bodies_.have_all_sums_given(model);
-  if (plain_rows_.empty()) return;
-  const auto variants = bodies_.arrays.device().force_variants();
+  if (cancelling_rows_.empty()) return;
   std::vector<std::uint32_t> rows = cancelling_rows_;
   for (std::size_t b = 0; b < rows.size(); ++b)
-    if (const std::size_t alone = bodies_.force_variants[b]; alone < variants.size() && !variants[alone].cancels_rounding)
-      rows[b] = plain_rows_[b];
+    if (!cancels_alone(bodies_, b)) rows[b] = plain_rows_[b];
   bodies_.set_tableau_rows(rows);
 }
 

@@ -24,7 +24,8 @@ class Stepper {
 
   /// Expects allows_damping(integrator, law), and for a Nystrom method no more drags than most_drags. `bodies` must outlive the
   /// stepper. Makes the arrays of all forces that act on the model. A method with stages takes each step's length from the
-  /// bodies' `control`, which begins with `time_step`.
+  /// bodies' `control`, which begins with `time_step`. Throws Error (input) if several ranks need more tableaus than there is
+  /// room for.
   Stepper(DeviceBodies& bodies, const Model& model, const Integrator& integrator, DampingLaw law, double time_step /* [s] */,
           Stages stages = Stages::of_result);
   Stepper(const Stepper&) = delete;
@@ -88,8 +89,9 @@ class Stepper {
   ClusterTrees cluster_trees_;
   std::optional<ClusterForces> cluster_forces_;  // empty: no body is clustered
   std::optional<SharedSums> shared_sums_;        // empty: this rank is alone
-  std::vector<std::uint32_t> plain_rows_;        // where tableaus begin that cancel no rounding, of bodies; empty: there are none
-  std::vector<std::uint32_t> cancelling_rows_;   // of those that do
+  // Where each body's tableau begins, if it cancels rounding, and if it does not. Where a body needs only one, both are that.
+  // Empty for splittings.
+  std::vector<std::uint32_t> cancelling_rows_, plain_rows_;
   AddedForces added_forces_;
   InternalDamping internal_damping_;
   const Integrator& integrator_;

@@ -36,8 +36,8 @@ class Ranks {
   /// Waits until the sharing that was begun first has ended.
   virtual void end_sharing() = 0;
 
-  /// Says that this rank leaves while the others wait for it. They have to be ended.
-  virtual void abandon() = 0;
+  /// Is called when all ranks have agreed to end because of a failure. A rank that fails otherwise leaves others waiting.
+  virtual void agree_to_end() = 0;
 };
 
 /// Returns the first rank that says something else than rank 0, if there is one. Waits for all.

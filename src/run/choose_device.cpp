@@ -1,7 +1,6 @@
 #include "run/choose_device.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +8,7 @@
 
 #include "core/counted.hpp"
 #include "core/error.hpp"
+#include "core/thread_pool.hpp"
 #include "device/gpu/gpu_device.hpp"
 
 namespace pliant {
@@ -26,14 +26,6 @@ bool is_gpu(const DeviceChoice& choice) {
 
 std::size_t hardware_gpus() {
   return static_cast<std::size_t>(std::ranges::count(gl::list_adapters(), false, &gl::Adapter::is_software));
-}
-
-// MPI may have bound ranks to some processors each. Those that are bound to the same ones share them.
-unsigned threads_of_rank(std::size_t ranks_here) {
-  const std::size_t allowed = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t online = std::max(allowed, static_cast<std::size_t>(std::max(sysconf(_SC_NPROCESSORS_ONLN), 1L)));
-  const std::size_t sharers = (allowed * ranks_here + online - 1) / online;
-  return static_cast<unsigned>(std::max<std::size_t>(allowed / sharers, 1));
 }
 
 }  // namespace
@@ -56,17 +48,29 @@ DeviceChoice choice_of_rank(DeviceChoice choice, const Ranks& ranks) {
   if (is_gpu(choice)) {
     if (!choice.gpu_index) choice.gpu_index = static_cast<int>(ranks.number_here() % std::max<std::size_t>(hardware_gpus(), 1));
   } else if (choice.threads == 0) {
-    choice.threads = threads_of_rank(ranks.count_here());
+    choice.threads = threads_of_rank(thread_count(0), std::thread::hardware_concurrency(), ranks.count_here());
   }
   return choice;
 }
 
-std::string told_shared_gpus(const DeviceChoice& choice, const Ranks& ranks) {
-  if (!is_gpu(choice)) return "";
-  const std::size_t gpus = choice.gpu_index ? 1 : hardware_gpus();
-  if (gpus == 0 || ranks.count_here() <= gpus) return "";
-  return fmt::format("{} ranks share {}, which makes none faster; start one for each GPU", ranks.count_here(),
-                     counted(gpus, "GPU", "GPUs"));
+// Those that are bound to the same processors share them.
+unsigned threads_of_rank(unsigned allowed, unsigned online, std::size_t ranks_here) {
+  const std::size_t all = std::max({allowed, online, 1u}), sharers = (allowed * ranks_here + all - 1) / all;
+  return std::max(static_cast<unsigned>(allowed / std::max<std::size_t>(sharers, 1)), 1u);
+}
+
+std::vector<std::string> told_of_ranks(const DeviceChoice& choice, const Ranks& ranks, const Model& model) {
+  std::vector<std::string> told;
+  const std::size_t gpus = !is_gpu(choice) ? 0 : choice.gpu_index ? 1 : hardware_gpus();
+  if (gpus > 0 && ranks.count_here() > gpus)
+    told.push_back(fmt::format("{} ranks share {}, which makes none faster; start one for each GPU", ranks.count_here(),
+                               counted(gpus, "GPU", "GPUs")));
+  if (const auto body = std::ranges::find_if(model.bodies, &ModelBody::is_clustered); body != model.bodies.end())
+    told.push_back(
+        fmt::format("each rank sums all springs of \"{}\" by clusters, so that more ranks make it no faster; forces = "
+                    "\"direct\" shares them",
+                    body->name));
+  return told;
 }
 
 std::unique_ptr<Device> choose_device(const DeviceChoice& choice) {

@@ -1,11 +1,14 @@
 // Chooses the device of a run.
 #pragma once
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/device.hpp"
 #include "gl/context.hpp"
+#include "model/model.hpp"
 #include "ranks/ranks.hpp"
 
 namespace pliant {
@@ -28,8 +31,11 @@ void expect_consistent(const DeviceChoice& choice);
 /// names them.
 [[nodiscard]] DeviceChoice choice_of_rank(DeviceChoice choice, const Ranks& ranks);
 
-/// Returns a text that tells if ranks on this machine have to share a GPU, or an empty one.
-[[nodiscard]] std::string told_shared_gpus(const DeviceChoice& choice, const Ranks& ranks);
+/// Returns how many threads a rank has, of those on a machine. MPI has allowed it so many processors of those that are online.
+[[nodiscard]] unsigned threads_of_rank(unsigned allowed, unsigned online, std::size_t ranks_here);
+
+/// Returns warnings: ranks on this machine have to share GPUs, or all do the same work.
+[[nodiscard]] std::vector<std::string> told_of_ranks(const DeviceChoice& choice, const Ranks& ranks, const Model& model);
 
 /// Makes the device. The automatic choice is a hardware GPU if there is one and the precision is 32, else the CPU. Software
 /// OpenGL is used only if a GPU is asked for. Throws Error: command_line if the choice contradicts itself, device if there is no

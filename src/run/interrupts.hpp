@@ -12,7 +12,7 @@ inline constexpr int exit_interrupted = 130;  // the code that shells use after 
 /// the program at once. Before this call the first one ends it at once.
 void watch_for_interrupts(std::string_view work);
 
-/// After this call nothing comes of them here.
+/// After this call this process ignores both.
 void leave_interrupts_to_others();
 
 /// Returns whether the program should come to an end. Any thread may ask.

@@ -144,18 +144,6 @@ void warn_of_overlap(PreparedRun& run) {
     run.warnings.push_back(overlap);
 }
 
-void warn_of_ranks(PreparedRun& run, const RunOptions& options, const Ranks& ranks) {
-  if (const std::string told = told_shared_gpus(options.device, ranks); !told.empty()) run.warnings.push_back(told);
-  for (const ModelBody& body : run.start.model.bodies)
-    if (body.is_clustered) {
-      run.warnings.push_back(
-          fmt::format("each rank sums all springs of \"{}\" by clusters, so that more ranks make it no faster; forces = "
-                      "\"direct\" shares them",
-                      body.name));
-      return;
-    }
-}
-
 void check_start(PreparedRun& run) {
   if (run.simulation->collider().response_row().keeps_apart) {
     expect_apart(*run.simulation, run.start.model, run.scene.collision, run.scene.file.string());
@@ -189,7 +177,6 @@ std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options, Ranks* ranks
   choose_force_sums(run.start.model, run.device->info().kind);
   expect_carried(run.scene, run.plan, run.device->precision());
   run.simulation = std::make_unique<Simulation>(*run.device, run.start.model, run.start.state, run.plan, run.scene.collision);
-  if (ranks != nullptr) warn_of_ranks(run, options, *ranks);
   warn_of_idle_keys(run);
   warn_of_integrator(run);
   warn_of_step(run);

@@ -34,7 +34,6 @@ struct PreparedRun {
 /// - a step beyond the stability bound, or no step at all
 /// - bodies that intersect at the start, if the response does not keep them apart
 /// - bodies that begin nearer than the gap, if the response keeps them apart
-/// - ranks that share a GPU, or do the same work
 /// - masses that differ so much, or bodies so far out, that rounding harms contacts.
 /// `ranks` simulate it together, and must outlive it. Null: this one is alone.
 [[nodiscard]] std::unique_ptr<PreparedRun> prepare_run(const RunOptions& options, Ranks* ranks = nullptr);

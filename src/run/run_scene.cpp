@@ -77,7 +77,7 @@ class Run {
     history_.close();
     write_end();
     const int code = end_frames(has_failed() ? exit_failed : is_interrupted() ? exit_interrupted : 0);
-    leader_.end(code);
+    leader_.end();
     return code;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::command_line) throw;
@@ -362,6 +362,12 @@ void take_checkpoint_of_first(Ranks& ranks, std::optional<Resumed>& from) {
   if (!from) from = Resumed{checkpoint_from(bytes), nullptr};
 }
 
+// A resumed run may have such a warning already.
+void warn_of_ranks(PreparedRun& run, const RunOptions& options, const Ranks& ranks) {
+  for (const std::string& told : told_of_ranks(options.device, ranks, run.start.model))
+    if (std::ranges::find(run.warnings, told) == run.warnings.end()) run.warnings.push_back(told);
+}
+
 // If no program can encode a video, its frames are written as pictures.
 RunOptions drawable(RunOptions options) {
   if (options.video.empty() || VideoFile::has_encoder()) return options;
@@ -380,6 +386,11 @@ std::filesystem::path folder_of(const RunOptions& options) {
 
 int run_scene(const RunOptions& given, Ranks* ranks) {
   const bool leads = ranks == nullptr || ranks->number() == 0;
+  if (ranks != nullptr) expect_same_options(*ranks, given);
+  if (given.check) {  // it is about one machine
+    if (!leads) return 0;
+    ranks = nullptr;
+  }
   std::optional<Resumed> from;
   do_together(ranks, [&] {
     if (leads && !given.resume.empty()) from = load_resumed(given);
@@ -393,9 +404,10 @@ int run_scene(const RunOptions& given, Ranks* ranks) {
     if (leads && (!options.check || !options.out.empty())) expect_outputs(options);
     run = prepare_run(options, ranks);
     if (from) resume(given, from->checkpoint, *run);
+    if (ranks != nullptr) warn_of_ranks(*run, options, *ranks);
     if (options.skipping != Skipping{}) run->simulation->skip(options.skipping);
   });
-  if (ranks != nullptr) expect_same(*ranks, *run);
+  if (ranks != nullptr) expect_same_runs(*ranks, *run);
   if (!given.video.empty() && options.video.empty())
     run->warnings.emplace_back("--video: there is no ffmpeg on PATH: frames are written as PNG files instead; install ffmpeg");
   if (leads)
@@ -408,14 +420,12 @@ int run_scene(const RunOptions& given, Ranks* ranks) {
   do_together(ranks, [&] {
     if (leads) lead.emplace(options, *run, std::move(from), ranks);
   });
-  try {
-    if (!leads) return follow(*run->simulation, *ranks);
+  if (leads) {
     watch_for_interrupts("the steps in hand, or a part of one");
     return lead->execute();
-  } catch (...) {
-    if (ranks != nullptr) ranks->abandon();
-    throw;
   }
+  follow(*run->simulation, *ranks);
+  return 0;
 }
 
 }  // namespace pliant

@@ -53,8 +53,9 @@ struct RunOptions {
 [[nodiscard]] std::filesystem::path folder_of(const RunOptions& options);
 
 /// Returns the exit code: 0, exit_failed or exit_interrupted (interrupts.hpp). In each case it has written the results so
-/// far. Throws Error. `ranks` make the run together, and rank 0 writes. If it fails on another rank, this one throws
-/// FailedElsewhere (together.hpp). If it fails on this one alone, it has called abandon(). Null: this one is alone.
+/// far. Throws Error. `ranks` make the run together, and rank 0 writes; on others it returns 0. If it fails on another rank, this
+/// one may throw FailedElsewhere (together.hpp). What it throws before the ranks agree_to_end() leaves others waiting. Null: this
+/// one is alone.
 [[nodiscard]] int run_scene(const RunOptions& options, Ranks* ranks = nullptr);
 
 }  // namespace pliant

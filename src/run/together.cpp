@@ -1,6 +1,7 @@
 #include "run/together.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
@@ -17,12 +18,11 @@
 namespace pliant {
 namespace {
 
-enum class Deed : std::uint32_t { advance, advance_toward, compare, end };
+enum class Deed : std::uint64_t { advance, advance_toward, compare, end };
 
 // What rank 0 has all others do.
 struct Order {
   Deed deed;
-  std::int32_t exit_code = 0;
   std::uint64_t steps = 0;
   double time = 0;
 };
@@ -33,14 +33,13 @@ T of_first(Ranks& ranks, T value) {
   return value;
 }
 
-constexpr int unexpected = 1;  // exit code of what is not an Error
-
 std::uint64_t checksum_of(const State& state) { return checksum(std::as_bytes(std::span(state.motion))); }
 
 void expect_agreement(Ranks& ranks, std::uint64_t mine, const char* problem, const char* remedy) {
   const std::optional<std::size_t> other = first_to_differ(ranks, mine);
   if (!other) return;
-  if (ranks.number() != 0) throw FailedElsewhere{static_cast<int>(ErrorKind::device)};
+  ranks.agree_to_end();
+  if (ranks.number() != 0) throw FailedElsewhere();
   throw Error(ErrorKind::device, fmt::format("rank {}", *other), problem, remedy);
 }
 
@@ -53,22 +52,18 @@ void compare_bits(Ranks& ranks, const State& state) {
 
 void do_together(Ranks* ranks, const std::function<void()>& work) {
   if (ranks == nullptr) return work();
-  int code = 0;
   std::exception_ptr failure;
   try {
     work();
-  } catch (const Error& error) {
-    failure = std::current_exception();
-    code = static_cast<int>(error.kind());
   } catch (...) {
     failure = std::current_exception();
-    code = unexpected;
   }
-  const std::vector<std::uint64_t> codes = ranks->hear_all(static_cast<std::uint64_t>(code));
-  const auto first = std::ranges::find_if(codes, [](std::uint64_t each) { return each != 0; });
-  if (first == codes.end()) return;
-  if (static_cast<std::size_t>(first - codes.begin()) == ranks->number()) std::rethrow_exception(failure);
-  throw FailedElsewhere{static_cast<int>(*first)};
+  const std::vector<std::uint64_t> have_failed = ranks->hear_all(failure != nullptr ? 1 : 0);
+  const auto first = std::ranges::find(have_failed, 1u);
+  if (first == have_failed.end()) return;
+  ranks->agree_to_end();
+  if (static_cast<std::size_t>(first - have_failed.begin()) == ranks->number()) std::rethrow_exception(failure);
+  throw FailedElsewhere();
 }
 
 std::string text_of_first(Ranks& ranks, std::string text) {
@@ -77,16 +72,27 @@ std::string text_of_first(Ranks& ranks, std::string text) {
   return text;
 }
 
-void expect_same(Ranks& ranks, const PreparedRun& run) {
+void expect_same_options(Ranks& ranks, const RunOptions& options) {
   expect_agreement(ranks, checksum(full_version()), "runs another version of pliant", "use the same on all machines");
+  const auto told = [](const auto& number) { return number ? fmt::format("{}", *number) : "-"; };
+  const std::string text =
+      fmt::format("{} {} {} {} {} {} {} {} {} {}", told(options.steps), told(options.duration), told(options.time_step),
+                  told(options.tolerance), options.integrator.value_or("-"), fmt::join(options.overrides, " "),
+                  told(options.device.precision), options.device.wish ? static_cast<int>(*options.device.wish) : -1,
+                  options.check, !options.resume.empty());
+  const auto skipping = checksum(std::as_bytes(std::span(&options.skipping, 1)), checksum(text));
+  expect_agreement(ranks, skipping, "has other options", "give all ranks the same");
+}
+
+void expect_same_runs(Ranks& ranks, const PreparedRun& run) {
   const auto scene = checksum(std::as_bytes(std::span(run.mesh_checksums)), checksum(run.scene_text));
   expect_agreement(ranks, scene, "has another scene or another mesh", "copy the same files to all machines");
-  const std::string plan =
-      fmt::format("{} {} {} {}", run.plan.integrator->name, run.plan.time_step, run.plan.steps, run.plan.tolerance.value_or(0));
-  expect_agreement(ranks, checksum(plan), "has other options", "give all ranks the same");
-  const std::string device = fmt::format("{} at {} bits", run.device->info().name, run.device->precision());
-  expect_agreement(ranks, checksum(device), "has another device, whose bits would differ",
-                   "use machines of one kind, or set PLIANT_ISA=avx2 for all");
+  const std::string plan = fmt::format("{} {} {} {} {}", run.plan.integrator->name, run.plan.time_step, run.plan.steps,
+                                       run.plan.tolerance.value_or(0), run.plan.duration);
+  expect_agreement(ranks, checksum(plan), "plans other steps", "use machines of one kind");
+  const std::string device =
+      fmt::format("{} at {} bits, {} at once", run.device->info().name, run.device->precision(), run.device->shares_at_once());
+  expect_agreement(ranks, checksum(device), "has another device, whose bits would differ", "use devices of one kind");
 }
 
 void Leader::advance(std::uint64_t steps, const std::function<bool()>& stops) {
@@ -106,11 +112,11 @@ void Leader::compare(const State& state) {
   compare_bits(*ranks_, state);
 }
 
-void Leader::end(int exit_code) {
-  if (ranks_ != nullptr) of_first(*ranks_, Order{.deed = Deed::end, .exit_code = exit_code});
+void Leader::end() {
+  if (ranks_ != nullptr) of_first(*ranks_, Order{.deed = Deed::end});
 }
 
-int follow(Simulation& simulation, Ranks& ranks) {
+void follow(Simulation& simulation, Ranks& ranks) {
   leave_interrupts_to_others();
   for (;;) {
     const Order order = of_first(ranks, Order{});
@@ -125,7 +131,7 @@ int follow(Simulation& simulation, Ranks& ranks) {
         compare_bits(ranks, simulation.state());
         break;
       case Deed::end:
-        return order.exit_code;
+        return;
     }
   }
 }

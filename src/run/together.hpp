@@ -11,20 +11,21 @@
 
 namespace pliant {
 
-/// Thrown on ranks where nothing went wrong when something did on another one, which tells.
-struct FailedElsewhere {
-  int exit_code;
-};
+/// Thrown on ranks where nothing went wrong when it did on another one, which tells.
+struct FailedElsewhere {};
 
 /// Does this on all ranks, which must not wait for each other in it. If it throws on some, the first of them throws that, and all
-/// others FailedElsewhere. A null is one rank alone.
+/// others FailedElsewhere. Null: this rank is alone.
 void do_together(Ranks* ranks, const std::function<void()>& work);
 
 /// Returns the text of rank 0.
 [[nodiscard]] std::string text_of_first(Ranks& ranks, std::string text);
 
-/// Throws Error (device) unless all ranks have the same scene, the same meshes and devices that compute the same bits.
-void expect_same(Ranks& ranks, const PreparedRun& run);
+/// The next two throw on all ranks if one differs from rank 0: there Error (device), elsewhere FailedElsewhere. The first
+/// compares versions and options, before anything else is asked of the others. The second compares scenes, meshes, plans, and
+/// devices, which have to compute the same bits and share work alike.
+void expect_same_options(Ranks& ranks, const RunOptions& options);
+void expect_same_runs(Ranks& ranks, const PreparedRun& run);
 
 /// Makes steps on this rank, which is rank 0 or alone, and has all others make them, too.
 class Leader {
@@ -33,17 +34,17 @@ class Leader {
   /// These are the simulation's.
   void advance(std::uint64_t steps, const std::function<bool()>& stops);
   [[nodiscard]] StepReport advance_toward(double time);
-  /// Throws Error (device) unless all ranks have these bits.
+  /// Throws as above unless all ranks have these bits.
   void compare(const State& state);
-  /// Lets the others go, with this exit code.
-  void end(int exit_code);
+  /// Lets the others go.
+  void end();
 
  private:
   Simulation& simulation_;
   Ranks* ranks_;
 };
 
-/// Makes the steps that rank 0 makes. Returns its exit code.
-[[nodiscard]] int follow(Simulation& simulation, Ranks& ranks);
+/// Makes the steps that rank 0 makes, until it says that the run is over.
+void follow(Simulation& simulation, Ranks& ranks);
 
 }  // namespace pliant

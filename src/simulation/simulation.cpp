@@ -83,7 +83,7 @@ void expect_same_sums(Ranks& ranks, const std::vector<std::shared_ptr<const Chan
                                      of_body && of_body->are_direct ? 1.0 : 0.0, of_body ? of_body->accuracy : 0};
     sums = checksum(std::as_bytes(std::span(told)), sums);
   }
-  if (const auto rank = first_to_differ(ranks, sums))
+  if (const auto rank = first_to_differ(ranks, sums))  // each tells, because each has found it
     throw Error(ErrorKind::device, fmt::format("rank {}", *rank), "has made other lists of clusters than rank 0",
                 "give all ranks the same memory, or use forces = \"direct\"");
 }

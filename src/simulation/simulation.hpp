@@ -1,5 +1,5 @@
 // Runs steps and reports on them. The passes of a step are recorded once. Nothing is read back between steps, but for checks of
-// clustered bodies, and where steps fall into parts or may be quiet.
+// clustered bodies, where steps fall into parts or may be quiet, and sums that ranks exchange.
 #pragma once
 #include <array>
 #include <cstdint>

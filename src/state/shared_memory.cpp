@@ -15,7 +15,7 @@ using Phases = std::uint32_t;
 constexpr Phases restoring = 1,  // restore_impacts
     searching = 2,               // from expect_motion or a refit to find_contacts, meet_grounds and test_unlisted_pairs
     kicking = 4,                 // take_up_impulses and solve_contacts
-    at_stages = 8,               // share_pulls, passes of other forces before a stage, and the stage
+    at_stages = 8,               // share_pulls, sum_springs, passes of other forces before a stage, and the stage
     cutting = 16,                // from expect_cuts to pay_dues
     at_quiet_steps = 32,         // from list_moving_shares to end_quiet_steps
     placing_nodes = 64,          // sum_leaf_moments and place_nodes
@@ -29,18 +29,18 @@ struct Sharing {
 // In each phase the array is written before it is read, for every body whose numbers are read. So an array can't share memory if
 // bodies at rest need what an earlier step wrote there.
 constexpr Sharing sharing[] = {
-    {"expected", searching},            // expect_motion writes it for all bodies
-    {"node_box", searching},            // the passes of a refit write every box that a search reads
-    {"treelet_pair", searching},        // the list's length stands in `control`, and nothing beyond it is read
-    {"leaf_pair", searching},           // as above
-    {"impulse_sum", kicking},           // take_up_impulses empties what the first round adds to. Each round empties for the next
-    {"leaf_moment", placing_nodes},     // sum_leaf_moments writes it for all leaves that place_nodes looks at
-    {"node_pull", pulling_nodes},       // sum_leaf_springs writes it for all clusters that sum_node_pulls looks at
-    {"spring_sum", at_stages},          // share_pulls writes it for all bodies whose sums are given and not skipped
-    {"added_force", at_stages},         // the first force sets it, and others add to it
-    {"moment", at_stages},              // sum_moments writes it for all bodies that find_rigid_motion looks at
-    {"way", cutting},                   // expect_cuts writes it for all bodies that have a partner or move
-    {"cut", cutting},                   // as above
+    {"expected", searching},         // expect_motion writes it for all bodies
+    {"node_box", searching},         // the passes of a refit write every box that a search reads
+    {"treelet_pair", searching},     // the list's length stands in `control`, and nothing beyond it is read
+    {"leaf_pair", searching},        // as above
+    {"impulse_sum", kicking},        // take_up_impulses empties what the first round adds to. Each round empties for the next
+    {"leaf_moment", placing_nodes},  // sum_leaf_moments writes it for all leaves that place_nodes looks at
+    {"node_pull", pulling_nodes},    // sum_leaf_springs writes it for all clusters that sum_node_pulls looks at
+    {"spring_sum", at_stages},   // share_pulls and exchanges of ranks write it for bodies whose sums are given and not skipped
+    {"added_force", at_stages},  // the first force sets it, and others add to it
+    {"moment", at_stages},       // sum_moments writes it for all bodies that find_rigid_motion looks at
+    {"way", cutting},            // expect_cuts writes it for all bodies that have a partner or move
+    {"cut", cutting},            // as above
     {"quiet_body", at_quiet_steps},     // passes before quiet_steps write what it reads first, unless no step may be quiet
     {"kept_before", at_quiet_steps},    // quiet_steps writes it for all bodies that move
     {"part_sum", restoring | cutting},  // the first round of restore_impacts or pay_dues writes it

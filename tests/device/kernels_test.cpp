@@ -355,7 +355,7 @@ class HalfOfTwo final : public Ranks {
   void begin_sharing(std::span<double>, std::span<const NumberRange>) override {}
   void go_on() override {}
   void end_sharing() override {}
-  void abandon() override {}
+  void agree_to_end() override {}
 };
 
 // Springs of the first of two alike bodies. Of those, however devices cut them, a rank has one.

@@ -24,8 +24,10 @@ position = [-1.1, 0.1, 0]
 velocity = [4, 0, 0]
 spin = [0, 1, 0]
 stiffness = 2
+damping = 0.01
 [[body]]
 mesh = "icosphere:1"
+pressure = 2
 position = [1.1, 0, 0]
 stretch = [0.9, 1, 1]
 [[body]]
@@ -75,10 +77,11 @@ Reached simulate(Device& device, const std::string& simulation) {
 }
 
 TEST_CASE("ranks that share sums give the bits of one alone, with every kind of method and damping", "[gl]") {
-  const std::string simulation = GENERATE("integrator = \"dop853\"\ntime_step = 0.002\n",  //
-                                          "integrator = \"verlet\"\ntime_step = 0.002\n",
-                                          "integrator = \"cv8\"\ntime_step = 0.002\ngravity = [0, -9.81, 0]\n",
-                                          "integrator = \"dop853\"\ntolerance = 1e-6\n");
+  const std::string simulation = GENERATE(
+      "integrator = \"dop853\"\ntime_step = 0.002\n",  //
+      "integrator = \"verlet\"\ntime_step = 0.002\n", "integrator = \"cv8\"\ntime_step = 0.002\ngravity = [0, -9.81, 0]\n",
+      "integrator = \"dop853\"\ntolerance = 1e-6\n", "integrator = \"cv8\"\ntime_step = 0.002\ndamping_law = \"internal\"\n",
+      "integrator = \"verlet\"\ntime_step = 0.002\ndamping_law = \"adaptive\"\n");
   CAPTURE(simulation);
   const auto work = [&](Device& device) { return simulate(device, simulation); };
   for (const std::size_t ranks : {2u, 3u})
@@ -119,6 +122,25 @@ TEST_CASE("ranks that share sums give the bits of one alone, whichever variant t
     check_as_alone(
         2, [] { return make_gpu_device(0); }, [&](Device& device) { return after_steps(device, method, variant); });
   }
+}
+
+// A thread serves each small body alone. Others are cut.
+TEST_CASE("ranks share the sums of many bodies, small and larger") {
+  std::vector<BodySetup> setups;
+  for (int b = 0; b < 40; ++b) {
+    setups.push_back(sphere(b % 3 == 0 ? 2 : 3));
+    setups.back().description.stretch = {0.8, 1.1, 1};
+    setups.back().description.position = {5.0 * b, 0, 0};
+  }
+  const ModelAndState start = build_model(setups, {0, 0, 0});
+  for (const int precision : {32, 64})
+    check_as_alone(
+        3, [=] { return make_cpu_device(2, precision); },
+        [&](Device& device) {
+          Simulation run(device, start.model, start.state, plan_of({"verlet", 0.01}), no_contacts);
+          run.advance(5);
+          return Reached{run.state().motion, {run.report().force_evaluations}};
+        });
 }
 
 TEST_CASE("ranks exchange kept forces only where these do not hold") {

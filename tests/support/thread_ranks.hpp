@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <barrier>
-#include <cstring>
+#include <deque>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -41,24 +41,36 @@ class ThreadRanks : public Ranks {
     return said;
   }
   void begin_sharing(std::span<double> array, std::span<const NumberRange> ranges) override {
-    all_.arrays[number_] = array;
-    all_.arrived.arrive_and_wait();
-    for (std::size_t rank = 0; rank < ranges.size(); ++rank)
-      if (rank != number_)
-        std::ranges::copy(all_.arrays[rank].subspan(ranges[rank].first, ranges[rank].count),
-                          array.subspan(ranges[rank].first).begin());
-    all_.arrived.arrive_and_wait();
+    on_their_way_.push_back({array, {ranges.begin(), ranges.end()}});
     ++sharings_;
   }
   void go_on() override {}
-  void end_sharing() override {}
-  void abandon() override {}
+  void end_sharing() override {
+    const Sharing oldest = on_their_way_.front();
+    on_their_way_.pop_front();
+    all_.arrays[number_] = oldest.array;
+    all_.arrived.arrive_and_wait();
+    for (std::size_t rank = 0; rank < count(); ++rank)
+      if (rank != number_)
+        std::ranges::copy(all_.arrays[rank].subspan(oldest.ranges[rank].first, oldest.ranges[rank].count),
+                          oldest.array.subspan(oldest.ranges[rank].first).begin());
+    all_.arrived.arrive_and_wait();
+  }
+  void agree_to_end() override { have_agreed_ = true; }
+  [[nodiscard]] bool have_agreed_to_end() const { return have_agreed_; }
   [[nodiscard]] std::uint64_t sharings() const { return sharings_; }
 
  private:
+  struct Sharing {
+    std::span<double> array;
+    std::vector<NumberRange> ranges;
+  };
+
   Gathering& all_;
   std::size_t number_;
+  std::deque<Sharing> on_their_way_;
   std::uint64_t sharings_ = 0;
+  bool have_agreed_ = false;
 };
 
 /// Does this on so many ranks at once.

@@ -261,7 +261,7 @@ class CpuDevice final : public Device {
     pool_.for_ranges(share_count, grain_between(1, 16, share_count), [&](std::uint32_t first, std::uint32_t end) {
       for (std::uint32_t share = first; share < end; ++share) {
         const cpu::ShareTask task = force.task(arguments, share);
-        const bool is_small = has_own_thread(share_count, task.vertex_count);
+        const bool is_small = has_own_thread(share_count, task.body_vertices);
         if (is_small && task.runs) serve_alone(force, variant, arguments, share, task);
         tasks_[share] = is_small ? cpu::ShareTask() : task;
       }
