@@ -29,8 +29,11 @@ bool has_mpi() {
 
 bool lacks_mpi() { return test::lacks("MPI", has_mpi()); }
 
-// Open MPI serves root, and more ranks than processors, only if it is told so. Ranks that wait for each other give way then.
-const std::string mpirun = "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe ";
+// Open MPI serves root, and more ranks than processors, only if it is told so. Ranks that wait for each other give way then. All
+// ranks are on this machine, where ssh may be missing, and processes may not be allowed to read each other's memory.
+const std::string mpirun =
+    "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --mca plm isolated "
+    "--mca btl_vader_single_copy_mechanism none ";
 
 std::string on(int ranks) { return mpirun + "-n " + std::to_string(ranks) + " "; }
 
