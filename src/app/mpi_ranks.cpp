@@ -30,8 +30,10 @@ class World final : public MpiRanks {
     MPI_Comm_size(all_, &count_);
     if (count_ == 1) {
       MPI_Finalize();
-      throw Error(ErrorKind::device, "MPI", "what started this rank is of another MPI than this pliant",
-                  "start it by the mpirun of the MPI that it was built with");
+      throw Error(
+          ErrorKind::device, "MPI", "what started this rank is of another MPI than this pliant",
+          "start it by the mpirun of the MPI that it was built with, or unset OMPI_COMM_WORLD_SIZE, PMI_SIZE and PMIX_RANK "
+          "for a run of its own");
     }
     MPI_Comm here = MPI_COMM_NULL;
     MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, number_, MPI_INFO_NULL, &here);
