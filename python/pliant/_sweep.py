@@ -217,6 +217,7 @@ def _end_with(process: int) -> None:
         time.sleep(1)
 
 
+@functools.cache
 def _keep_memory() -> None:
     """Lets glibc keep memory that a run has given back for the next run. Otherwise half of a short run's time is spent on asking
     the system for it again."""
@@ -232,7 +233,6 @@ def _begin_process(sweeper: int, numbers: Any) -> None:
     global _gpu
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(sweeper,), daemon=True).start()
-    _keep_memory()
     if numbers is not None:
         _gpu = numbers.get()
 
@@ -271,6 +271,7 @@ def _make_row(scene: Scene, job: _Job, run: Run, device: str, place: _Place) -> 
 
 def _make_rows(scene: Scene, jobs: Sequence[_Job], run: Run, place: _Place) -> list[Row]:
     device = _device_of_worker(place)
+    _keep_memory()
     return [_make_row(scene, job, run, device, place) for job in jobs]
 
 
