@@ -13,30 +13,9 @@ PARAMETER(uint, vertex_count)
 bool runs(IN(Share) s) { return !halted(s) && status[s.body_index].force_stale != 0u; }
 uint placement_slot() { return start_slot; }
 
-struct Pending {
-  bool nothing;
-};
-
-Pending before_force(uint i, uint k, IN(Share) s) {
-  Pending p;
-  p.nothing = true;
-  return p;
-}
-
-struct Damping {  // it does not damp
-  bool nothing;
-};
-
-Damping damping_by(IN(Share) s, double force_squared) {
-  Damping d;
-  d.nothing = true;
-  return d;
-}
+#include "parts/force_alone.glsl"
 
 double after_force(uint i, uint k, IN(Share) s, double spring_force, IN(Damping) d, IN(Pending) p) {
   kept_force[force_of(i) + k] = spring_force;
   return double(0);
 }
-
-bool settles() { return false; }
-void settle(uint i, uint k, IN(Share) s, IN(dvec3) position) {}

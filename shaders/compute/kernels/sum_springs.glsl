@@ -17,30 +17,9 @@ PARAMETER(uint, only_stale)  // 1: only where the spring forces kept from the st
 bool runs(IN(Share) s) { return !halted(s) && (only_stale == 0u || status[s.body_index].force_stale != 0u); }
 uint placement_slot() { return slot; }
 
-struct Pending {
-  bool nothing;
-};
-
-Pending before_force(uint i, uint k, IN(Share) s) {
-  Pending p;
-  p.nothing = true;
-  return p;
-}
-
-struct Damping {  // it does not damp
-  bool nothing;
-};
-
-Damping damping_by(IN(Share) s, double force_squared) {
-  Damping d;
-  d.nothing = true;
-  return d;
-}
+#include "parts/force_alone.glsl"
 
 double after_force(uint i, uint k, IN(Share) s, double sum, IN(Damping) d, IN(Pending) p) {
   own_sum[force_of(i) + k] = sum;
   return double(0);
 }
-
-bool settles() { return false; }
-void settle(uint i, uint k, IN(Share) s, IN(dvec3) position) {}

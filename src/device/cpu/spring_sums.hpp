@@ -19,8 +19,7 @@ struct SpringBody {
   const glm::vec<4, Real>* displacements;  // in the same unit
   std::uint32_t vertex_count;
   std::uint32_t first_wanted, wanted_count;  // the vertices whose sums are wanted
-  glm::dvec3*
-      sums;  // out: of each of these, the sum of strain times length over its springs (physics/forces/spring.glsl) [units]
+  glm::dvec3* sums;  // out: of each, the sum of strain times length over its springs (physics/forces/spring.glsl) [units]
 };
 
 /// Sums springs in scratch memory of its own, up to some 32 numbers per vertex and direction. If a vertex is not finite, sums of
