@@ -21,24 +21,35 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int grid_count = 32;  // intervals of the damping rate
 constexpr int largest_stage_count = 29;
 
-// Returns the end of the interval that starts at 0 in which amplification(y) stays at or below the limit. Methods of the sizes in
-// use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
-template <class Amplification>
-double first_exit(double stride, const Amplification& amplification) {
+// Returns the end of the interval that starts at 0 in which is_stable(y) holds, or infinity if it is beyond `most`. Methods of
+// the sizes in use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
+template <class Predicate>
+double first_exit(double stride, const Predicate& is_stable, double most = infinity) {
   double inside = 0;
-  while (amplification(inside + stride) <= amplification_limit) inside += stride;
+  while (is_stable(inside + stride)) {
+    inside += stride;
+    if (inside >= most) return infinity;
+  }
   double outside = inside + stride;
   while (outside - inside > 1e-14 * outside) {
     const double middle = 0.5 * (inside + outside);
-    (amplification(middle) <= amplification_limit ? inside : outside) = middle;
+    (is_stable(middle) ? inside : outside) = middle;
   }
   return inside;
 }
 
-double amplification(const std::vector<double>& polynomial, std::complex<double> z) {
+// Returns the coefficients of R(r e^(i angle)) as a polynomial of r.
+std::vector<std::complex<double>> along_ray(const std::vector<double>& polynomial, double angle) {
+  std::vector<std::complex<double>> coefficients;
+  for (const double coefficient : polynomial)
+    coefficients.push_back(std::polar(1.0, angle * static_cast<double>(coefficients.size())) * coefficient);
+  return coefficients;
+}
+
+bool is_stable(const std::vector<std::complex<double>>& polynomial, double y) {
   std::complex<double> sum = 0;
-  for (auto i = polynomial.rbegin(); i != polynomial.rend(); ++i) sum = sum * z + *i;
-  return std::abs(sum);
+  for (auto i = polynomial.rbegin(); i != polynomial.rend(); ++i) sum = sum * y + *i;
+  return std::norm(sum) <= amplification_limit * amplification_limit;
 }
 
 // Returns the largest magnitude of the eigenvalues of the map that takes (x, v) = (1, 0) to `from_x` and (0, 1) to `from_v`.
@@ -90,15 +101,17 @@ double amplification(const NystromTableau& method, double y) {
 // distance of the exit is the same for every lambda, so on the real axis only the far end matters.
 double runge_kutta_bound(const RungeKutta& method, double omega, double damping_rate_max) {
   const std::vector<double> polynomial = stability_polynomial(method);
-  const auto exit_along = [&](double angle) {
-    return first_exit(1.0 / 256, [&](double radius) { return amplification(polynomial, std::polar(radius, angle)); });
+  const auto exit_along = [&](double angle, double most = infinity) {
+    const auto on_ray = along_ray(polynomial, angle);
+    return first_exit(
+        1.0 / 256, [&](double radius) { return is_stable(on_ray, radius); }, most);
   };
   const double half_rate = damping_rate_max / 2;
   double bound = infinity;
   if (omega > 0) {
     const double last_angle = std::asin(std::min(1.0, half_rate / omega));
     for (int i = 0; i <= (damping_rate_max > 0 ? grid_count : 0); ++i)
-      bound = std::min(bound, exit_along(std::numbers::pi / 2 + last_angle * i / grid_count) / omega);
+      bound = std::min(bound, exit_along(std::numbers::pi / 2 + last_angle * i / grid_count, bound * omega) / omega);
   }
   if (half_rate > 0 && half_rate >= omega) {
     const double fastest = half_rate + std::sqrt((half_rate - omega) * (half_rate + omega));
@@ -136,21 +149,20 @@ NystromBounds nystrom_bounds(const Integrator& integrator) {
   const auto [place, is_new] = found.try_emplace(integrator.name);
   if (is_new) {
     const NystromTableau tableau = nystrom_tableau(integrator);
-    place->second = {first_exit(1.0 / 4096, [&](double y) { return amplification(tableau, y); }),
-                     first_exit(1.0 / 16, [&](double z) { return 1 + drift_error(integrator, z); })};
+    place->second = {first_exit(1.0 / 4096, [&](double y) { return amplification(tableau, y) <= amplification_limit; }),
+                     first_exit(1.0 / 16, [&](double z) { return 1 + drift_error(integrator, z) <= amplification_limit; })};
   }
   return place->second;
 }
 
 double splitting_bound(const Splitting& method, double omega, double damping_rate_max) {
   if (omega == 0) return infinity;  // free flight and its damping are exact
-  const auto worst = [&](double y) {
-    double largest = 0;
+  const auto is_stable = [&](double y) {
     for (int i = 0; i <= (damping_rate_max > 0 ? grid_count : 0); ++i)
-      largest = std::max(largest, amplification(method, y, damping_rate_max / omega * i / grid_count));
-    return largest;
+      if (!(amplification(method, y, damping_rate_max / omega * i / grid_count) <= amplification_limit)) return false;
+    return true;
   };
-  return first_exit(1.0 / 4096, worst) / omega;  // srkn11b's first instability is a sliver, y = 3.1414 to 3.1423
+  return first_exit(1.0 / 4096, is_stable) / omega;  // srkn11b's first instability is a sliver, y = 3.1414 to 3.1423
 }
 
 }  // namespace
