@@ -4,7 +4,6 @@ from __future__ import annotations
 import concurrent.futures
 import contextlib
 import csv
-import ctypes
 import fcntl
 import functools
 import hashlib
@@ -34,7 +33,7 @@ from .simulation import Simulation
 Row = dict[str, Any]
 Run = Callable[[Simulation], Mapping[str, Any]]
 
-_BATCH_SECONDS = 0.2  # of the runs that a worker gets at a time: handing over takes a few milliseconds
+_BATCH_SECONDS = 0.5  # of the runs that a worker gets at a time: handing over takes a few milliseconds, with Dask ten
 _MOST_RUNS = 10**7
 _MOST_TRIES = 3  # of a run whose worker has died
 _LAST_COLUMNS = ["error", "warnings", "wall_seconds", "key"]
@@ -217,17 +216,6 @@ def _end_with(process: int) -> None:
         time.sleep(1)
 
 
-@functools.cache
-def _keep_memory() -> None:
-    """Lets glibc keep memory that a run has given back for the next run. Otherwise half of a short run's time is spent on asking
-    the system for it again."""
-    trim_threshold, mmap_threshold = -1, -3  # as in malloc.h
-    libc = ctypes.CDLL(None)
-    if hasattr(libc, "mallopt"):
-        libc.mallopt(trim_threshold, 1 << 28)
-        libc.mallopt(mmap_threshold, 1 << 25)
-
-
 def _begin_process(sweeper: int, numbers: Any) -> None:
     """Begins a worker process. It takes the next number if there are any, and leaves Ctrl-C to the process that sweeps."""
     global _gpu
@@ -271,7 +259,6 @@ def _make_row(scene: Scene, job: _Job, run: Run, device: str, place: _Place) -> 
 
 def _make_rows(scene: Scene, jobs: Sequence[_Job], run: Run, place: _Place) -> list[Row]:
     device = _device_of_worker(place)
-    _keep_memory()
     return [_make_row(scene, job, run, device, place) for job in jobs]
 
 
