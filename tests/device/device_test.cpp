@@ -42,6 +42,18 @@ TEST_CASE("what is read ahead is never outdated", "[gl]") {
   }
 }
 
+TEST_CASE("arrays begin as zeros, wherever others have been", "[gl]") {
+  for (const TestDevice& test : all_devices())
+    for (const std::size_t count : {1u, 16'383u, 16'384u, 16'385u, 1u << 18}) {
+      CAPTURE(test.name, count);
+      for (int round = 0; round < 3; ++round) {
+        DeviceArray<std::uint32_t> array(*test.device, count, "array");
+        CHECK(array.download() == std::vector<std::uint32_t>(count));
+        array.upload(std::vector<std::uint32_t>(count, ~0u));
+      }
+    }
+}
+
 TEST_CASE("a GPU with too little free memory is told so before the driver takes other memory") {
   CHECK_NOTHROW(gpu::expect_room(400, 600, 1000));
   CHECK_NOTHROW(gpu::expect_room(~std::uint64_t{0}, 600, 0));  // the driver does not tell

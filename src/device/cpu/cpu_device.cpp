@@ -1,4 +1,4 @@
-// Makes the CPU a device. Buffers are heap memory, and kernels are functions over ranges of items.
+// Makes the CPU a device. Buffers are memory of the process, and kernels are functions over ranges of items.
 #include "device/cpu/cpu_device.hpp"
 
 #include <sys/mman.h>
@@ -53,43 +53,45 @@ constexpr bool has_own_thread(std::size_t share_count, std::uint32_t vertex_coun
   return share_count >= many_shares && vertex_count <= most_vertices_alone;
 }
 
-// Bytes that begin as zero, at a cache line. Large ones are pages of their own: they take no memory, and no time, before they are
-// used, so a list may have room for the worst case. The heap would clear memory that it has lent before.
+// Bytes that begin as zero. Many are pages of their own: they take no memory, and no time, before they are used, so a list may
+// have room for the worst case. The heap would clear memory that it has lent before.
 class Storage {
  public:
-  explicit Storage(std::size_t bytes) : size_((bytes + line - 1) / line * line), bytes_(zeros(size_), Free{size_}) {}
+  explicit Storage(std::size_t bytes)
+      : size_((bytes + line - 1) / line * line), bytes_(zeros(size_ + line), Release{size_ + line}) {}
   std::size_t size() const { return size_; }
-  std::byte* data() const { return bytes_.get(); }
+  // Starts at a cache line.
+  std::byte* data() const {
+    const auto address = reinterpret_cast<std::uintptr_t>(bytes_.get());
+    return static_cast<std::byte*>(bytes_.get()) + (line - address % line);
+  }
 
  private:
   static constexpr std::size_t line = 64;  // [bytes]
 #ifdef __SANITIZE_ADDRESS__
-  static constexpr std::size_t least_mapped = std::numeric_limits<std::size_t>::max();  // the heap's ends are watched
+  static constexpr std::size_t least_mapped = std::numeric_limits<std::size_t>::max();  // it watches the heap's blocks alone
 #else
-  static constexpr std::size_t least_mapped = 1 << 16;
+  static constexpr std::size_t least_mapped = 1 << 16;  // [bytes]
 #endif
 
-  static std::byte* zeros(std::size_t size) {
-    void* bytes = nullptr;
-    if (size >= least_mapped)
-      bytes = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    else if ((bytes = std::aligned_alloc(line, std::max(size, line))) != nullptr)
-      std::memset(bytes, 0, size);
-    if (bytes == nullptr || bytes == MAP_FAILED) throw std::bad_alloc();
-    return static_cast<std::byte*>(bytes);
+  static void* zeros(std::size_t bytes) {
+    void* found = bytes < least_mapped ? std::calloc(bytes, 1)
+                                       : mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (found == nullptr || found == MAP_FAILED) throw std::bad_alloc();
+    return found;
   }
-  struct Free {
-    std::size_t size;
-    void operator()(std::byte* bytes) const {
-      if (size >= least_mapped)
-        munmap(bytes, size);
-      else
+  struct Release {
+    std::size_t count;
+    void operator()(void* bytes) const {
+      if (count < least_mapped)
         std::free(bytes);
+      else
+        munmap(bytes, count);
     }
   };
 
   std::size_t size_;
-  std::unique_ptr<std::byte, Free> bytes_;
+  std::unique_ptr<void, Release> bytes_;
 };
 
 // Copies at once.
