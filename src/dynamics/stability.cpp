@@ -21,8 +21,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int grid_count = 32;  // intervals of the damping rate
 constexpr int largest_stage_count = 29;
 
-// Returns the end of the interval that starts at 0 in which is_stable(y) holds, or infinity if it is beyond `most`. Methods of
-// the sizes in use leave it below y = 20. Intervals of instability shorter than the stride may go unseen.
+// Returns the end of the interval that starts at 0 in which is_stable(y) holds, for methods of the sizes in use below y = 20. May
+// return infinity if that is beyond `most`. Intervals of instability shorter than the stride may go unseen.
 template <class Predicate>
 double first_exit(double stride, const Predicate& is_stable, double most = infinity) {
   double inside = 0;
