@@ -165,7 +165,8 @@ TEST_CASE("a wild mouse leaves soft and stiff bodies finite, with damping and wi
     for (const double stiffness : {0.05, 5.0, 500.0})
       for (const DampingLaw law : {DampingLaw::none, DampingLaw::adaptive}) {
         const bool is_gpu = test.device->info().kind == DeviceKind::gpu;
-        if (is_gpu && (stiffness == 500) != (law == DampingLaw::adaptive)) continue;  // one in software takes long
+        const bool is_end = law == DampingLaw::none ? stiffness == 0.05 : stiffness == 500;
+        if (is_gpu && !is_end) continue;  // one in software takes long
         CAPTURE(test.name, stiffness, name_of(law));
         const ModelAndState start = meeting(stiffness);
         check_bears(*test.device, start, half_of_bound("verlet", law, start.model), 1);
