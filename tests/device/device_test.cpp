@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "core/error.hpp"
 #include "device/gpu/gpu_device.hpp"
 #include "support/contract.hpp"
 #include "support/evolve.hpp"
+#include "support/has.hpp"
 
 namespace pliant {
 namespace {
@@ -52,6 +54,14 @@ TEST_CASE("arrays begin as zeros, wherever others have been", "[gl]") {
         array.upload(std::vector<std::uint32_t>(count, ~0u));
       }
     }
+}
+
+TEST_CASE("a kernel that was built for one caller is not another caller's", "[gl]") {
+  if (test::lacks_gl()) return;
+  const auto device = make_gpu_device(0);
+  const KernelId kernel = device->kernel("bound_bodies");
+  CHECK(device->kernel("bound_bodies") == kernel);
+  CHECK_THROWS_AS(device->round_kernel("bound_bodies"), Error);  // it has no rounds
 }
 
 TEST_CASE("a GPU with too little free memory is told so before the driver takes other memory") {

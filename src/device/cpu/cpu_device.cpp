@@ -53,8 +53,8 @@ constexpr bool has_own_thread(std::size_t share_count, std::uint32_t vertex_coun
   return share_count >= many_shares && vertex_count <= most_vertices_alone;
 }
 
-// Bytes that begin as zero. Many are pages of their own: they take no memory, and no time, before they are used, so a list may
-// have room for the worst case. The heap would clear memory that it has lent before.
+// Bytes that begin as zero. Large arrays are pages of their own: they take no memory, and no time, before they are used, so a
+// list may have room for the worst case. The heap would clear memory that it has lent before.
 class Storage {
  public:
   explicit Storage(std::size_t bytes)
